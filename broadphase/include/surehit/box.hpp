@@ -1,0 +1,34 @@
+#pragma once
+
+#include <limits>
+
+#include "surehit/triangle_mesh_view.hpp"
+
+namespace surehit {
+
+/// An axis-parallel box, both ends included. The one made by default holds nothing.
+template <typename Scalar>
+struct Box {
+  Vector3<Scalar> low = Vector3<Scalar>::Constant(std::numeric_limits<Scalar>::infinity());
+  Vector3<Scalar> high = Vector3<Scalar>::Constant(-std::numeric_limits<Scalar>::infinity());
+
+  [[nodiscard]] bool is_empty() const { return !(low.array() <= high.array()).all(); }
+
+  void extend(const Vector3<Scalar>& point) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+
+  [[nodiscard]] bool contains(const Vector3<Scalar>& point) const {
+    return (low.array() <= point.array()).all() && (point.array() <= high.array()).all();
+  }
+};
+
+/// The least box around all triangles of a valid mesh; vertices that no triangle uses do not count.
+template <typename Scalar>
+[[nodiscard]] Box<Scalar> box_of(const TriangleMeshView<Scalar>& mesh);
+
+using Boxf = Box<float>;
+using Boxd = Box<double>;
+
+}  // namespace surehit

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "surehit/box.hpp"
+#include "surehit/grid.hpp"
+#include "surehit/hit.hpp"
+#include "surehit/hit_filter.hpp"
+#include "surehit/path.hpp"
+#include "surehit/query_options.hpp"
+#include "surehit/query_statistics.hpp"
+#include "surehit/triangle_mesh_view.hpp"
+
+namespace surehit {
+
+/// How a collider is built. No setting changes an answer.
+struct BuildOptions {
+  GridOptions grid;
+  /// One 32-bit mask a triangle, for `QueryOptions::mask`; none at all means all bits set for every triangle.
+  std::span<const std::uint32_t> masks;
+};
+
+/// A triangle mesh made ready to be asked where paths first meet it.
+///
+/// Answers are those of exact real arithmetic on the numbers given, for every finite input; t, u and v are rounded
+/// once. They depend on the input alone: not on the grid, the instruction set, the floating-point mode of the caller,
+/// the batch or the thread. A path with a NaN or an infinity misses everything.
+///
+/// Queries are const, noexcept, allocate nothing (`all_hits` aside), use under 16 KiB of stack and may run in many
+/// threads at once. No query may run during a rebuild. A collider copies what it needs of the mesh; copying a collider
+/// copies all of it.
+///
+/// What is not promised: that `point(path, hit)` lies on the triangle (t is rounded), and that a collider is the same
+/// bytes from one version to the next.
+template <typename Scalar>
+class Collider {
+ public:
+  /// A mesh of no triangles: every query misses.
+  Collider() = default;
+
+#if defined(__cpp_exceptions)
+  /// Throws InvalidMesh, which names the first offending element, and std::bad_alloc.
+  explicit Collider(const TriangleMeshView<Scalar>& mesh, const BuildOptions& options = {}) {
+    if (auto invalid = try_build(mesh, options)) throw *std::move(invalid);
+  }
+#endif
+
+  /// Replaces the mesh, or says why it cannot and keeps the state from before. Time and memory are linear in the
+  /// triangles.
+  [[nodiscard]] std::optional<InvalidMesh> try_build(const TriangleMeshView<Scalar>& mesh,
+                                                     const BuildOptions& options = {});
+
+  /// The hit of least t; among equal exact t, of the least triangle. `statistics`, where given, are added to.
+  [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Path<Scalar>& path, const QueryOptions<Scalar>& options = {},
+                                                     QueryStatistics* statistics = nullptr) const noexcept;
+  /// The same among the hits that the filter accepts.
+  [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Path<Scalar>& path, HitFilter<Scalar> filter,
+                                                     const QueryOptions<Scalar>& options = {},
+                                                     QueryStatistics* statistics = nullptr) const noexcept;
+
+  /// Whether the path meets any triangle at all: a line of sight is blocked. Cheaper than `first_hit`.
+  [[nodiscard]] bool any_hit(const Path<Scalar>& path, const QueryOptions<Scalar>& options = {},
+                             QueryStatistics* statistics = nullptr) const noexcept;
+  [[nodiscard]] bool any_hit(const Path<Scalar>& path, HitFilter<Scalar> filter,
+                             const QueryOptions<Scalar>& options = {},
+                             QueryStatistics* statistics = nullptr) const noexcept;
+
+  /// Every triangle that the path meets, once, in the order of `first_hit`. Clears `hits` first and keeps its capacity;
+  /// may throw std::bad_alloc.
+  void all_hits(const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits, const QueryOptions<Scalar>& options = {},
+                QueryStatistics* statistics = nullptr) const;
+  void all_hits(const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits, HitFilter<Scalar> filter,
+                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const;
+
+  /// `hits[i]` becomes the first hit of path i; a miss has `triangle == no_triangle`. Both spans have the same length;
+  /// where they do not, the paths and places beyond the shorter one are left alone. The same bits as the single calls
+  /// give.
+  void first_hits(std::span<const Segment<Scalar>> segments, std::span<Hit<Scalar>> hits,
+                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+  void first_hits(std::span<const Ray<Scalar>> rays, std::span<Hit<Scalar>> hits,
+                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+  void first_hits(std::span<const Line<Scalar>> lines, std::span<Hit<Scalar>> hits,
+                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+
+  /// `blocked[i]` becomes 1 if path i meets anything, else 0. Lengths as in `first_hits`.
+  void any_hits(std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> blocked,
+                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+  void any_hits(std::span<const Ray<Scalar>> rays, std::span<std::uint8_t> blocked,
+                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+  void any_hits(std::span<const Line<Scalar>> lines, std::span<std::uint8_t> blocked,
+                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+
+  /// Where a point that moves along the segment may stop so that it has touched nothing: a step that ends there never
+  /// tunnels.
+  ///
+  /// `hit` is the segment's first hit under the same options. Tried in turn are round(start + s (end - start)) for
+  /// s = t - 2^k ulp(t), k = 0, 1, … while s > 0, with ulp(t) the gap from t to the next greater Scalar; the answer is
+  /// the first of them that the segment from the start reaches without touching anything, by an exact query under the
+  /// same options, else the start itself. `min_t` and `max_t` keep their places on the whole segment: they are rescaled
+  /// to the shorter one, min_t downwards, and what lies before s is never cut away.
+  [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const Hit<Scalar>& hit,
+                                                const QueryOptions<Scalar>& options = {}) const noexcept;
+  [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const Hit<Scalar>& hit,
+                                                HitFilter<Scalar> filter,
+                                                const QueryOptions<Scalar>& options = {}) const noexcept;
+
+  [[nodiscard]] std::size_t triangle_count() const noexcept { return triangles_.size(); }
+  /// The corners as they were given.
+  [[nodiscard]] const Triangle<Scalar>& triangle(std::uint32_t id) const noexcept { return triangles_[id]; }
+  [[nodiscard]] const Box<Scalar>& box() const noexcept { return box_; }
+  [[nodiscard]] const Grid& grid() const noexcept { return grid_; }
+
+ private:
+  using Filter = const HitFilter<Scalar>*;  ///< none if null
+
+  std::optional<Hit<Scalar>> find_first(const Path<Scalar>&, Filter, const QueryOptions<Scalar>&,
+                                        QueryStatistics*) const noexcept;
+  bool find_any(const Path<Scalar>&, Filter, const QueryOptions<Scalar>&, QueryStatistics*) const noexcept;
+  void find_all(const Path<Scalar>&, std::vector<Hit<Scalar>>&, Filter, const QueryOptions<Scalar>&,
+                QueryStatistics*) const;
+  Vector3<Scalar> find_free_point(const Segment<Scalar>&, const Hit<Scalar>&, Filter,
+                                  const QueryOptions<Scalar>&) const noexcept;
+  template <typename AnyPath>
+  void find_each_first(std::span<const AnyPath>, std::span<Hit<Scalar>>, const QueryOptions<Scalar>&,
+                       QueryStatistics*) const noexcept;
+  template <typename AnyPath>
+  void find_each_any(std::span<const AnyPath>, std::span<std::uint8_t>, const QueryOptions<Scalar>&,
+                     QueryStatistics*) const noexcept;
+
+  std::vector<Triangle<Scalar>> triangles_;
+  std::vector<std::uint32_t> masks_;  ///< one a triangle, or none if all bits are set for all
+  Box<Scalar> box_;
+  Grid grid_;
+};
+
+using Colliderf = Collider<float>;
+using Colliderd = Collider<double>;
+
+}  // namespace surehit

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "wide_int.hpp"
+
+namespace surehit::detail {
+
+/// Bounds, in bits, of every term of the exact stage. Coordinates are counted in the least place that any of them uses,
+/// so they are integers.
+template <typename Scalar>
+struct Bits {
+  static constexpr int coordinate = std::numeric_limits<Scalar>::max_exponent - Decomposed<Scalar>::least_exponent;
+  static constexpr int difference = coordinate + 1;   // D, E1, E2, S
+  static constexpr int cross = 2 * difference + 1;    // P, Q, the normal: two products
+  static constexpr int det = difference + cross + 2;  // det, T, U, V: three products
+  static constexpr int weight = det + 1;              // W = det - U - V: |W| is itself such a determinant
+  static constexpr int limit = 2 * coordinate;        // a limit on t: its own places, shifted by those of path and mesh
+  static constexpr int parameter = weight;            // numerator and denominator of any t
+};
+
+template <int B>
+using WideVector = std::array<WideInt<B>, 3>;
+
+template <int Out, int A, int B>
+void set_cross(WideVector<Out>& out, const WideVector<A>& x, const WideVector<B>& y) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    out[i].set_product(x[j], y[k]);
+    out[i].add(x[k] * y[j], true);
+  }
+}
+
+template <int Out, int A, int B>
+void set_dot(WideInt<Out>& out, const WideVector<A>& x, const WideVector<B>& y) {
+  out.set_product(x[0], y[0]);
+  out.add(x[1] * y[1]);
+  out.add(x[2] * y[2]);
+}
+
+template <int B>
+bool is_zero(const WideVector<B>& x) {
+  return x[0].is_zero() && x[1].is_zero() && x[2].is_zero();
+}
+
+/// A component that is not zero, of a vector that is not.
+template <int B>
+std::size_t nonzero_axis(const WideVector<B>& x) {
+  return !x[0].is_zero() ? 0 : !x[1].is_zero() ? 1 : 2;
+}
+
+/// num / den with den > 0.
+template <int B>
+struct Ratio {
+  WideInt<B> num;
+  WideInt<B> den;
+
+  template <int N, int D>
+  void set(const WideInt<N>& numerator, const WideInt<D>& denominator) {
+    num = numerator;
+    den = denominator;
+    if (den.sign() < 0) {
+      num.negate();
+      den.negate();
+    }
+  }
+};
+
+/// The sign of x_num / x_den - y_num / y_den; both denominators are positive.
+template <int XN, int XD, int YN, int YD>
+[[gnu::noinline]] int compare(const WideInt<XN>& x_num, const WideInt<XD>& x_den, const WideInt<YN>& y_num,
+                              const WideInt<YD>& y_den) {
+  if (x_num.sign() != y_num.sign()) return x_num.sign() < y_num.sign() ? -1 : 1;
+  WideInt<std::max(XN + YD, YN + XD) + 1> difference = x_num * y_den;
+  difference.add(y_num * x_den, true);
+  return difference.sign();
+}
+
+/// The sign of x - y.
+template <int A, int B>
+int compare(const Ratio<A>& x, const Ratio<B>& y) {
+  return compare(x.num, x.den, y.num, y.den);
+}
+
+}  // namespace surehit::detail
