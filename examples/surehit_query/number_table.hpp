@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace surehit::example {
+
+/// Rows of as many numbers each.
+template <typename Scalar>
+struct NumberTable {
+  std::size_t columns = 1;
+  std::vector<Scalar> numbers;
+
+  [[nodiscard]] std::size_t rows() const { return numbers.size() / columns; }
+  [[nodiscard]] const Scalar* row(std::size_t index) const { return numbers.data() + index * columns; }
+};
+
+/// Reads a row from each line of a file, or of standard input if it is `-`. White space, or a comma with or without it,
+/// stands between numbers; lines that begin with # and blank lines are skipped. Throws InputError, which names the file
+/// and the line.
+template <typename Scalar>
+[[nodiscard]] NumberTable<Scalar> read_number_table(const std::string& path, std::size_t columns);
+
+}  // namespace surehit::example

@@ -1,0 +1,54 @@
+#include "surehit_query/output_file.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace surehit::example {
+
+namespace fs = std::filesystem;
+
+OutputFile::OutputFile(const std::string& path) : path_(path) {
+  if (path == "-") {
+    file_ = stdout;
+    return;
+  }
+  if (!fs::exists(path) || fs::is_regular_file(path)) {
+    // Through a symbolic link the file it points to is replaced, not the link.
+    path_ = fs::weakly_canonical(path).string();
+    written_path_ = path_ + "." + std::to_string(getpid()) + ".partial";
+  }
+  file_ = std::fopen(written_path_.empty() ? path_.c_str() : written_path_.c_str(), "wb");
+  if (file_ == nullptr) throw_errno();
+}
+
+OutputFile::~OutputFile() {
+  if (file_ != nullptr && file_ != stdout) std::fclose(file_);
+  if (!written_path_.empty()) std::remove(written_path_.c_str());
+}
+
+bool OutputFile::is_terminal() const { return isatty(fileno(file_)) != 0; }
+
+void OutputFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) throw_errno();
+}
+
+void OutputFile::finish() {
+  if (std::fflush(file_) != 0) throw_errno();
+  if (file_ == stdout) return;
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) throw_errno();
+  if (written_path_.empty()) return;
+  fs::rename(written_path_, path_);
+  written_path_.clear();
+}
+
+void OutputFile::throw_errno() const {
+  const int reason = errno;
+  throw std::system_error(reason, std::generic_category(),
+                          (path_ == "-" ? "standard output" : path_) + ": cannot be written");
+}
+
+}  // namespace surehit::example

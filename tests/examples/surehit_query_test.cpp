@@ -1,0 +1,289 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "support/random.hpp"
+#include "temporary_folder.hpp"
+
+namespace surehit::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs the program as it was built, in a folder of the test's own.
+class SurehitQuery : public testing::Test {
+ protected:
+  struct Outcome {
+    int status;
+    std::string output;
+    std::string error;
+  };
+
+  /// The arguments are for the shell, in the test's folder, and so is what it does before.
+  [[nodiscard]] Outcome run(const std::string& arguments, const std::string& before = "true") const {
+    const std::string command =
+        "cd '" + folder_.at("") + "' && " + before + " && '" SUREHIT_QUERY_PROGRAM "' " + arguments;
+    const std::string streams = " >'" + streams_.at("output") + "' 2>'" + streams_.at("error") + "'";
+    const int status = std::system(("{ " + command + "\n}" + streams).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, streams_.read("output"), streams_.read("error")};
+  }
+
+  void expect_output(const std::string& arguments, const std::string& output) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.output, output) << arguments;
+    EXPECT_EQ(outcome.error, "") << arguments;
+    EXPECT_EQ(outcome.status, 0) << arguments;
+  }
+
+  void expect_bad_input(const std::string& arguments, const std::string& error) const {
+    const std::size_t files = folder_.file_count();
+    const Outcome outcome = run(arguments + " -o answers.csv");
+    EXPECT_EQ(outcome.error, "surehit-query: " + error + "\n") << arguments;
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_EQ(folder_.file_count(), files) << arguments << " left a file behind";
+  }
+
+  void write(const std::string& name, const std::string& text) const { static_cast<void>(folder_.write(name, text)); }
+
+  /// Two unit squares, at z = 0 and z = 1, of two triangles each.
+  void write_squares() const {
+    write("squares.obj",
+          "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\nf 5 6 7 8\n");
+  }
+
+  static std::string random_paths(std::size_t count) {
+    Random random(5);
+    std::string text;
+    for (std::size_t i = 0; i < 6 * count; ++i) {
+      text += std::to_string(random.between(-8, 24)) + (random.one_in(2) ? "e-1" : "p-4");
+      if (text.ends_with("p-4")) {
+        const std::size_t begin = text.find_last_of(" \n") + 1;
+        text.insert(begin + (text[begin] == '-' ? 1 : 0), "0x");
+      }
+      text += i % 6 == 5 ? '\n' : ' ';
+    }
+    return text;
+  }
+
+  TemporaryFolder folder_;
+  TemporaryFolder streams_;
+};
+
+const std::string downwards = "0 0 1  0 0 -1  ";
+const std::string triangle = "-1 -1 0  1 -1 0  0 1 0";
+
+TEST_F(SurehitQuery, AnswersPairs) {
+  write("pairs", downwards + triangle + "\n5 5 1  5 5 -1  " + triangle + "\n0 0 -1  0 0 3  " + triangle +
+                     "\n0 -1 0  0 0.5 0  " + triangle + "\n");
+  expect_output("pair pairs", "hit,t,u,v,side\n1,0.5,0.25,0.5,front\n0,,,,\n1,0.25,0.25,0.5,back\n1,0,0.5,0,edge_on\n");
+}
+
+TEST_F(SurehitQuery, SkipsCommentsAndBlankLines) {
+  write("pairs", "# p q a b c\n\n  # more\r\n" + downwards + triangle + "\r\n \n");
+  expect_output("pair pairs", "hit,t,u,v,side\n1,0.5,0.25,0.5,front\n");
+}
+
+TEST_F(SurehitQuery, AnswersNothingWithAHeader) {
+  write_squares();
+  expect_output("pair /dev/null", "hit,t,u,v,side\n");
+  expect_output("first squares.obj /dev/null", "triangle,t,u,v,side\n");
+  expect_output("any squares.obj /dev/null", "hit\n");
+  expect_output("all squares.obj /dev/null", "path,triangle,t,u,v,side\n");
+}
+
+TEST_F(SurehitQuery, TakesWhiteSpaceAndCommasBetweenNumbers) {
+  const std::string expected = "hit,t,u,v,side\n1,0.5,0.25,0.5,front\n";
+  for (const char* numbers : {"0,0,1,0,0,-1,-1,-1,0,1,-1,0,0,1,0", "0\\t0 1 , 0,0 ,-1, -1 -1 0 1 -1 0 0 1 0",
+                              " +0x0p0 -0 0x1p+0 0 0 -0X.8P1 -1 -1 0 1e0 -1.0 0 0 10e-1 .0 "}) {
+    expect_output("pair - <<END\n$(printf '" + std::string(numbers) + "')\nEND\n", expected);
+  }
+}
+
+TEST_F(SurehitQuery, TakesSegmentsRaysAndLines) {
+  const std::string header = "hit,t,u,v,side\n";
+  write("short", "0 0 3  0 0 2  " + triangle + "\n");
+  expect_output("pair short --path segment", header + "0,,,,\n");
+  write("direction", "0 0 3  0 0 -2  " + triangle + "\n0 0 -3  0 0 -2  " + triangle + "\n");
+  expect_output("pair direction --path ray", header + "1,1.5,0.25,0.5,front\n0,,,,\n");
+  expect_output("pair direction --path line", header + "1,1.5,0.25,0.5,front\n1,-1.5,0.25,0.5,front\n");
+}
+
+TEST_F(SurehitQuery, CullsSides) {
+  write("pairs", downwards + triangle + "\n0 0 -1  0 0 1  " + triangle + "\n0 -1 0  0 1 0  " + triangle + "\n");
+  const std::string front = "1,0.5,0.25,0.5,front\n";
+  const std::string back = "1,0.5,0.25,0.5,back\n";
+  const std::string miss = "0,,,,\n";
+  expect_output("pair pairs --cull none", "hit,t,u,v,side\n" + front + back + "1,0,0.5,0,edge_on\n");
+  expect_output("pair pairs --cull back", "hit,t,u,v,side\n" + front + miss + miss);
+  expect_output("pair pairs --cull front", "hit,t,u,v,side\n" + miss + back + miss);
+}
+
+TEST_F(SurehitQuery, RoundsToTheScalarAskedForAndBackToTheSameBits) {
+  write("third", "0 0 1  0 0 -2  " + triangle + "\n");
+  expect_output("pair third", "hit,t,u,v,side\n1,0.33333334,0.25,0.5,front\n");
+  expect_output("pair third --scalar float", "hit,t,u,v,side\n1,0.33333334,0.25,0.5,front\n");
+  expect_output("pair third --scalar double", "hit,t,u,v,side\n1,0.3333333333333333,0.25,0.5,front\n");
+}
+
+TEST_F(SurehitQuery, PrintsAParameterBeyondAllNumbersAsInfinite) {
+  write("slow", "0 0 0  0 0 1e-45  -1 -1 1e38  1 -1 1e38  0 1 1e38\n");
+  expect_output("pair slow --path ray", "hit,t,u,v,side\n1,inf,0.25,0.5,back\n");
+}
+
+TEST_F(SurehitQuery, AnswersWhereAPathFirstMeetsAMesh) {
+  write_squares();
+  write("paths", "0.5 0.25 -1  0.5 0.25 3\n0.5 0.25 3  0.5 0.25 -1\n9 9 9  8 8 8\n0 0.5 0.5  1 0.5 0.5\n");
+  expect_output("first squares.obj paths",
+                "triangle,t,u,v,side\n0,0.25,0.25,0.25,back\n2,0.5,0.25,0.25,front\n-1,,,,\n-1,,,,\n");
+}
+
+TEST_F(SurehitQuery, AnswersWhetherAPathMeetsAMesh) {
+  write_squares();
+  write("paths", "0.5 0.25 -1  0.5 0.25 3\n9 9 9  8 8 8\n0.5 0.5 1  0.5 0.5 2\n");
+  expect_output("any squares.obj paths", "hit\n1\n0\n1\n");
+}
+
+TEST_F(SurehitQuery, AnswersWhereAPathMeetsAMeshAtAll) {
+  write_squares();
+  write("paths", "9 9 9  8 8 8\n0.5 0.25 3  0.5 0.25 -1\n0.5 0.5 -1  0.5 0.5 0.5\n");
+  expect_output("all squares.obj paths",
+                "path,triangle,t,u,v,side\n1,2,0.5,0.25,0.25,front\n1,0,0.75,0.25,0.25,front\n"
+                "2,0,0.6666667,0,0.5,back\n2,1,0.6666667,0.5,0,back\n");
+}
+
+TEST_F(SurehitQuery, ReadsStandardInput) {
+  write_squares();
+  expect_output("any squares.obj - <<END\n0 0 -1 0 0 1\nEND\n", "hit\n1\n");
+}
+
+TEST_F(SurehitQuery, WritesTheSameForAnyNumberOfThreads) {
+  write_squares();
+  write("paths", random_paths(20000));
+  for (const std::string question : {"first", "any", "all"}) {
+    const std::string arguments = question + " squares.obj paths --path line --threads ";
+    const Outcome one = run(arguments + "1");
+    ASSERT_EQ(one.status, 0) << one.error;
+    EXPECT_GT(std::count(one.output.begin(), one.output.end(), '\n'), 1000);
+    for (const char* threads : {"2", "3", "16"}) EXPECT_EQ(run(arguments + threads).output, one.output) << question;
+  }
+}
+
+TEST_F(SurehitQuery, WritesWhatStandardOutputGetsToAFile) {
+  write_squares();
+  write("paths", random_paths(100));
+  const Outcome outcome = run("first squares.obj paths");
+  expect_output("first squares.obj paths -o answers.csv", "");
+  EXPECT_EQ(folder_.read("answers.csv"), outcome.output);
+  EXPECT_EQ(folder_.file_count(), 3u);
+}
+
+TEST_F(SurehitQuery, ReplacesAnOldOutputFileOnlyWhenDone) {
+  write("pairs", downwards + triangle + "\n");
+  write("bad", downwards + triangle + "\n1 2\n");
+  write("answers.csv", "old");
+  EXPECT_EQ(run("pair bad -o answers.csv").status, 2);
+  EXPECT_EQ(folder_.read("answers.csv"), "old");
+  expect_output("pair pairs -o answers.csv", "");
+  EXPECT_EQ(folder_.read("answers.csv"), "hit,t,u,v,side\n1,0.5,0.25,0.5,front\n");
+  EXPECT_EQ(folder_.file_count(), 3u);
+}
+
+TEST_F(SurehitQuery, WritesThroughASymbolicLink) {
+  write("pairs", downwards + triangle + "\n");
+  write("target.csv", "old");
+  fs::create_symlink("target.csv", folder_.at("link.csv"));
+  expect_output("pair pairs -o link.csv", "");
+  EXPECT_TRUE(fs::is_symlink(folder_.at("link.csv")));
+  EXPECT_EQ(folder_.read("target.csv"), "hit,t,u,v,side\n1,0.5,0.25,0.5,front\n");
+}
+
+TEST_F(SurehitQuery, NamesTheLineOfBadPaths) {
+  write_squares();
+  const std::string good = "0 0 0 1 1 1\n";
+  const std::pair<std::string, std::string> lines[] = {
+      {"1 2 3 4 5\n", "expected 6 numbers, not 5"},
+      {"1 2 3 4 5 6 7\n", "expected 6 numbers, not 7"},
+      {"1 2 3 4 5 six\n", "'six' is not a number"},
+      {"1 2 3 4 5 nan\n", "'nan' is not a number"},
+      {"1 2 3 4 5 -inf\n", "'-inf' is not a number"},
+      {"1 2 3 4 5 1e39\n", "'1e39' is beyond the largest float"},
+      {"1 2 3 4 5 6 # no\n", "expected 6 numbers, not 8"},
+      {"1,2,3,4,5,,6\n", "a number is missing beside a comma"},
+      {"1,2,3,4,5,6,\n", "a number is missing beside a comma"},
+      {",1 2 3 4 5 6\n", "a number is missing beside a comma"},
+  };
+  for (const auto& [line, error] : lines) {
+    write("paths", "# paths\n" + good + line + good);
+    for (const std::string question : {"first", "any", "all"}) {
+      expect_bad_input(question + " squares.obj paths", "paths: line 3: " + error);
+    }
+  }
+  write("pairs", downwards + triangle + "\n" + downwards + "\n");
+  expect_bad_input("pair pairs", "pairs: line 2: expected 15 numbers, not 6");
+  expect_bad_input("pair - <pairs", "standard input: line 2: expected 15 numbers, not 6");
+  expect_bad_input("pair missing", "missing: cannot be read: No such file or directory");
+}
+
+TEST_F(SurehitQuery, NamesTheLineOfABadMesh) {
+  write("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n");
+  expect_bad_input("first bad.obj /dev/null", "bad.obj: line 3: vertex index 3 is out of range, there are 2 vertices");
+  expect_bad_input("any missing.ply /dev/null", "missing.ply: cannot be read: No such file or directory");
+  expect_bad_input("all bad.mesh /dev/null", "bad.mesh: a mesh file's name ends in .obj, .ply, .stl or .off");
+}
+
+TEST_F(SurehitQuery, RefusesWrongUsageInOneLine) {
+  write("pairs", downwards + triangle + "\n");
+  for (const char* arguments :
+       {"", "pair", "first", "first squares.obj", "guess pairs", "pair pairs pairs", "pair pairs --scalar half",
+        "pair pairs --path curve", "pair pairs --cull both", "pair pairs --threads 0", "pair pairs --threads -1",
+        "pair pairs --threads many", "pair pairs --wrong", "pair pairs -o"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_EQ(outcome.output, "") << arguments;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  }
+}
+
+TEST_F(SurehitQuery, HelpsWithEveryCommand) {
+  for (const char* arguments : {"--help", "pair --help", "first --help", "any --help", "all --help"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 0) << arguments;
+    EXPECT_NE(outcome.output.find("Usage: surehit-query"), std::string::npos) << arguments;
+    EXPECT_EQ(outcome.error, "") << arguments;
+  }
+}
+
+TEST_F(SurehitQuery, SaysThatItsOutputCannotBeWritten) {
+  write("pairs", downwards + triangle + "\n");
+  if (fs::exists("/dev/full")) {
+    for (const char* arguments : {"pair pairs -o /dev/full", "pair pairs >/dev/full"}) {
+      const Outcome outcome = run(arguments);
+      EXPECT_EQ(outcome.status, 1) << arguments;
+      EXPECT_NE(outcome.error.find("cannot be written: No space left on device"), std::string::npos) << outcome.error;
+    }
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+  }
+  const Outcome outcome = run("pair pairs -o missing/answers.csv");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.error.find("missing/answers.csv: cannot be written: No such file or directory"), std::string::npos)
+      << outcome.error;
+}
+
+TEST_F(SurehitQuery, LeavesNoPartOfAFileWhenTheDiskIsFull) {
+  write_squares();
+  write("paths", random_paths(20000));
+  const std::size_t files = folder_.file_count();
+  // A limit on the size of files stands in for a full disk.
+  const Outcome outcome = run("first squares.obj paths -o answers.csv", "trap '' XFSZ && ulimit -f 8");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.error.find("answers.csv: cannot be written: File too large"), std::string::npos) << outcome.error;
+  EXPECT_EQ(folder_.file_count(), files);
+}
+
+}  // namespace
+}  // namespace surehit::test
