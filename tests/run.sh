@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds surehit and runs its tests. The last line says how many passed and how many failed.
+set -uo pipefail
+
+usage() {
+  cat <<USAGE
+usage: $0 [--quick]
+
+Without options, everything: all tests in Release with GCC, a tenth of the cases under AddressSanitizer and
+UndefinedBehaviorSanitizer, and a hundredth in Release with Clang.
+
+  --quick   Release with GCC alone, a tenth of the cases
+USAGE
+}
+
+quick=false
+case "${1:-}" in
+  "") ;;
+  --quick) quick=true ;;
+  -h | --help) usage && exit 0 ;;
+  *) usage >&2 && exit 2 ;;
+esac
+
+cd "$(dirname "$(readlink -f "$0")")/.." || exit 1
+
+passed=0
+failed=0
+skipped=0
+failures=()
+
+record_failure() {
+  failed=$((failed + $1))
+  failures+=("$2")
+}
+
+stage() { printf '\n== %s  (%d min %d s since the start)\n' "$1" $((SECONDS / 60)) $((SECONDS % 60)); }
+
+finish() {
+  echo
+  for failure in "${failures[@]}"; do echo "failed: $failure"; done
+  if [[ $skipped -gt 0 ]]; then echo "$skipped skipped: those that ctest lists above as not run"; fi
+  echo "$passed passed, $failed failed"
+  [[ $failed -eq 0 && $passed -gt 0 ]]
+  exit
+}
+
+# A step that is no test counts as one failed test if it fails.
+step() {
+  "$@" && return
+  record_failure 1 "$*"
+  return 1
+}
+
+build() {
+  step cmake --preset "$1" && step cmake --build --preset "$1"
+}
+
+run_tests() {
+  local preset=$1 output status counts failed_here total skipped_here
+  shift
+  output=$(mktemp)
+  ctest --preset "$preset" --parallel "$(nproc)" "$@" 2>&1 | tee "$output"
+  status=${PIPESTATUS[0]}
+  counts=$(sed -nE 's/^[0-9]+% tests passed, ([0-9]+) tests? failed out of ([0-9]+)$/\1 \2/p' "$output")
+  skipped_here=$(grep -c '\*\*\*Skipped' "$output")
+  rm -f "$output"
+
+  read -r failed_here total <<<"${counts:-0 0}"
+  skipped=$((skipped + skipped_here))
+  passed=$((passed + total - failed_here - skipped_here))
+  if [[ $failed_here -gt 0 ]]; then
+    record_failure "$failed_here" "$failed_here tests of $preset"
+  elif [[ $status -ne 0 || $total -eq 0 ]]; then
+    record_failure 1 "ctest --preset $preset"
+  fi
+}
+
+stage "Packages"
+step .ci/install_packages.sh library examples tests || finish
+
+if $quick; then export SUREHIT_TEST_PERCENT=10; fi
+stage "GCC, Release: building"
+CXX=g++ build release || finish
+stage "GCC, Release: testing"
+run_tests release
+if $quick; then finish; fi
+
+stage "GCC, AddressSanitizer and UndefinedBehaviorSanitizer: building"
+if CXX=g++ build asan-ubsan; then
+  stage "GCC, AddressSanitizer and UndefinedBehaviorSanitizer: testing a tenth of the cases"
+  run_tests asan-ubsan
+fi
+
+stage "Clang, Release: building"
+if build clang; then
+  stage "Clang, Release: testing a hundredth of the cases"
+  SUREHIT_TEST_PERCENT=1 run_tests clang --label-exclude package
+fi
+
+finish
