@@ -99,8 +99,8 @@ class Collider {
   /// `hit` is the segment's first hit under the same options. Tried in turn are round(start + s (end - start)) for
   /// s = t - 2^k ulp(t), k = 0, 1, … while s > 0, with ulp(t) the gap from t to the next greater Scalar; the answer is
   /// the first of them that the segment from the start reaches without touching anything, by an exact query under the
-  /// same options, else the start itself. `min_t` and `max_t` keep their places on the whole segment: they are rescaled
-  /// to the shorter one, min_t downwards, and what lies before s is never cut away.
+  /// same options, else the start itself. The limits keep their places on the whole segment: a positive min_t becomes
+  /// the Scalar next below fl(min_t / s) on the shorter one, and max_t, which does not lie before t, admits all of it.
   [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const Hit<Scalar>& hit,
                                                 const QueryOptions<Scalar>& options = {}) const noexcept;
   [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const Hit<Scalar>& hit,

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "surehit/path.hpp"
+#include "surehit/query_options.hpp"
+#include "surehit/triangle.hpp"
+
+namespace surehit::test {
+
+/// Whether a finite path meets a finite triangle under the options: the verdict of CGAL's kernel of exact predicates
+/// and exact constructions.
+template <typename Scalar>
+[[nodiscard]] bool cgal_meets(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                              const QueryOptions<Scalar>& options = {});
+
+}  // namespace surehit::test

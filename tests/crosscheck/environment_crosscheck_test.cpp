@@ -1,0 +1,152 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cfenv>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pair_cases.hpp"
+#include "support/floating_point_mode.hpp"
+#include "support/pair_text.hpp"
+#include "support/same_bits.hpp"
+#include "support/small_meshes.hpp"
+#include "surehit/collider.hpp"
+#include "surehit/intersect.hpp"
+
+namespace surehit::test {
+namespace {
+
+constexpr std::array modes = {
+    FloatingPointMode{"flush_to_zero", FE_TONEAREST, true},
+    FloatingPointMode{"upward", FE_UPWARD, false},
+    FloatingPointMode{"toward_zero_and_flush", FE_TOWARDZERO, true},
+};
+
+/// Whether this machine has the mode at all.
+bool is_in_force(const FloatingPointMode& mode) {
+  volatile double denormal = std::numeric_limits<double>::min();
+  const FloatingPointModeScope scope(mode);
+  denormal = denormal / 2;
+  return std::fegetround() == mode.rounding && (denormal == 0) == mode.flushes_denormals;
+}
+
+class FloatingPointModes : public testing::TestWithParam<FloatingPointMode> {
+ protected:
+  void SetUp() override {
+    if (!is_in_force(GetParam())) GTEST_SKIP() << "this machine has no mode " << GetParam().name;
+  }
+};
+
+/// What a call answers in a mode, and whether it left the mode as it found it.
+template <typename Call>
+auto answer_in(const FloatingPointMode& mode, bool& mode_is_kept, const Call& call) {
+  const FloatingPointModeScope scope(mode);
+  const std::uint64_t before = control_word();
+  auto answer = call();
+  mode_is_kept = control_word() == before;
+  return answer;
+}
+
+template <typename Scalar>
+bool same_answer(const std::optional<Hit<Scalar>>& left, const std::optional<Hit<Scalar>>& right) {
+  return left.has_value() == right.has_value() && (!left || same_bits(*left, *right));
+}
+
+template <typename Scalar>
+bool same_answer(std::span<const Hit<Scalar>> left, std::span<const Hit<Scalar>> right) {
+  return std::equal(left.begin(), left.end(), right.begin(), right.end(),
+                    [](const Hit<Scalar>& a, const Hit<Scalar>& b) { return same_bits(a, b); });
+}
+
+template <typename Scalar>
+void expect_same_in(const FloatingPointMode& mode, const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                    const QueryOptions<Scalar>& options) {
+  const auto call = [&] { return intersect(path, triangle, options); };
+  bool mode_is_kept = false;
+  const std::optional<Hit<Scalar>> expected = call();
+  const std::optional<Hit<Scalar>> answer = answer_in(mode, mode_is_kept, call);
+  EXPECT_TRUE(mode_is_kept) << hex_text(path) << '\n' << hex_text(triangle) << '\n' << hex_text(options);
+  EXPECT_TRUE(same_answer(answer, expected))
+      << hex_text(path) << '\n'
+      << hex_text(triangle) << '\n'
+      << hex_text(options) << "\nexpected: " << (expected ? hex_text(*expected) : "a miss")
+      << "\nanswered: " << (answer ? hex_text(*answer) : "a miss");
+}
+
+template <typename Scalar>
+void check_pairs(const FloatingPointMode& mode) {
+  for (const PairFamily family : all_pair_families) {
+    SCOPED_TRACE(name_of(family));
+    const auto visit = [&](const auto&... pair) { expect_same_in<Scalar>(mode, pair...); };
+    visit_segments<Scalar>(family, visit);
+    visit_rays_and_lines<Scalar>(family, visit);
+    visit_options<Scalar>(family, visit);
+  }
+}
+
+TEST_P(FloatingPointModes, do_not_change_what_float_pairs_answer) { check_pairs<float>(GetParam()); }
+TEST_P(FloatingPointModes, do_not_change_what_double_pairs_answer) { check_pairs<double>(GetParam()); }
+
+/// All that a collider answers about the paths of its mesh.
+template <typename Scalar>
+struct ColliderAnswers {
+  std::vector<Hit<Scalar>> hits;
+  std::vector<Vector3<Scalar>> free_points;
+  std::vector<std::uint8_t> blocked;
+};
+
+template <typename Scalar>
+ColliderAnswers<Scalar> ask(const SmallMesh<Scalar>& mesh) {
+  ColliderAnswers<Scalar> answers;
+  const Collider<Scalar> collider(mesh.view());
+  std::vector<Segment<Scalar>> segments;
+  for (const Path<Scalar>& path : mesh.paths) {
+    const auto first = collider.first_hit(path);
+    if (first) answers.hits.push_back(*first);
+    answers.blocked.push_back(collider.any_hit(path));
+    std::vector<Hit<Scalar>> all;
+    collider.all_hits(path, all);
+    answers.hits.insert(answers.hits.end(), all.begin(), all.end());
+    if (path.kind != PathKind::segment) continue;
+    segments.push_back({path.start, path.toward});
+    if (first) answers.free_points.push_back(collider.last_free_point(segments.back(), *first));
+  }
+  std::vector<Hit<Scalar>> batch(segments.size());
+  collider.first_hits(segments, batch);
+  answers.hits.insert(answers.hits.end(), batch.begin(), batch.end());
+  std::vector<std::uint8_t> blocked(segments.size());
+  collider.any_hits(segments, blocked);
+  answers.blocked.insert(answers.blocked.end(), blocked.begin(), blocked.end());
+  return answers;
+}
+
+template <typename Scalar>
+void check_colliders(const FloatingPointMode& mode) {
+  Random random(4);
+  for (std::size_t i = case_count(1000); i > 0; --i) {
+    const auto mesh = draw_small_mesh<Scalar>(i % small_mesh_kind_count, random);
+    const auto call = [&] { return ask(mesh); };
+    bool mode_is_kept = false;
+    const ColliderAnswers<Scalar> expected = call();
+    const ColliderAnswers<Scalar> answers = answer_in(mode, mode_is_kept, call);
+    EXPECT_TRUE(mode_is_kept);
+    EXPECT_TRUE(same_answer<Scalar>(answers.hits, expected.hits));
+    EXPECT_EQ(answers.blocked, expected.blocked);
+    EXPECT_EQ(answers.free_points, expected.free_points);
+  }
+}
+
+TEST_P(FloatingPointModes, do_not_change_what_float_colliders_answer) { check_colliders<float>(GetParam()); }
+TEST_P(FloatingPointModes, do_not_change_what_double_colliders_answer) { check_colliders<double>(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(All, FloatingPointModes, testing::ValuesIn(modes),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace surehit::test

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "cgal_oracle.hpp"
+#include "pair_cases.hpp"
+#include "support/exact_oracle.hpp"
+#include "support/pair_text.hpp"
+#include "support/same_bits.hpp"
+#include "surehit/intersect.hpp"
+
+namespace surehit::test {
+namespace {
+
+template <typename Scalar>
+std::string report(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const QueryOptions<Scalar>& options,
+                   const std::optional<ExactContact>& expected, const std::optional<Hit<Scalar>>& answer) {
+  std::ostringstream text;
+  text << hex_text(path) << '\n' << hex_text(triangle) << '\n' << hex_text(options);
+  text << "\nexpected: " << (expected ? hex_text(rounded_hit<Scalar>(*expected)) : "a miss");
+  text << "\nanswered: " << (answer ? hex_text(*answer) : "a miss");
+  return text.str();
+}
+
+/// Three judges, one pair: CGAL says whether they meet, the rationals say that and where, and the library must agree.
+/// Returns whether they meet.
+template <typename Scalar>
+bool check(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const QueryOptions<Scalar>& options) {
+  const std::optional<ExactContact> expected = exact_contact(path, triangle, options);
+  const std::optional<Hit<Scalar>> answer = intersect(path, triangle, options);
+  EXPECT_EQ(cgal_meets(path, triangle, options), expected.has_value())
+      << "CGAL and the rationals disagree\n"
+      << report(path, triangle, options, expected, answer);
+  const bool agrees = expected ? answer && same_bits(*answer, rounded_hit<Scalar>(*expected)) : !answer;
+  EXPECT_TRUE(agrees) << report(path, triangle, options, expected, answer);
+  return expected.has_value();
+}
+
+/// A family that turned into hits or misses alone would test little, and nobody would notice.
+void expect_hits_and_misses(PairFamily family, std::size_t hits, std::size_t pairs) {
+  if (pairs < 1000) return;
+  if (family == PairFamily::disjoint_in_plane) {
+    EXPECT_EQ(hits, 0u);
+  } else {
+    EXPECT_GE(hits, pairs / 20);
+  }
+  if (family == PairFamily::overlapping_in_plane) {
+    EXPECT_EQ(hits, pairs);
+  } else {
+    EXPECT_GE(pairs - hits, pairs / 20);
+  }
+}
+
+class PairCrosscheck : public testing::TestWithParam<PairFamily> {};
+
+template <typename Scalar>
+void check_segments(PairFamily family) {
+  std::size_t pairs = 0;
+  std::size_t hits = 0;
+  visit_segments<Scalar>(family, [&](const auto&... pair) {
+    hits += check(pair...);
+    ++pairs;
+  });
+  expect_hits_and_misses(family, hits, pairs);
+}
+
+template <typename Scalar>
+void check_rays_and_lines(PairFamily family) {
+  visit_rays_and_lines<Scalar>(family, [](const auto&... pair) { check(pair...); });
+}
+
+template <typename Scalar>
+void check_options(PairFamily family) {
+  visit_options<Scalar>(family, [](const auto&... pair) { check(pair...); });
+}
+
+TEST_P(PairCrosscheck, float_segments) { check_segments<float>(GetParam()); }
+TEST_P(PairCrosscheck, double_segments) { check_segments<double>(GetParam()); }
+TEST_P(PairCrosscheck, float_rays_and_lines) { check_rays_and_lines<float>(GetParam()); }
+TEST_P(PairCrosscheck, double_rays_and_lines) { check_rays_and_lines<double>(GetParam()); }
+TEST_P(PairCrosscheck, float_options) { check_options<float>(GetParam()); }
+TEST_P(PairCrosscheck, double_options) { check_options<double>(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(Families, PairCrosscheck, testing::ValuesIn(all_pair_families),
+                         [](const auto& family) { return name_of(family.param); });
+
+}  // namespace
+}  // namespace surehit::test
