@@ -231,8 +231,10 @@ class ExactPair {
 
   template <int X, int Y>
   static WideInt<X + Y + 1> cross_component(const WideVector<X>& x, const WideVector<Y>& y, std::size_t axis) {
-    WideInt<X + Y + 1> result = x[(axis + 1) % 3] * y[(axis + 2) % 3];
-    result.add(x[(axis + 2) % 3] * y[(axis + 1) % 3], true);
+    const std::size_t j = (axis + 1) % 3;
+    const std::size_t k = (axis + 2) % 3;
+    WideInt<X + Y + 1> result;
+    set_minor(result, x[j], y[k], x[k], y[j]);
     return result;
   }
 
@@ -259,10 +261,10 @@ class ExactPair {
 
   /// From the least corner of a degenerate triangle to the start (r) and to the greatest corner (g).
   void set_span_differences(const Span& span, Differences<Scalar>& r, Differences<Scalar>& g) const {
-    r = s_;
-    g = span.greatest == 0 ? Differences<Scalar>{} : e(span.greatest);
-    if (span.least == 0) return;
     for (std::size_t i = 0; i < 3; ++i) {
+      r[i] = s_[i];
+      if (span.greatest != 0) g[i] = e(span.greatest)[i];
+      if (span.least == 0) continue;
       r[i].add(e(span.least)[i], true);
       g[i].add(e(span.least)[i], true);
     }
@@ -287,7 +289,10 @@ class ExactPair {
     Differences<Scalar> r;
     Differences<Scalar> g;
     set_span_differences(ends, r, g);
-    if (!are_parallel(d_, g)) return across_span(ends, r, g, range, t, weights);
+    if (!are_parallel(d_, g)) {
+      const std::optional<std::size_t> axis = crossing_axis(r, g);
+      return axis ? across_span(*axis, ends, r, g, range, t, weights) : std::nullopt;
+    }
     // Parallel, or the triangle is a point: they meet on the path's own line or not at all.
     return are_parallel(d_, r) ? along_span(ends, r, g, range, t, weights) : std::nullopt;
   }
@@ -304,19 +309,25 @@ class ExactPair {
                                                       Parameter& t, Weights<Scalar>* weights) {
     const std::size_t axis = nonzero_axis(d_);
     PlaneParameter at;
-    Ratio<B::difference> first;
-    Ratio<B::difference> last;
-    auto ahead = r[axis];  // from the start to the least corner, then to the greatest
-    ahead.negate();
-    first.set(ahead, d_[axis]);
-    ahead.add(g[axis]);
-    last.set(ahead, d_[axis]);
-    if (compare(first, last) > 0) std::swap(first, last);
-    const std::optional<Contact> contact = cut(first, last, range, at);
+    const std::optional<Contact> contact = cut_to_span(r[axis], g[axis], d_[axis], range, at);
     if (!contact) return std::nullopt;
     t.set(at.num, at.den);
     if (weights != nullptr && !is_zero(g)) *weights = weights_along_span(ends, r[axis], g[axis], d_[axis], at);
     return contact;
+  }
+
+  [[gnu::noinline]] std::optional<Contact> cut_to_span(const WideInt<B::difference>& r, const WideInt<B::difference>& g,
+                                                       const WideInt<B::difference>& d, const PathRange<Scalar>& range,
+                                                       PlaneParameter& t) {
+    Ratio<B::difference> first;
+    Ratio<B::difference> last;
+    WideInt<B::difference> ahead = r;  // from the start to the least corner, then to the greatest
+    ahead.negate();
+    first.set(ahead, d);
+    ahead.add(g);
+    last.set(ahead, d);
+    if (compare(first, last) > 0) std::swap(first, last);
+    return cut(first, last, range, t);
   }
 
   /// w = (r + t d) / g
@@ -331,18 +342,9 @@ class ExactPair {
 
   /// Two lines that cross, if they are in one plane: r + t d = w g, so that t = (r × g)·axis / (g × d)·axis and
   /// w = (d × r)·axis / (d × g)·axis.
-  [[gnu::noinline]] std::optional<Contact> across_span(const Span& ends, const Differences<Scalar>& r,
+  [[gnu::noinline]] std::optional<Contact> across_span(std::size_t axis, const Span& ends, const Differences<Scalar>& r,
                                                        const Differences<Scalar>& g, const PathRange<Scalar>& range,
                                                        Parameter& t, Weights<Scalar>* weights) {
-    std::size_t axis = 0;
-    {
-      WideVector<B::cross> cross;
-      set_cross(cross, d_, g);
-      WideInt<B::det> height;
-      set_dot(height, r, cross);
-      if (!height.is_zero()) return std::nullopt;
-      axis = nonzero_axis(cross);
-    }
     const auto across = cross_component(d_, g, axis);
     const auto w = cross_component(d_, r, axis);
     const auto from_end = across - w;
@@ -352,6 +354,16 @@ class ExactPair {
     const std::optional<Contact> contact = cut(t, t, range, t);
     if (contact && weights != nullptr) *weights = span_weights(ends, w, across);
     return contact;
+  }
+
+  /// An axis along which the path and the span are seen to cross; none if they pass each other.
+  [[gnu::noinline]] std::optional<std::size_t> crossing_axis(const Differences<Scalar>& r,
+                                                             const Differences<Scalar>& g) const {
+    WideVector<B::cross> cross;
+    set_cross(cross, d_, g);
+    WideInt<B::det> height;
+    set_dot(height, r, cross);
+    return height.is_zero() ? std::optional(nonzero_axis(cross)) : std::nullopt;
   }
 
   /// A path of no length: it is at t = 0, and touches what contains its start.

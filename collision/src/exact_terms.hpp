@@ -24,21 +24,30 @@ struct Bits {
 template <int B>
 using WideVector = std::array<WideInt<B>, 3>;
 
+/// out = a b - c d
 template <int Out, int A, int B>
-void set_cross(WideVector<Out>& out, const WideVector<A>& x, const WideVector<B>& y) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    out[i].set_product(x[j], y[k]);
-    out[i].add(x[k] * y[j], true);
-  }
+[[gnu::noinline]] void set_minor(WideInt<Out>& out, const WideInt<A>& a, const WideInt<B>& b, const WideInt<A>& c,
+                                 const WideInt<B>& d) {
+  const WideInt<A + B> product = c * d;
+  out.set_product(a, b);
+  out.add(product, true);
 }
 
 template <int Out, int A, int B>
-void set_dot(WideInt<Out>& out, const WideVector<A>& x, const WideVector<B>& y) {
+void set_cross(WideVector<Out>& out, const WideVector<A>& x, const WideVector<B>& y) {
+  set_minor(out[0], x[1], y[2], x[2], y[1]);
+  set_minor(out[1], x[2], y[0], x[0], y[2]);
+  set_minor(out[2], x[0], y[1], x[1], y[0]);
+}
+
+template <int Out, int A, int B>
+[[gnu::noinline]] void set_dot(WideInt<Out>& out, const WideVector<A>& x, const WideVector<B>& y) {
+  WideInt<A + B> product;
   out.set_product(x[0], y[0]);
-  out.add(x[1] * y[1]);
-  out.add(x[2] * y[2]);
+  product.set_product(x[1], y[1]);
+  out.add(product);
+  product.set_product(x[2], y[2]);
+  out.add(product);
 }
 
 template <int B>
