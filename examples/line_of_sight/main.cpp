@@ -1,0 +1,187 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <thread>
+
+#include "level/level.hpp"
+#include "line_of_sight/figures.hpp"
+#include "line_of_sight/floor_plan.hpp"
+#include "line_of_sight/plan_picture.hpp"
+#include "line_of_sight/sight.hpp"
+#include "mesh_io/input_error.hpp"
+#include "mesh_io/parse_number.hpp"
+#include "mesh_io/read_mesh.hpp"
+#include "picture/png.hpp"
+#include "surehit_query/output_file.hpp"
+
+namespace surehit::example {
+namespace {
+
+constexpr int success = 0;
+constexpr int failure = 1;
+constexpr int bad_input = 2;
+
+struct Request {
+  std::string mesh_path;
+  std::string up = "z";
+  std::string eye;
+  float height = 0.5f;
+  std::size_t points = 1'000'000;
+  unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u);
+  std::string picture_path = "line_of_sight.png";
+  std::string csv_path;
+};
+
+void describe(CLI::App& app, Request& request) {
+  app.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off (default: a level that it builds itself)")
+      ->type_name("");
+  app.add_option("--up", request.up, "The mesh's upward axis")->check(CLI::IsMember({"y", "z"}))->capture_default_str();
+  app.add_option("--eye", request.eye,
+                 "Where the eye is, after z has been turned up (default: in the level's great hall; in a MESH as high "
+                 "above the floor as the points, in the middle)")
+      ->type_name("X,Y,Z");
+  app.add_option("--height", request.height, "How high above the floor the points are")->capture_default_str();
+  app.add_option("--points", request.points, "Points to look at, at least")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}).description(""))
+      ->capture_default_str();
+  app.add_option("--threads", request.threads, "Threads that share the points; the answers are the same for any number")
+      ->check(CLI::Range(1u, 1024u).description(""))
+      ->capture_default_str();
+  app.add_option("-o", request.picture_path, "The plan of what is visible")->type_name("PNG")->capture_default_str();
+  app.add_option("--csv", request.csv_path, "The figures")->type_name("CSV");
+  app.footer(
+      "The floor is looked for below the eye's height. Exit status: 0, 2 for bad input or usage, 1 for other "
+      "failures.");
+}
+
+Vector3f parse_eye(const std::string& text) {
+  Vector3f eye;
+  std::size_t begin = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t end = axis < 2 ? text.find(',', begin) : text.size();
+    if (end == std::string::npos)
+      throw InputError("--eye: three numbers X,Y,Z are needed, not " + example::quoted(text));
+    try {
+      eye[axis] = parse_number<float>(std::string_view(text).substr(begin, end - begin));
+    } catch (const InputError& error) {
+      throw error.at("--eye");
+    }
+    begin = end + 1;
+  }
+  return eye;
+}
+
+Mesh<float> read_with_z_up(const Request& request) {
+  Mesh<float> mesh = read_mesh<float>(request.mesh_path);
+  if (request.up == "y") {
+    for (auto& vertex : mesh.vertices) vertex = {vertex[0], -vertex[2], vertex[1]};
+  }
+  return mesh;
+}
+
+/// As high above the floor in the middle of the mesh as the points are.
+Vector3f eye_over_the_middle(const Colliderf& collider, float height) {
+  const Vector3f middle = (collider.box().low + collider.box().high) / 2;
+  const Rayf down{{middle.x(), middle.y(), collider.box().high.z() + 1}, {0, 0, -1}};
+  const auto floor = collider.first_hit(down);
+  if (!floor) throw InputError("there is no floor in the middle of the mesh: --eye must say where the eye is");
+  return point(down, *floor) + Vector3f(0, 0, height);
+}
+
+template <typename Work>
+auto timed(double& seconds, Work work) {
+  const auto start = std::chrono::steady_clock::now();
+  auto result = work();
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+  OutputFile file(path);
+  file.write(bytes);
+  file.finish();
+}
+
+void print(const Figures& figures, const Request& request) {
+  const double share = 100 * static_cast<double>(figures.visible) / static_cast<double>(figures.points);
+  std::printf("%zu triangles, ready after %.3f s\n", figures.triangles, figures.build_seconds);
+  std::printf("%zu points %g above the floor, found in %.3f s\n", figures.points, double{request.height},
+              figures.floor_seconds);
+  std::printf("%zu visible (%.2f%%), %zu hidden: %.3f s, %.3g segments per second on %u thread%s\n", figures.visible,
+              share, figures.hidden, figures.sight_seconds, figures.segments_per_second(), figures.threads,
+              figures.threads == 1 ? "" : "s");
+  std::printf("%s\n", request.picture_path.c_str());
+}
+
+void look(const Request& request) {
+  Figures figures;
+  Mesh<float> mesh;
+  Vector3f eye;
+  if (request.mesh_path.empty()) {
+    Level level = build_level();
+    mesh = std::move(level.mesh);
+    eye = {level.eye[0], level.eye[1], level.eye[2]};
+  } else {
+    mesh = read_with_z_up(request);
+  }
+  Colliderf collider;
+  const auto invalid = timed(figures.build_seconds, [&] { return collider.try_build(mesh.view()); });
+  if (invalid) throw InputError(request.mesh_path + ": " + invalid->what());
+  if (!request.eye.empty()) {
+    eye = parse_eye(request.eye);
+  } else if (!request.mesh_path.empty()) {
+    eye = eye_over_the_middle(collider, request.height);
+  }
+
+  const FloorPlan plan =
+      timed(figures.floor_seconds, [&] { return FloorPlan(collider, eye.z(), request.points, request.threads); });
+  const auto sights =
+      timed(figures.sight_seconds, [&] { return look_around(collider, plan, eye, request.height, request.threads); });
+  figures.triangles = mesh.triangles.size();
+  figures.threads = request.threads;
+  figures.count(sights);
+
+  char caption[80];
+  std::snprintf(caption, sizeof caption, "%zu of %zu points visible, %g above the floor", figures.visible,
+                figures.points, double{request.height});
+  write_file(request.picture_path, encode_png(draw_plan(mesh, plan, sights, eye, caption)));
+  if (!request.csv_path.empty()) write_file(request.csv_path, figures.csv());
+  print(figures, request);
+}
+
+int run(int argc, char** argv) {
+  Request request;
+  CLI::App app("Draws what an eye can see of the floor of a level.", "line_of_sight");
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("line_of_sight: ") + error.what() + " (see line_of_sight --help)\n";
+  });
+  describe(app, request);
+  try {
+    app.parse(argc, argv);
+    if (!std::isfinite(request.height)) throw CLI::ValidationError("--height", "must be a finite number");
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? success : bad_input;
+  }
+  look(request);
+  return success;
+}
+
+}  // namespace
+}  // namespace surehit::example
+
+int main(int argc, char** argv) {
+  using namespace surehit::example;
+  try {
+    return run(argc, argv);
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "line_of_sight: %s\n", error.what());
+    return bad_input;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "line_of_sight: %s\n", error.what());
+    return failure;
+  }
+}

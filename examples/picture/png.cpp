@@ -1,0 +1,32 @@
+#include "picture/png.hpp"
+
+#include <stb/stb_image_write.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace surehit::example {
+
+std::string encode_png(const Canvas& canvas) {
+  std::string bytes;
+  for (int y = 0; y < canvas.height(); ++y) {
+    for (int x = 0; x < canvas.width(); ++x) {
+      const Colour& pixel = canvas.at(x, y);
+      for (const float part : {pixel.red, pixel.green, pixel.blue}) {
+        bytes += static_cast<char>(std::lround(255 * std::clamp(part, 0.0f, 1.0f)));
+      }
+    }
+  }
+  std::string png;
+  const auto append = [](void* target, void* data, int size) {
+    static_cast<std::string*>(target)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+  };
+  if (stbi_write_png_to_func(append, &png, canvas.width(), canvas.height(), 3, bytes.data(), 3 * canvas.width()) == 0) {
+    throw std::runtime_error("a picture of " + std::to_string(canvas.width()) + " x " +
+                             std::to_string(canvas.height()) + " pixels cannot be encoded");
+  }
+  return png;
+}
+
+}  // namespace surehit::example

@@ -1,0 +1,30 @@
+#include "picture/progress_bar.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace surehit::example {
+
+ProgressBar::ProgressBar(std::string title, std::size_t total)
+    : title_(std::move(title)),
+      total_(total),
+      on_terminal_(isatty(STDERR_FILENO) != 0),
+      next_(Clock::now() + std::chrono::seconds(1)) {}
+
+ProgressBar::~ProgressBar() {
+  if (shown_) std::fputs("\r\x1b[K", stderr);
+}
+
+void ProgressBar::show(std::size_t done) {
+  if (!on_terminal_ || Clock::now() < next_) return;
+  next_ = Clock::now() + std::chrono::milliseconds(100);
+  shown_ = true;
+  constexpr std::size_t width = 40;
+  std::string bar(width * done / total_, '#');
+  bar.resize(width, '.');
+  std::fprintf(stderr, "\r%s [%s] %3zu%%", title_.c_str(), bar.c_str(), 100 * done / total_);
+}
+
+}  // namespace surehit::example

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace surehit::example {
+
+/// A bar on standard error that says how far the work is: only on a terminal, and only once it has taken a second.
+class ProgressBar {
+ public:
+  ProgressBar(std::string title, std::size_t total);
+  /// Wipes the bar.
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void show(std::size_t done);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string title_;
+  std::size_t total_;
+  bool on_terminal_;
+  bool shown_ = false;
+  Clock::time_point next_;
+};
+
+}  // namespace surehit::example
