@@ -6,13 +6,13 @@
 #include <string>
 #include <thread>
 
+#include "command_line/output_file.hpp"
 #include "game_physics/arena.hpp"
 #include "game_physics/arena_picture.hpp"
 #include "game_physics/epsilon_sweep.hpp"
 #include "game_physics/exact_sweep.hpp"
 #include "game_physics/trial.hpp"
 #include "picture/png.hpp"
-#include "surehit_query/output_file.hpp"
 
 namespace surehit::example {
 namespace {

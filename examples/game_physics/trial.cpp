@@ -6,8 +6,8 @@
 #include <random>
 #include <utility>
 
+#include "command_line/chunked_run.hpp"
 #include "game_physics/wall_check.hpp"
-#include "picture/chunked_run.hpp"
 
 namespace surehit::example {
 namespace {

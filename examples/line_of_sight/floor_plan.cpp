@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "picture/chunked_run.hpp"
+#include "command_line/chunked_run.hpp"
 
 namespace surehit::example {
 namespace {

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "command_line/output_file.hpp"
 #include "level/level.hpp"
 #include "line_of_sight/figures.hpp"
 #include "line_of_sight/floor_plan.hpp"
@@ -16,7 +17,6 @@
 #include "mesh_io/parse_number.hpp"
 #include "mesh_io/read_mesh.hpp"
 #include "picture/png.hpp"
-#include "surehit_query/output_file.hpp"
 
 namespace surehit::example {
 namespace {

@@ -1,6 +1,6 @@
 #include "line_of_sight/sight.hpp"
 
-#include "picture/chunked_run.hpp"
+#include "command_line/chunked_run.hpp"
 
 namespace surehit::example {
 

@@ -7,12 +7,12 @@
 #include <surehit/surehit.hpp>
 #include <vector>
 
+#include "command_line/output_file.hpp"
+#include "command_line/progress_bar.hpp"
 #include "mesh_io/input_error.hpp"
 #include "mesh_io/read_mesh.hpp"
 #include "surehit_query/hit_text.hpp"
 #include "surehit_query/number_table.hpp"
-#include "surehit_query/output_file.hpp"
-#include "surehit_query/progress.hpp"
 
 namespace surehit::example {
 namespace {
@@ -26,7 +26,7 @@ void write_answers(const QueryRequest& request, std::string_view header, std::si
   constexpr std::size_t block = 4096;
   OutputFile output(request.output_path);
   output.write(header);
-  Progress progress("Answering", paths);
+  ProgressBar progress("Answering", paths);
   for (std::size_t begin = 0; begin < paths;) {
     std::vector<std::future<std::string>> round;
     for (std::size_t thread = 0; thread < request.threads && begin < paths; ++thread) {

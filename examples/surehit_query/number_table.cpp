@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <string_view>
 
+#include "command_line/progress_bar.hpp"
 #include "mesh_io/input_error.hpp"
 #include "mesh_io/parse_number.hpp"
 #include "mesh_io/read_file.hpp"
 #include "mesh_io/text_lines.hpp"
-#include "surehit_query/progress.hpp"
 
 namespace surehit::example {
 namespace {
@@ -29,7 +29,7 @@ template <typename Scalar>
 NumberTable<Scalar> parse_number_table(std::string_view text, std::size_t columns) {
   NumberTable<Scalar> table{columns, {}};
   TextLines lines(text);
-  Progress progress("Reading", text.size());
+  ProgressBar progress("Reading", text.size());
   std::vector<std::string_view> part;
   std::vector<std::string_view> fields;
   naming_the_line(lines, [&] {

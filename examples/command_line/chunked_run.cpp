@@ -1,11 +1,11 @@
-#include "picture/chunked_run.hpp"
+#include "command_line/chunked_run.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <future>
 #include <vector>
 
-#include "picture/progress_bar.hpp"
+#include "command_line/progress_bar.hpp"
 
 namespace surehit::example {
 

@@ -1,4 +1,4 @@
-#include "picture/progress_bar.hpp"
+#include "command_line/progress_bar.hpp"
 
 #include <unistd.h>
 
@@ -13,10 +13,6 @@ ProgressBar::ProgressBar(std::string title, std::size_t total)
       on_terminal_(isatty(STDERR_FILENO) != 0),
       next_(Clock::now() + std::chrono::seconds(1)) {}
 
-ProgressBar::~ProgressBar() {
-  if (shown_) std::fputs("\r\x1b[K", stderr);
-}
-
 void ProgressBar::show(std::size_t done) {
   if (!on_terminal_ || Clock::now() < next_) return;
   next_ = Clock::now() + std::chrono::milliseconds(100);
@@ -25,6 +21,13 @@ void ProgressBar::show(std::size_t done) {
   std::string bar(width * done / total_, '#');
   bar.resize(width, '.');
   std::fprintf(stderr, "\r%s [%s] %3zu%%", title_.c_str(), bar.c_str(), 100 * done / total_);
+}
+
+void ProgressBar::hide() {
+  if (!shown_) return;
+  std::fputs("\r\x1b[K", stderr);
+  shown_ = false;
+  next_ = {};
 }
 
 }  // namespace surehit::example

@@ -10,12 +10,13 @@ namespace surehit::example {
 class ProgressBar {
  public:
   ProgressBar(std::string title, std::size_t total);
-  /// Wipes the bar.
-  ~ProgressBar();
+  ~ProgressBar() { hide(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(std::size_t done);
+  /// Wipes the bar until the next `show`, so that output to the same terminal does not run into it.
+  void hide();
 
  private:
   using Clock = std::chrono::steady_clock;

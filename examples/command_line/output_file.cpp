@@ -1,4 +1,4 @@
-#include "surehit_query/output_file.hpp"
+#include "command_line/output_file.hpp"
 
 #include <unistd.h>
 
