@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 
 #include "contact.hpp"
 #include "exact_scale.hpp"
@@ -326,8 +325,7 @@ class ExactPair {
     first.set(ahead, d);
     ahead.add(g);
     last.set(ahead, d);
-    if (compare(first, last) > 0) std::swap(first, last);
-    return cut(first, last, range, t);
+    return compare(first, last) <= 0 ? cut(first, last, range, t) : cut(last, first, range, t);
   }
 
   /// w = (r + t d) / g
@@ -374,17 +372,25 @@ class ExactPair {
     Contact contact;
     contact.at_start = path_.has_start();
     contact.at_end = path_.has_end();
+    return contains_start(weights) ? std::optional(contact) : std::nullopt;
+  }
+
+  bool contains_start(Weights<Scalar>* weights) const {
     const Plane plane = find_plane();
-    if (plane.is_degenerate) return on_span(weights) ? std::optional(contact) : std::nullopt;
-    if (!plane.contains_start) return std::nullopt;
+    if (plane.is_degenerate) return on_span(weights);
+    return plane.contains_start && on_plane(plane, weights);
+  }
+
+  /// Whether the start, which is in the triangle's plane, lies on the triangle.
+  [[gnu::noinline]] bool on_plane(const Plane& plane, Weights<Scalar>* weights) const {
     const WideInt<B::cross>& n = plane.normal;
     const auto u = cross_component(s_, e2_, plane.axis);
     const auto v = cross_component(e1_, s_, plane.axis);
     const auto w = n - (u + v);
     const int side = n.sign();
-    if (u.sign() * side < 0 || v.sign() * side < 0 || w.sign() * side < 0) return std::nullopt;
+    if (u.sign() * side < 0 || v.sign() * side < 0 || w.sign() * side < 0) return false;
     if (weights != nullptr) *weights = {rounded_quotient<Scalar>(u, n), rounded_quotient<Scalar>(v, n)};
-    return contact;
+    return true;
   }
 
   /// Whether the start lies on the segment or the point that the corners span.

@@ -83,7 +83,8 @@ template <int XN, int XD, int YN, int YD>
 [[gnu::noinline]] int compare(const WideInt<XN>& x_num, const WideInt<XD>& x_den, const WideInt<YN>& y_num,
                               const WideInt<YD>& y_den) {
   if (x_num.sign() != y_num.sign()) return x_num.sign() < y_num.sign() ? -1 : 1;
-  WideInt<std::max(XN + YD, YN + XD) + 1> difference = x_num * y_den;
+  WideInt<std::max(XN + YD, YN + XD) + 1> difference;
+  difference.set_product(x_num, y_den);
   difference.add(y_num * x_den, true);
   return difference.sign();
 }
