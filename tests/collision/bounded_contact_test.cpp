@@ -1,0 +1,158 @@
+#include "bounded_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "contact_oracle.hpp"
+#include "rational_determinants.hpp"
+#include "support/case_count.hpp"
+#include "support/pair_families.hpp"
+#include "support/pair_text.hpp"
+#include "support/scalars.hpp"
+
+namespace surehit::test {
+namespace {
+
+using detail::Bounded;
+using detail::BoundedContact;
+using detail::PathRange;
+using detail::Verdict;
+
+bool holds(const Bounded& x, const mpq_class& truth) { return abs(mpq_class(x.value) - truth) <= mpq_class(x.radius); }
+
+class BoundedContactOfFamily : public testing::TestWithParam<PairFamily> {
+ protected:
+  template <typename Scalar>
+  void check() {
+    Random random(11);
+    for (std::size_t i = case_count(3'000); i > 0 && !HasFailure(); --i) {
+      const auto [segment, triangle] = draw_pair<Scalar>(GetParam(), random);
+      for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
+        const Path<Scalar> path = path_along(segment, kind);
+        check_against_oracle(path, triangle, {});
+        check_against_oracle(path, triangle, draw_options(random, random.unit<Scalar>()));
+      }
+    }
+  }
+
+  template <typename Scalar>
+  static void check_against_oracle(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                   QueryOptions<Scalar> options) {
+    keep_limits_alone(options);
+    const PathRange<Scalar> range(path, options);
+    if (range.is_empty()) return;
+    const BoundedContact bounded = detail::bounded_contact(path, triangle, range);
+    if (bounded.verdict == Verdict::undecided) return;
+    SCOPED_TRACE(hex_text(path) + hex_text(triangle) + hex_text(options));
+    const auto truth = exact_contact(path, triangle, options);
+    ASSERT_EQ(bounded.verdict == Verdict::hit, truth.has_value());
+    if (!truth) return;
+    expect_contact_of(*truth, bounded.contact, path, triangle, options);
+    const RationalDeterminants exact = rational_determinants(path, triangle);
+    EXPECT_TRUE(holds(bounded.det, exact.det));
+    EXPECT_TRUE(holds(bounded.height, exact.height));
+    EXPECT_TRUE(holds(bounded.u_scaled, exact.u));
+    EXPECT_TRUE(holds(bounded.v_scaled, exact.v));
+  }
+};
+
+TEST_P(BoundedContactOfFamily, is_never_wrong_for_float) { check<float>(); }
+TEST_P(BoundedContactOfFamily, is_never_wrong_for_double) { check<double>(); }
+
+INSTANTIATE_TEST_SUITE_P(Families, BoundedContactOfFamily, testing::ValuesIn(all_pair_families),
+                         [](const auto& family) { return name_of(family.param); });
+
+template <typename Scalar>
+class BoundedContactOf : public testing::Test {
+ protected:
+  static BoundedContact contact_of(const Path<Scalar>& path, const Triangle<Scalar>& triangle) {
+    return detail::bounded_contact(path, triangle, PathRange<Scalar>(path, {}));
+  }
+};
+TYPED_TEST_SUITE(BoundedContactOf, Scalars, ScalarNames);
+
+TYPED_TEST(BoundedContactOf, settles_nearly_all_random_pairs) {
+  Random random(12);
+  const std::size_t pairs = case_count(10'000);
+  std::size_t undecided = 0;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const auto point = [&]() -> Vector3<TypeParam> {
+      return Vector3<TypeParam>::NullaryExpr([&] { return random.symmetric<TypeParam>(); });
+    };
+    const Triangle<TypeParam> triangle{point(), point(), point()};
+    const Segment<TypeParam> segment{point(), point()};
+    undecided += this->contact_of(segment, triangle).verdict == Verdict::undecided;
+  }
+  EXPECT_LE(undecided, pairs / 1000);
+}
+
+TYPED_TEST(BoundedContactOf, is_certain_of_edges_and_corners_and_ends_on_small_integers) {
+  const Triangle<TypeParam> triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  for (const Vector3<TypeParam>& target : {Vector3<TypeParam>{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 0, 0}, {2, 2, 0}}) {
+    const Segment<TypeParam> through{target - Vector3<TypeParam>{1, 2, 3}, target + Vector3<TypeParam>{1, 2, 3}};
+    const BoundedContact crossing = this->contact_of(through, triangle);
+    EXPECT_EQ(crossing.verdict, Verdict::hit);
+    EXPECT_FALSE(crossing.contact.at_start || crossing.contact.at_end);
+    const BoundedContact leaving = this->contact_of(Segment<TypeParam>{target, through.end}, triangle);
+    EXPECT_EQ(leaving.verdict, Verdict::hit);
+    EXPECT_TRUE(leaving.contact.at_start && !leaving.contact.at_end);
+    const BoundedContact arriving = this->contact_of(Segment<TypeParam>{through.start, target}, triangle);
+    EXPECT_EQ(arriving.verdict, Verdict::hit);
+    EXPECT_TRUE(!arriving.contact.at_start && arriving.contact.at_end);
+  }
+}
+
+TYPED_TEST(BoundedContactOf, leaves_what_lies_in_the_plane_undecided) {
+  const Triangle<TypeParam> triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  const Segment<TypeParam> in_plane{{-1, 1, 0}, {5, 1, 0}};
+  EXPECT_EQ(this->contact_of(in_plane, triangle).verdict, Verdict::undecided);
+}
+
+TYPED_TEST(BoundedContactOf, leaves_a_parameter_beyond_double_undecided) {
+  if constexpr (std::is_same_v<TypeParam, double>) {
+    const Triangle<TypeParam> triangle{{-1, -1, 1e300}, {1, -1, 1e300}, {0, 1, 1e300}};
+    EXPECT_EQ(this->contact_of(Ray<TypeParam>{{0, 0, 0}, {0, 0, 1e-300}}, triangle).verdict, Verdict::undecided);
+  } else {
+    const Triangle<TypeParam> triangle{{-1, -1, 3e38f}, {1, -1, 3e38f}, {0, 1, 3e38f}};
+    const BoundedContact contact = this->contact_of(Ray<TypeParam>{{0, 0, 0}, {0, 0, 1e-45f}}, triangle);
+    EXPECT_EQ(contact.verdict, Verdict::hit);
+    EXPECT_GT(contact.contact.t_lower, double{std::numeric_limits<TypeParam>::max()});
+  }
+}
+
+TEST(BoundedQuotient, holds_the_true_quotient) {
+  Random random(13);
+  for (std::size_t i = case_count(200'000); i > 0; --i) {
+    const auto scaled = [&] {
+      return std::ldexp(random.symmetric<double>(), static_cast<int>(random.between(-900, 900)));
+    };
+    Bounded numerator{scaled(), 0};
+    Bounded denominator{scaled(), 0};
+    if (random.one_in(2)) numerator.radius = std::fabs(numerator.value) * random.unit<double>();
+    if (random.one_in(2)) denominator.radius = std::fabs(denominator.value) * random.unit<double>();
+    if (!denominator.sign() || denominator.sign() == 0) continue;
+    const auto [lower, upper] = detail::bounded_quotient(numerator, denominator);
+    for (const int n : {-1, 0, 1}) {
+      for (const int d : {-1, 0, 1}) {
+        const mpq_class truth = (mpq_class(numerator.value) + n * mpq_class(numerator.radius)) /
+                                (mpq_class(denominator.value) + d * mpq_class(denominator.radius));
+        ASSERT_TRUE(!std::isfinite(lower) || mpq_class(lower) <= truth);
+        ASSERT_TRUE(!std::isfinite(upper) || mpq_class(upper) >= truth);
+      }
+    }
+  }
+}
+
+TEST(BoundedQuotient, of_exact_numbers_is_a_few_ulps_wide) {
+  const auto [lower, upper] = detail::bounded_quotient(detail::exact(1), detail::exact(3));
+  EXPECT_LT(upper - lower, 0x1p-49);
+  const auto [zero_lower, zero_upper] = detail::bounded_quotient(detail::exact(0), detail::exact(-3));
+  EXPECT_EQ(zero_lower, 0);
+  EXPECT_EQ(zero_upper, 0);
+}
+
+}  // namespace
+}  // namespace surehit::test
