@@ -5,7 +5,8 @@
 
 namespace surehit::test {
 
-/// `full`, or the share of it that SUREHIT_TEST_PERCENT asks for (at least 1): sanitized builds run a tenth of the cases.
+/// `full`, or the share of it that SUREHIT_TEST_PERCENT asks for (at least 1): sanitized builds run a tenth of the
+/// cases.
 inline std::size_t case_count(std::size_t full) {
   const char* percent = std::getenv("SUREHIT_TEST_PERCENT");
   if (percent == nullptr) return full;

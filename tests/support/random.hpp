@@ -7,7 +7,8 @@
 
 namespace surehit::test {
 
-/// SplitMix64 (Steele, Lea and Flood 2014). Neither libm nor a std:: distribution is asked, so every platform draws the same.
+/// SplitMix64 (Steele, Lea and Flood 2014). Neither libm nor a std:: distribution is asked, so every platform draws the
+/// same.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}

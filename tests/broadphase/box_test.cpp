@@ -1,0 +1,74 @@
+#include "surehit/box.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "support/scalars.hpp"
+
+namespace surehit::test {
+namespace {
+
+template <typename Scalar>
+class BoxTest : public testing::Test {};
+TYPED_TEST_SUITE(BoxTest, Scalars, ScalarNames);
+
+TYPED_TEST(BoxTest, ByDefaultHoldsNothing) {
+  const Box<TypeParam> box;
+  EXPECT_TRUE(box.is_empty());
+  EXPECT_FALSE(box.contains({0, 0, 0}));
+}
+
+TYPED_TEST(BoxTest, OfAMeshWithoutTrianglesIsEmpty) {
+  const std::array<TypeParam, 3> vertex = {1, 2, 3};
+  EXPECT_TRUE(box_of(TriangleMeshView<TypeParam>(vertex.data(), 1, nullptr, 0)).is_empty());
+}
+
+TYPED_TEST(BoxTest, OfOnePointHoldsThatPointAlone) {
+  Box<TypeParam> box;
+  box.extend({1, -2, 3});
+  EXPECT_FALSE(box.is_empty());
+  EXPECT_TRUE(box.contains({1, -2, 3}));
+  EXPECT_FALSE(box.contains({1, -2, std::nextafter(TypeParam{3}, TypeParam{4})}));
+  EXPECT_FALSE(box.contains({std::nextafter(TypeParam{1}, TypeParam{0}), -2, 3}));
+}
+
+TYPED_TEST(BoxTest, HoldsBothItsEnds) {
+  Box<TypeParam> box;
+  box.extend({1, 5, -1});
+  box.extend({-1, 4, 2});
+  EXPECT_EQ(box.low, (Vector3<TypeParam>{-1, 4, -1}));
+  EXPECT_EQ(box.high, (Vector3<TypeParam>{1, 5, 2}));
+  EXPECT_TRUE(box.contains(box.low));
+  EXPECT_TRUE(box.contains(box.high));
+}
+
+TYPED_TEST(BoxTest, IsEmptyIfItIsOnOneAxis) {
+  Box<TypeParam> box;
+  box.low = {0, 1, 0};
+  box.high = {2, 0, 2};
+  EXPECT_TRUE(box.is_empty());
+}
+
+TYPED_TEST(BoxTest, OfAMeshCountsVerticesThatATriangleUses) {
+  const std::vector<Vector3<TypeParam>> vertices = {{-100, 0, 0}, {1, 2, 3}, {-4, 5, -6}, {7, -8, 9}, {0, 0, 100}};
+  const std::array<std::uint32_t, 3> triangle = {1, 2, 3};
+  const auto box = box_of(TriangleMeshView<TypeParam>(vertices.front().data(), vertices.size(), triangle.data(), 1));
+  EXPECT_EQ(box.low, (Vector3<TypeParam>{-4, -8, -6}));
+  EXPECT_EQ(box.high, (Vector3<TypeParam>{7, 5, 9}));
+}
+
+TYPED_TEST(BoxTest, SpansTheWholeOfTheNumbers) {
+  constexpr TypeParam largest = std::numeric_limits<TypeParam>::max();
+  Box<TypeParam> box;
+  box.extend({-largest, -largest, -largest});
+  box.extend({largest, largest, largest});
+  EXPECT_TRUE(box.contains({0, largest, -largest}));
+}
+
+}  // namespace
+}  // namespace surehit::test

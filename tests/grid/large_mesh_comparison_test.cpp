@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "grid_comparison.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/path_drawer.hpp"
+#include "support/scalars.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// What the lists of a grid may hold whatever the mesh: 16 entries a triangle, and 2^24 in any case.
+std::size_t entry_budget(std::size_t triangles) { return std::max(std::size_t{1} << 24, 16 * triangles); }
+
+template <typename Scalar>
+class LargeMeshComparison : public testing::Test {
+ protected:
+  static constexpr std::size_t million = 1'000'000;
+
+  /// Asking a million triangles takes its time, so paths are few.
+  static void compare(const GeneratedMesh<Scalar>& mesh, std::size_t paths,
+                      const std::vector<GridOptions>& grids = {{}, {.resolution = {64, 64, 64}}}) {
+    GridComparison<Scalar> comparison(mesh.view(), {}, grids);
+    for (const Collider<Scalar>& collider : comparison.colliders()) {
+      EXPECT_LE(collider.grid().entry_count(), entry_budget(mesh.triangles.size()));
+    }
+    PathDrawer<Scalar> drawer(mesh.view(), 1);
+    for (std::size_t i = 0; i < paths; ++i) {
+      comparison.expect_same(drawer.draw());
+      comparison.expect_same(drawer.draw_from_afar(1e6F));
+    }
+    EXPECT_GT(comparison.hit_count(), 0U);
+  }
+
+  Random random_{20240229};
+};
+TYPED_TEST_SUITE(LargeMeshComparison, Scalars, ScalarNames);
+
+TYPED_TEST(LargeMeshComparison, OneHugeTriangleAmongAMillion) {
+  auto mesh = placed<TypeParam>(scattered_triangles<TypeParam>(this->million, 0.01F, this->random_), 0.001F, {0, 0, 0});
+  mesh.add({{-1, -1, -1}, {1, -1, 1}, {-1, 1, 1}});
+  this->compare(mesh, 8);
+  mesh.add({{-1, -1, -1}, {1e30F, -1, 1}, {-1, 1e30F, 1}});
+  this->compare(mesh, 2);
+}
+
+TYPED_TEST(LargeMeshComparison, AMillionTrianglesInOneCell) {
+  auto mesh = placed<TypeParam>(scattered_triangles<TypeParam>(this->million, 0.001F, this->random_), 1e-4F, {0, 0, 0});
+  mesh.add({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}});
+  mesh.add({{-1, -1, -1}, {-1, -1, -1}, {-1, -1, -1}});
+  this->compare(mesh, 8, {{.resolution = {3, 3, 3}}});
+}
+
+/// A grid as fine as is asked for would list each of them in all of its cells.
+TYPED_TEST(LargeMeshComparison, HundredThousandTrianglesInEveryCell) {
+  GeneratedMesh<TypeParam> mesh;
+  for (std::size_t i = 0; i < this->million / 10; ++i) {
+    const TypeParam height = this->random_.template symmetric<TypeParam>();
+    mesh.add({{-9, -9, height}, {9, -9, -height}, {0, 9, height}});
+  }
+  this->compare(mesh, 2, {{.resolution = {200, 200, 1}}});
+}
+
+TYPED_TEST(LargeMeshComparison, TwoMillionTriangles) {
+  const auto mesh = rough_ground<TypeParam>(1000, 0.01F, this->random_);
+  ASSERT_EQ(mesh.triangles.size(), 2 * this->million);
+  this->compare(mesh, 20, {{}});
+}
+
+}  // namespace
+}  // namespace surehit::test

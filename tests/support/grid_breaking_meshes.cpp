@@ -1,0 +1,190 @@
+#include "support/grid_breaking_meshes.hpp"
+
+#include <map>
+
+namespace surehit::test {
+namespace {
+
+template <typename Scalar>
+Vector3<Scalar> in_cube(Random& random) {
+  const Scalar x = random.symmetric<Scalar>();
+  const Scalar y = random.symmetric<Scalar>();
+  return {x, y, random.symmetric<Scalar>()};
+}
+
+using LatticePoint = std::array<std::int32_t, 3>;
+
+/// Gives every lattice point one vertex, however many triangles ask for it.
+class LatticeVertices {
+ public:
+  std::uint32_t operator()(const LatticePoint& point) {
+    const auto [entry, is_new] = ids_.try_emplace(point, static_cast<std::uint32_t>(points_.size()));
+    if (is_new) points_.push_back(point);
+    return entry->second;
+  }
+  [[nodiscard]] const std::vector<LatticePoint>& points() const { return points_; }
+
+ private:
+  std::map<LatticePoint, std::uint32_t> ids_;
+  std::vector<LatticePoint> points_;
+};
+
+template <typename Scalar>
+Vector3<Scalar> vertex(const LatticePoint& point, std::int32_t factor = 1) {
+  return {static_cast<Scalar>(point[0] * factor), static_cast<Scalar>(point[1] * factor),
+          static_cast<Scalar>(point[2] * factor)};
+}
+
+}  // namespace
+
+template <typename Scalar>
+void GeneratedMesh<Scalar>::add(const Triangle<Scalar>& triangle) {
+  const auto first = static_cast<std::uint32_t>(vertices.size());
+  vertices.insert(vertices.end(), {triangle.a, triangle.b, triangle.c});
+  triangles.push_back({first, first + 1, first + 2});
+}
+
+template <typename Scalar>
+TriangleMeshView<Scalar> GeneratedMesh<Scalar>::view() const {
+  if (triangles.empty()) return {};
+  return {vertices.front().data(), vertices.size(), triangles.front().data(), triangles.size()};
+}
+
+template <typename Scalar>
+GeneratedMesh<Scalar> scattered_triangles(std::size_t count, Scalar size, Random& random) {
+  GeneratedMesh<Scalar> mesh;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3<Scalar> a = in_cube<Scalar>(random);
+    const Vector3<Scalar> b = a + size * in_cube<Scalar>(random);
+    mesh.add({a, b, a + size * in_cube<Scalar>(random)});
+  }
+  return mesh;
+}
+
+template <typename Scalar>
+GeneratedMesh<Scalar> rough_ground(std::uint32_t count, Scalar height, Random& random) {
+  GeneratedMesh<Scalar> mesh;
+  const Scalar step = 2 / static_cast<Scalar>(count);
+  for (std::uint32_t y = 0; y <= count; ++y) {
+    for (std::uint32_t x = 0; x <= count; ++x) {
+      mesh.vertices.emplace_back(static_cast<Scalar>(x) * step - 1, static_cast<Scalar>(y) * step - 1,
+                                 height * random.unit<Scalar>());
+    }
+  }
+  for (std::uint32_t y = 0; y < count; ++y) {
+    for (std::uint32_t x = 0; x < count; ++x) {
+      const std::uint32_t corner = y * (count + 1) + x;
+      const std::uint32_t above = corner + count + 1;
+      mesh.triangles.push_back({corner, corner + 1, above + 1});
+      mesh.triangles.push_back({corner, above + 1, above});
+    }
+  }
+  return mesh;
+}
+
+template <typename Scalar>
+GeneratedMesh<Scalar> line_of_needles(std::size_t count, Random& random) {
+  GeneratedMesh<Scalar> mesh;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3<Scalar> a(static_cast<Scalar>(i), random.symmetric<Scalar>(), random.symmetric<Scalar>());
+    const Vector3<Scalar> along(1000, random.symmetric<Scalar>(), random.symmetric<Scalar>());
+    mesh.add({a, a + along, a + in_cube<Scalar>(random)});
+  }
+  return mesh;
+}
+
+template <typename Scalar>
+GeneratedMesh<Scalar> lattice_cube(std::uint32_t size) {
+  GeneratedMesh<Scalar> mesh;
+  LatticeVertices id;
+  const auto side = static_cast<std::int32_t>(size);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const std::int32_t height : {0, side}) {
+      const auto at = [&](std::int32_t i, std::int32_t j) {
+        LatticePoint point;
+        point[axis] = height;
+        point[(axis + 1) % 3] = i;
+        point[(axis + 2) % 3] = j;
+        return id(point);
+      };
+      for (std::int32_t i = 0; i < side; ++i) {
+        for (std::int32_t j = 0; j < side; ++j) {
+          mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+          mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+      }
+    }
+  }
+  for (const LatticePoint& point : id.points()) mesh.vertices.push_back(vertex<Scalar>(point));
+  return mesh;
+}
+
+template <typename Scalar>
+GeneratedMesh<Scalar> bumpy_octahedron(std::int32_t size, Random& random) {
+  GeneratedMesh<Scalar> mesh;
+  LatticeVertices id;
+  for (int octant = 0; octant < 8; ++octant) {
+    const auto at = [&](std::int32_t x, std::int32_t y) {
+      const std::int32_t z = size - x - y;
+      return id({(octant & 1) != 0 ? -x : x, (octant & 2) != 0 ? -y : y, (octant & 4) != 0 ? -z : z});
+    };
+    for (std::int32_t x = 0; x < size; ++x) {
+      for (std::int32_t y = 0; x + y < size; ++y) {
+        mesh.triangles.push_back({at(x, y), at(x + 1, y), at(x, y + 1)});
+        if (x + y + 1 < size) mesh.triangles.push_back({at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
+      }
+    }
+  }
+  for (const LatticePoint& point : id.points()) {
+    mesh.vertices.push_back(vertex<Scalar>(point, static_cast<std::int32_t>(random.between(1000, 1500))));
+  }
+  return mesh;
+}
+
+template <typename Scalar>
+GeneratedMesh<Scalar> double_fan(std::int32_t size) {
+  GeneratedMesh<Scalar> mesh;
+  mesh.vertices = {vertex<Scalar>({0, 0, size}), vertex<Scalar>({0, 0, -size})};
+  LatticePoint corner = {size, -size, 0};
+  for (const auto& [dx, dy] : {std::array{0, 1}, std::array{-1, 0}, std::array{0, -1}, std::array{1, 0}}) {
+    for (std::int32_t i = 0; i < 2 * size; ++i) {
+      mesh.vertices.push_back(vertex<Scalar>(corner));
+      corner = {corner[0] + dx, corner[1] + dy, 0};
+    }
+  }
+  const auto rim = static_cast<std::uint32_t>(mesh.vertices.size()) - 2;
+  for (std::uint32_t i = 0; i < rim; ++i) {
+    const std::uint32_t next = (i + 1) % rim;
+    mesh.triangles.push_back({0, i + 2, next + 2});
+    mesh.triangles.push_back({1, next + 2, i + 2});
+  }
+  return mesh;
+}
+
+template <typename Scalar>
+GeneratedMesh<Scalar> placed(GeneratedMesh<Scalar> mesh, Scalar factor, const Vector3<Scalar>& offset) {
+  for (Vector3<Scalar>& vertex : mesh.vertices) vertex = vertex * factor + offset;
+  return mesh;
+}
+
+template <typename Scalar>
+GeneratedMesh<Scalar> flattened(GeneratedMesh<Scalar> mesh, int axis, Scalar coordinate) {
+  for (Vector3<Scalar>& vertex : mesh.vertices) vertex[axis] = coordinate;
+  return mesh;
+}
+
+#define SUREHIT_INSTANTIATE(Scalar)                                                             \
+  template struct GeneratedMesh<Scalar>;                                                        \
+  template GeneratedMesh<Scalar> scattered_triangles(std::size_t, Scalar, Random&);             \
+  template GeneratedMesh<Scalar> rough_ground(std::uint32_t, Scalar, Random&);                  \
+  template GeneratedMesh<Scalar> line_of_needles(std::size_t, Random&);                         \
+  template GeneratedMesh<Scalar> lattice_cube(std::uint32_t);                                   \
+  template GeneratedMesh<Scalar> bumpy_octahedron(std::int32_t, Random&);                       \
+  template GeneratedMesh<Scalar> double_fan(std::int32_t);                                      \
+  template GeneratedMesh<Scalar> placed(GeneratedMesh<Scalar>, Scalar, const Vector3<Scalar>&); \
+  template GeneratedMesh<Scalar> flattened(GeneratedMesh<Scalar>, int, Scalar);
+SUREHIT_INSTANTIATE(float)
+SUREHIT_INSTANTIATE(double)
+#undef SUREHIT_INSTANTIATE
+
+}  // namespace surehit::test
