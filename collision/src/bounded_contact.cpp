@@ -75,13 +75,14 @@ BoundedContact bounded_contact(const Path<Scalar>& path, const Triangle<Scalar>&
 
 // With n, r_n and d, r_d the values and radii: |N/D - n/d| <= (r_n + |n/d| r_d) / (|d| - r_d). The computed q = n/d is
 // off by u |q| more, the sums and the quotient by a few u of themselves, and q - e and q + e by u (|q| + e), all of
-// which the factor and the term 2^-51 |q| cover. 2^-1070 is for quotients that underflow.
+// which the factor and the term 2^-51 |q| cover. A q that underflows is off by 2^-1075 besides, which r_d / (|d| - r_d)
+// may enlarge, so it counts with |q|; 2^-1070 is for what underflows after it.
 std::array<double, 2> bounded_quotient(const Bounded& numerator, const Bounded& denominator) {
   const double quotient = numerator.value / denominator.value;
   if (numerator.value == 0 && numerator.radius == 0) return {0, 0};
   const double size = std::fabs(quotient);
-  const double error =
-      (numerator.radius + size * denominator.radius) / (std::fabs(denominator.value) - denominator.radius);
+  const double error = (numerator.radius + (size + 0x1p-1074) * denominator.radius) /
+                       (std::fabs(denominator.value) - denominator.radius);
   const double bound = error * radius_growth + size * 0x1p-51 + radius_underflow;
   return {quotient - bound, quotient + bound};
 }

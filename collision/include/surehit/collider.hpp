@@ -18,9 +18,9 @@ namespace surehit {
 
 /// How a collider is built. No setting changes an answer.
 struct BuildOptions {
-  GridOptions grid;
+  GridOptions grid = {};
   /// One 32-bit mask a triangle, for `QueryOptions::mask`; none at all means all bits set for every triangle.
-  std::span<const std::uint32_t> masks;
+  std::span<const std::uint32_t> masks = {};
 };
 
 /// A triangle mesh made ready to be asked where paths first meet it.
@@ -101,6 +101,8 @@ class Collider {
   /// the first of them that the segment from the start reaches without touching anything, by an exact query under the
   /// same options, else the start itself. The limits keep their places on the whole segment: a positive min_t becomes
   /// the Scalar next below fl(min_t / s) on the shorter one, and max_t, which does not lie before t, admits all of it.
+  /// `ignore_end_contact` speaks of the shorter segment's end: with it, the point may come to rest exactly on a
+  /// surface.
   [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const Hit<Scalar>& hit,
                                                 const QueryOptions<Scalar>& options = {}) const noexcept;
   [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const Hit<Scalar>& hit,
