@@ -31,13 +31,15 @@ int main() {
   surehit::Colliderf collider;
   expect(!collider.try_build(surehit::TriangleMeshViewf{vertices, triangles}), "a good mesh is built");
 
-  const surehit::Segmentf through{{denormal(1), denormal(2), denormal(3)}, {denormal(1), denormal(2), minus_denormal(1)}};
+  const surehit::Segmentf through{{denormal(1), denormal(2), denormal(3)},
+                                  {denormal(1), denormal(2), minus_denormal(1)}};
   const std::optional<surehit::Hitf> hit = collider.first_hit(through);
   expect(hit.has_value(), "denormals hit");
   expect(hit && *hit == surehit::Hitf{0.75f, 0.125f, 0.25f, 0, surehit::Side::front}, "t, u, v, triangle and side");
   expect(hit == surehit::intersect(through, collider.triangle(0)), "the pair has the same bits");
 
-  const surehit::Segmentf beside{{denormal(5), denormal(4), denormal(3)}, {denormal(5), denormal(4), minus_denormal(1)}};
+  const surehit::Segmentf beside{{denormal(5), denormal(4), denormal(3)},
+                                 {denormal(5), denormal(4), minus_denormal(1)}};
   expect(!collider.any_hit(beside), "one denormal beside the edge is a miss");
 
   triangles(2, 0) = 3;
