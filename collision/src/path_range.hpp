@@ -6,6 +6,10 @@
 #include "surehit/path.hpp"
 #include "surehit/query_options.hpp"
 
+#if defined(__FAST_MATH__)
+#error "surehit's bounds do not hold under -ffast-math, nor does is_finite: compile the library without it"
+#endif
+
 namespace surehit::detail {
 
 /// The parameters that a query admits: [first, last], either end possibly infinite. Empty unless first <= last.
