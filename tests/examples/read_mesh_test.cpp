@@ -62,6 +62,8 @@ struct SharedMesh {
   std::size_t triangles;
 };
 
+void PrintTo(const SharedMesh& mesh, std::ostream* out) { *out << mesh.file; }
+
 class ReadSharedMesh : public testing::TestWithParam<SharedMesh> {};
 
 TEST_P(ReadSharedMesh, HasTheTrianglesThatItsReadmeTells) {

@@ -115,7 +115,7 @@ TYPED_TEST(BruteForceComparison, LongPathsThatEndNearTheirStart) {
   const auto mesh = rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_);
   GridComparison<TypeParam> comparison(mesh.view());
   PathDrawer<TypeParam> drawer(mesh.view(), 1);
-  for (std::size_t i = 0; i < case_count(300); ++i) {
+  for (std::size_t i = 0; i < case_count(200); ++i) {
     const Vector3<TypeParam> start = drawer.point_around_mesh();
     Vector3<TypeParam> end;
     for (auto& x : end) x = this->random_.template any_finite<TypeParam>();

@@ -18,12 +18,12 @@ namespace {
 template <typename Scalar>
 class RealMeshComparison : public testing::Test {
  protected:
-  /// Asks forty million triangles in all, so that large meshes are asked fewer paths. Half of the paths are as short as
+  /// Asks twenty million triangles in all, so that large meshes are asked fewer paths. Half of the paths are as short as
   /// those of game physics.
   static void compare(const TriangleMeshView<Scalar>& mesh) {
     GridComparison<Scalar> comparison(mesh);
     PathDrawer<Scalar> drawer(mesh, 1);
-    const std::size_t paths = case_count(std::min<std::size_t>(5'000, 40'000'000 / mesh.triangle_count()));
+    const std::size_t paths = case_count(std::min<std::size_t>(5'000, 20'000'000 / mesh.triangle_count()));
     const Box<Scalar>& box = comparison.colliders().front().box();
     const Scalar step = (box.high - box.low).maxCoeff() / 100;
     for (std::size_t i = 0; i < paths; ++i) {
