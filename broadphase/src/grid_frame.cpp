@@ -14,33 +14,35 @@ namespace surehit {
 //    four cuts: with the vertices, below 32 u = 2^-48 in all;
 //  - a path by up to `path_error` of grid_traversal.cpp, which is held below 2^-33.
 // Together they are below 2^-32 = `padding`: a cell grown by it lists every triangle that a path, walking through that
-// cell by rounded numbers, truly meets there. Cells are at least 16 paddings wide.
+// cell by rounded numbers, truly meets there. Cells are wider than 16 paddings.
+
+constexpr double least_cell = 32 * GridFrame::padding;
 
 template <typename Scalar>
 GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>& wished_resolution) {
   GridFrame frame;
-  int largest =
-      std::numeric_limits<int>::min();  // exponent of the greatest extent, or of the greatest coordinate of a point
+  // Exponent of the greatest extent; of the greatest coordinate if the box is a point.
+  int largest = std::numeric_limits<int>::min();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const double low = box.low[axis];
     const double high = box.high[axis];
     const double half_extent = high / 2 - low / 2;  // the whole one may overflow
     if (half_extent > 0) largest = std::max(largest, std::ilogb(half_extent) + 2);
   }
-  if (largest == std::numeric_limits<int>::min()) {
-    const double coordinate =
-        std::max({std::fabs(double{box.low[0]}), std::fabs(double{box.low[1]}), std::fabs(double{box.low[2]})});
-    largest = coordinate > 0 ? std::ilogb(coordinate) + 1 : 0;
-  }
+  const double coordinate = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
+  if (largest == std::numeric_limits<int>::min()) largest = coordinate > 0 ? std::ilogb(coordinate) + 1 : 0;
   frame.exponent = -largest;
+  // A mesh that is thin beyond measure for where it stands is left small in its frame, in one cell, so that nothing
+  // overflows.
+  if (coordinate > 0) frame.exponent = std::min(frame.exponent, 1000 - std::ilogb(coordinate));
 
-  constexpr double margin =
-      2 * padding;  // so that a path that touches the box walks inside the grid by rounded numbers too
+  // So that a path that touches the box walks inside the grid by rounded numbers too.
+  constexpr double margin = 2 * padding;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     frame.origin[axis] = frame.scaled(box.low[i]);
-    const double width = std::max((frame.scaled(box.high[i]) - frame.origin[axis]) + 2 * margin, 16 * padding);
-    const double cells = std::clamp(std::floor(wished_resolution[axis]), 1.0, std::floor(width / (16 * padding)));
+    const double width = std::max((frame.scaled(box.high[i]) - frame.origin[axis]) + 2 * margin, least_cell);
+    const double cells = std::clamp(std::floor(wished_resolution[axis]), 1.0, std::floor(width / least_cell));
     frame.low[axis] = -margin;
     frame.resolution[axis] = static_cast<std::uint32_t>(cells);
     frame.cell_size[axis] = width / cells;
