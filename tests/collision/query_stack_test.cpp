@@ -17,12 +17,12 @@
 
 // How much stack a function takes is the compiler's doing: the promise is for optimized builds, and sanitizers keep
 // their own red zones there.
-#if defined(__has_feature)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // GCC
+#define SUREHIT_TEST_SANITIZED 1
+#elif defined(__has_feature)  // Clang, and what other headers define in its place
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
 #define SUREHIT_TEST_SANITIZED 1
 #endif
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SUREHIT_TEST_SANITIZED 1
 #endif
 #if defined(__OPTIMIZE__) && !defined(SUREHIT_TEST_SANITIZED)
 
