@@ -18,8 +18,8 @@ namespace {
 template <typename Scalar>
 class RealMeshComparison : public testing::Test {
  protected:
-  /// Asks twenty million triangles in all, so that large meshes are asked fewer paths. Half of the paths are as short as
-  /// those of game physics.
+  /// Asks twenty million triangles in all, so that large meshes are asked fewer paths. Half of the paths are as short
+  /// as those of game physics.
   static void compare(const TriangleMeshView<Scalar>& mesh) {
     GridComparison<Scalar> comparison(mesh);
     PathDrawer<Scalar> drawer(mesh, 1);
