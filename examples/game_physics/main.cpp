@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <thread>
 
 #include "command_line/output_file.hpp"
+#include "command_line/program.hpp"
 #include "game_physics/arena.hpp"
 #include "game_physics/arena_picture.hpp"
 #include "game_physics/epsilon_sweep.hpp"
@@ -16,10 +16,6 @@
 
 namespace surehit::example {
 namespace {
-
-constexpr int success = 0;
-constexpr int failure = 1;
-constexpr int bad_usage = 2;
 
 struct Request {
   TrialOptions trial{.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u)};
@@ -62,7 +58,11 @@ void print(const char* name, const TrialReport& report) {
   std::printf("  steps per second        %.0f on one thread\n", report.steps_per_second());
 }
 
-int play(const Request& request) {
+ExitStatus play(Request request) {
+  if (request.full) {
+    request.trial.points = 20'000;
+    request.trial.steps = 2'000;
+  }
   const Arena arena = build_arena();
   std::printf("%zu points, %zu steps, %zu thin walls, %g m/s: %g m a step\n", request.trial.points, request.trial.steps,
               arena.walls.triangles.size(), double{request.trial.speed},
@@ -82,35 +82,17 @@ int play(const Request& request) {
   return exact.escaped == 0 && exact.stuck == 0 ? success : failure;
 }
 
-int run(int argc, char** argv) {
-  Request request;
-  CLI::App app("Lets fast points bounce in a room of thin walls and checks that none goes through.", "game_physics");
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("game_physics: ") + error.what() + " (see game_physics --help)\n";
-  });
-  describe(app, request);
-  try {
-    app.parse(argc, argv);
-    if (!std::isfinite(request.trial.speed)) throw CLI::ValidationError("--speed", "must be a finite number");
-    if (!std::isfinite(request.skin)) throw CLI::ValidationError("--skin", "must be a finite number");
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? success : bad_usage;
-  }
-  if (request.full) {
-    request.trial.points = 20'000;
-    request.trial.steps = 2'000;
-  }
-  return play(request);
-}
-
 }  // namespace
 }  // namespace surehit::example
 
 int main(int argc, char** argv) {
-  try {
-    return surehit::example::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "game_physics: %s\n", error.what());
-    return 1;
-  }
+  using namespace surehit::example;
+  Request request;
+  CLI::App app("Lets fast points bounce in a room of thin walls and checks that none goes through.", "game_physics");
+  describe(app, request);
+  return run_program(app, argc, argv, [&] {
+    if (!std::isfinite(request.trial.speed)) throw CLI::ValidationError("--speed", "must be a finite number");
+    if (!std::isfinite(request.skin)) throw CLI::ValidationError("--skin", "must be a finite number");
+    return play(request);
+  });
 }

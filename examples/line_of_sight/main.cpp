@@ -3,11 +3,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <thread>
 
 #include "command_line/output_file.hpp"
+#include "command_line/program.hpp"
 #include "level/level.hpp"
 #include "line_of_sight/figures.hpp"
 #include "line_of_sight/floor_plan.hpp"
@@ -20,10 +20,6 @@
 
 namespace surehit::example {
 namespace {
-
-constexpr int success = 0;
-constexpr int failure = 1;
-constexpr int bad_input = 2;
 
 struct Request {
   std::string mesh_path;
@@ -153,35 +149,17 @@ void look(const Request& request) {
   print(figures, request);
 }
 
-int run(int argc, char** argv) {
-  Request request;
-  CLI::App app("Draws what an eye can see of the floor of a level.", "line_of_sight");
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("line_of_sight: ") + error.what() + " (see line_of_sight --help)\n";
-  });
-  describe(app, request);
-  try {
-    app.parse(argc, argv);
-    if (!std::isfinite(request.height)) throw CLI::ValidationError("--height", "must be a finite number");
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? success : bad_input;
-  }
-  look(request);
-  return success;
-}
-
 }  // namespace
 }  // namespace surehit::example
 
 int main(int argc, char** argv) {
   using namespace surehit::example;
-  try {
-    return run(argc, argv);
-  } catch (const InputError& error) {
-    std::fprintf(stderr, "line_of_sight: %s\n", error.what());
-    return bad_input;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "line_of_sight: %s\n", error.what());
-    return failure;
-  }
+  Request request;
+  CLI::App app("Draws what an eye can see of the floor of a level.", "line_of_sight");
+  describe(app, request);
+  return run_program(app, argc, argv, [&] {
+    if (!std::isfinite(request.height)) throw CLI::ValidationError("--height", "must be a finite number");
+    look(request);
+    return success;
+  });
 }

@@ -1,21 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "mesh_io/input_error.hpp"
+#include "command_line/program.hpp"
 #include "surehit_query/answer_queries.hpp"
 
 namespace surehit::example {
 namespace {
-
-constexpr int success = 0;
-constexpr int failure = 1;
-constexpr int bad_input = 2;
 
 template <typename Choice>
 using Choices = std::vector<std::pair<std::string, Choice>>;
@@ -67,10 +61,8 @@ CLI::App& add_command(CLI::App& app, QueryRequest& request, Question question, c
 }
 
 void describe(CLI::App& app, QueryRequest& request) {
+  request.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u);
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("surehit-query: ") + error.what() + " (see surehit-query --help)\n";
-  });
   app.get_formatter()->column_width(36);
   app.footer(
       "A line of FILE holds the numbers of one path: p, then q or the direction. They are decimal or hex\n"
@@ -98,32 +90,16 @@ void describe(CLI::App& app, QueryRequest& request) {
           "0.");
 }
 
-int run(int argc, char** argv) {
-  QueryRequest request;
-  request.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u);
-  CLI::App app("Asks exactly where straight paths meet triangles.", "surehit-query");
-  describe(app, request);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? success : bad_input;
-  }
-  answer_queries(request);
-  return success;
-}
-
 }  // namespace
 }  // namespace surehit::example
 
 int main(int argc, char** argv) {
   using namespace surehit::example;
-  try {
-    return run(argc, argv);
-  } catch (const InputError& error) {
-    std::fprintf(stderr, "surehit-query: %s\n", error.what());
-    return bad_input;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "surehit-query: %s\n", error.what());
-    return failure;
-  }
+  QueryRequest request;
+  CLI::App app("Asks exactly where straight paths meet triangles.", "surehit-query");
+  describe(app, request);
+  return run_program(app, argc, argv, [&] {
+    answer_queries(request);
+    return success;
+  });
 }
