@@ -7,6 +7,7 @@
 #include <string>
 
 #include "contact_oracle.hpp"
+#include "family_cases.hpp"
 #include "rational_determinants.hpp"
 #include "support/case_count.hpp"
 #include "support/pair_families.hpp"
@@ -27,15 +28,7 @@ class BoundedContactOfFamily : public testing::TestWithParam<PairFamily> {
  protected:
   template <typename Scalar>
   void check() {
-    Random random(11);
-    for (std::size_t i = case_count(3'000); i > 0 && !HasFailure(); --i) {
-      const auto [segment, triangle] = draw_pair<Scalar>(GetParam(), random);
-      for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
-        const Path<Scalar> path = path_along(segment, kind);
-        check_against_oracle(path, triangle, {});
-        check_against_oracle(path, triangle, draw_options(random, random.unit<Scalar>()));
-      }
-    }
+    visit_family<Scalar>(GetParam(), 11, 3'000, check_against_oracle<Scalar>);
   }
 
   template <typename Scalar>

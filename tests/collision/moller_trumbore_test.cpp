@@ -10,6 +10,7 @@
 #include <string>
 
 #include "contact_oracle.hpp"
+#include "family_cases.hpp"
 #include "rational_determinants.hpp"
 #include "support/case_count.hpp"
 #include "support/neighbour.hpp"
@@ -43,15 +44,7 @@ class VerdictOfFamily : public testing::TestWithParam<PairFamily> {
  protected:
   template <typename Scalar>
   void check() {
-    Random random(21);
-    for (std::size_t i = case_count(5'000); i > 0 && !HasFailure(); --i) {
-      const auto [segment, triangle] = draw_pair<Scalar>(GetParam(), random);
-      for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
-        const Path<Scalar> path = path_along(segment, kind);
-        expect_never_wrong(path, triangle, {});
-        expect_never_wrong(path, triangle, draw_options(random, random.unit<Scalar>()));
-      }
-    }
+    visit_family<Scalar>(GetParam(), 21, 5'000, expect_never_wrong<Scalar>);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <type_traits>
 
+#include "family_cases.hpp"
 #include "rational_determinants.hpp"
 #include "support/case_count.hpp"
 #include "support/exact_oracle.hpp"
@@ -25,15 +26,7 @@ class NarrowphaseOfFamily : public testing::TestWithParam<PairFamily> {
  protected:
   template <typename Scalar>
   void check() {
-    Random random(41);
-    for (std::size_t i = case_count(3'000); i > 0 && !HasFailure(); --i) {
-      const auto [segment, triangle] = draw_pair<Scalar>(GetParam(), random);
-      for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
-        const Path<Scalar> path = path_along(segment, kind);
-        check_against_oracle(path, triangle, {});
-        check_against_oracle(path, triangle, draw_options(random, random.unit<Scalar>()));
-      }
-    }
+    visit_family<Scalar>(GetParam(), 41, 3'000, check_against_oracle<Scalar>);
   }
 
   template <typename Scalar>
