@@ -61,8 +61,9 @@ std::uint32_t GridFrame::cell_at(std::size_t axis, double x) const noexcept {
   // Compared before it is converted: an out-of-range conversion to integer is undefined.
   const double guess = (x - low[axis]) / cell_size[axis];
   std::uint32_t index = guess < last ? (guess > 0 ? static_cast<std::uint32_t>(guess) : 0) : last;
+  // The quotient may round up to the next cell. It never ends a cell too low: if x > plane(k), then fl(x - low) >=
+  // fl(k cell_size), and that over cell_size rounds to k or more.
   while (index > 0 && x < plane(axis, index)) --index;
-  while (index < last && x > plane(axis, index + 1)) ++index;
   return index;
 }
 

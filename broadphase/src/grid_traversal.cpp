@@ -36,7 +36,8 @@ Pair exact_difference(double x, double y) {
 // X_i is at most 1 and the margin; p is exact to u |p| if the path starts near, and if it does not, p* is a rounded
 // point of the path (below), no farther than 8. Underflow of the quotient is off by 2^-1075 r, below 2^-50. The error
 // is thus below 2^-42: far below the 2^-33 of the padding that is the path's. On an axis with r = 0 the cell is the one
-// of p*, and the same bound holds.
+// of p*, and the same bound holds. The first cell is the one of the rounded place at which the walk begins, which is
+// off by no more; if that puts it a cell behind or ahead of the crossings, its interval begins there all the same.
 //
 // A triangle that the path meets at tau is met in the box, hence at a tau within the crossings of the grid's outer
 // planes, which stand off the box by the margin of two paddings; so it lies in the interval of a visited cell, at a
@@ -133,7 +134,7 @@ double GridTraversal::crossing(std::size_t axis, std::uint32_t cell, bool behind
   return (grid_->frame().plane(axis, cell + (behind == (on.rate > 0) ? 1 : 0)) - on.base) / on.rate;
 }
 
-/// Finds the first cell: on each axis the one whose crossings enclose the tau at which the path enters the grid.
+/// Finds the first cell: where the path enters the grid.
 void GridTraversal::enter() noexcept {
   const GridFrame& frame = grid_->frame();
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -155,12 +156,7 @@ void GridTraversal::enter() noexcept {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Axis& on = axes_[axis];
     if (on.rate == 0) continue;
-    const std::uint32_t first = frame.resolution[axis] - 1 - on.last;
     on.index = frame.cell_at(axis, on.base + entry_ * on.rate);
-    while (on.index != on.last && crossing(axis, on.index, true) < entry_)
-      on.index += static_cast<std::uint32_t>(on.step);
-    while (on.index != first && crossing(axis, on.index, false) > entry_)
-      on.index -= static_cast<std::uint32_t>(on.step);
     on.exit = crossing(axis, on.index, true);
   }
   cell_ = grid_->cell_index({axes_[0].index, axes_[1].index, axes_[2].index});
