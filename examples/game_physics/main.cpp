@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -82,17 +83,21 @@ ExitStatus play(Request request) {
   return exact.escaped == 0 && exact.stuck == 0 ? success : failure;
 }
 
+Work describe_program(CLI::App& app) {
+  const auto request = std::make_shared<Request>();
+  describe(app, *request);
+  return [request] {
+    if (!std::isfinite(request->trial.speed)) throw CLI::ValidationError("--speed", "must be a finite number");
+    if (!std::isfinite(request->skin)) throw CLI::ValidationError("--skin", "must be a finite number");
+    return play(*request);
+  };
+}
+
 }  // namespace
 }  // namespace surehit::example
 
 int main(int argc, char** argv) {
-  using namespace surehit::example;
-  Request request;
-  CLI::App app("Lets fast points bounce in a room of thin walls and checks that none goes through.", "game_physics");
-  describe(app, request);
-  return run_program(app, argc, argv, [&] {
-    if (!std::isfinite(request.trial.speed)) throw CLI::ValidationError("--speed", "must be a finite number");
-    if (!std::isfinite(request.skin)) throw CLI::ValidationError("--skin", "must be a finite number");
-    return play(request);
-  });
+  return surehit::example::run_program(
+      "game_physics", "Lets fast points bounce in a room of thin walls and checks that none goes through.", argc, argv,
+      surehit::example::describe_program);
 }

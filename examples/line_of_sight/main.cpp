@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -149,17 +150,20 @@ void look(const Request& request) {
   print(figures, request);
 }
 
+Work describe_program(CLI::App& app) {
+  const auto request = std::make_shared<Request>();
+  describe(app, *request);
+  return [request] {
+    if (!std::isfinite(request->height)) throw CLI::ValidationError("--height", "must be a finite number");
+    look(*request);
+    return success;
+  };
+}
+
 }  // namespace
 }  // namespace surehit::example
 
 int main(int argc, char** argv) {
-  using namespace surehit::example;
-  Request request;
-  CLI::App app("Draws what an eye can see of the floor of a level.", "line_of_sight");
-  describe(app, request);
-  return run_program(app, argc, argv, [&] {
-    if (!std::isfinite(request.height)) throw CLI::ValidationError("--height", "must be a finite number");
-    look(request);
-    return success;
-  });
+  return surehit::example::run_program("line_of_sight", "Draws what an eye can see of the floor of a level.", argc,
+                                       argv, surehit::example::describe_program);
 }

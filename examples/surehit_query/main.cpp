@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -90,16 +91,19 @@ void describe(CLI::App& app, QueryRequest& request) {
           "0.");
 }
 
+Work describe_program(CLI::App& app) {
+  const auto request = std::make_shared<QueryRequest>();
+  describe(app, *request);
+  return [request] {
+    answer_queries(*request);
+    return success;
+  };
+}
+
 }  // namespace
 }  // namespace surehit::example
 
 int main(int argc, char** argv) {
-  using namespace surehit::example;
-  QueryRequest request;
-  CLI::App app("Asks exactly where straight paths meet triangles.", "surehit-query");
-  describe(app, request);
-  return run_program(app, argc, argv, [&] {
-    answer_queries(request);
-    return success;
-  });
+  return surehit::example::run_program("surehit-query", "Asks exactly where straight paths meet triangles.", argc, argv,
+                                       surehit::example::describe_program);
 }
