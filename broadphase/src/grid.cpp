@@ -1,23 +1,27 @@
 #include "surehit/grid.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
-#include "cell_listing.hpp"
+#include "empty_space.hpp"
 #include "surehit/floating_point_environment.hpp"
+#include "triangle_overlap.hpp"
 
 namespace surehit {
 namespace {
 
-/// The lists may hold this many entries a triangle: triangles of the size of a cell take about 5.
-constexpr std::size_t entries_per_triangle = 16;
+/// The lists may hold this many entries a triangle: triangles of the size of a cell take about 3.
+constexpr std::size_t entries_per_triangle = 8;
 /// Small meshes may be divided as finely as one likes up to here.
-constexpr std::size_t free_entries = std::size_t{1} << 24;
+constexpr std::size_t free_entries = std::size_t{1} << 18;
 constexpr double cells_per_triangle_limit = 8;
-constexpr double free_cells = 0x1p24;
-constexpr double most_cells = 0x1p28;
-constexpr double most_cells_on_an_axis = 0x1p20;
+constexpr double free_cells = 0x1p20;
+/// Cells are counted in float, exactly up to here.
+constexpr double most_cells = 0x1p24;
+constexpr double most_cells_on_an_axis = 0x1p11;
 
 /// Cubic cells, `cells` of them or fewer, where an axis that is thinner than a cell has just one.
 std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, double cells) {
@@ -69,66 +73,300 @@ std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar
   return wished;
 }
 
-template <typename Scalar>
-std::array<detail::FramePoint, 3> in_frame(const GridFrame& frame, const Triangle<Scalar>& triangle) {
-  std::array<detail::FramePoint, 3> corners;
-  const Vector3<Scalar>* vertices[] = {&triangle.a, &triangle.b, &triangle.c};
-  for (std::size_t corner = 0; corner < 3; ++corner) {
+}  // namespace
+
+/// Lists the triangles in top cells by counting, prefix sum and scatter; then emits the lists cell by cell, and divides
+/// the crowded ones on the way.
+class GridBuild {
+ public:
+  template <typename Scalar>
+  GridBuild(Grid& grid, GridScratch& scratch, const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
+            const GridOptions& options)
+      : grid_(grid),
+        scratch_(scratch),
+        crowded_(options.crowded == 0 ? std::numeric_limits<std::size_t>::max() : options.crowded) {
+    grid.granule_ = least_granule;
+    const std::size_t budget = std::max(free_entries, entries_per_triangle * mesh.triangle_count());
+    std::array<double, 3> wished =
+        wished_resolution(GridFrame::around(box, {1, 1, 1}, division), box, mesh.triangle_count(), options);
+    for (;;) {
+      grid.frame_ = GridFrame::around(box, wished, division);
+      place_triangles(mesh);
+      if (try_list(budget)) break;
+      for (double& cells : wished) cells = std::max(1.0, std::floor(cells / 2));
+    }
+    while (!try_emit()) grid.granule_ *= 2;
+    shrink_division();
+  }
+
+ private:
+  static constexpr std::uint32_t division = Grid::brick_edge * Grid::brick_edge;
+  static_assert(Grid::most_levels == 2);
+  static constexpr std::uint32_t least_granule = 4;
+  /// A cell is left whole if its bricks' lists would be longer than this many times its own.
+  static constexpr std::size_t most_growth = 3;
+  /// What a vector load may read beyond the last top cell.
+  static constexpr std::size_t top_slack = 64;
+
+  using CellTriangle = std::array<detail::CellPoint, 3>;
+
+  template <typename Scalar>
+  void place_triangles(const TriangleMeshView<Scalar>& mesh) {
+    const GridFrame& frame = grid_.frame_;
+    auto& points = scratch_.points_;
+    auto& triangles = scratch_.triangles_;
+    points.resize(mesh.vertex_count());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vector3<Scalar> vertex = mesh.vertex(i);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double scaled = frame.scaled(vertex[static_cast<Eigen::Index>(axis)]);
+        points[i][axis] = static_cast<float>(frame.place(axis, scaled));
+      }
+    }
+    triangles.resize(mesh.triangle_count());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      triangles[i] = {points[mesh.corner(i, 0)], points[mesh.corner(i, 1)], points[mesh.corner(i, 2)]};
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame.padding(axis);
+  }
+
+  /// Calls `list(x, y, z)` once for each cell that the triangle meets, of those in `within`; cells are `size` finest
+  /// cells long.
+  template <typename List>
+  void list_cells(const CellTriangle& triangle, float size, const detail::CellRange& within, const List& list) const {
+    const float per_size = 1 / size;  // a power of two
+    detail::CellRange range;
+    int wide_axes = 0;
+    std::size_t flat_axis = detail::TriangleOverlap::no_axis;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      corners[corner][axis] = frame.scaled((*vertices[corner])[static_cast<Eigen::Index>(axis)]) - frame.origin[axis];
+      const float low = std::min(std::min(triangle[0][axis], triangle[1][axis]), triangle[2][axis]);
+      const float high = std::max(std::max(triangle[0][axis], triangle[1][axis]), triangle[2][axis]);
+      const auto first = static_cast<std::uint32_t>(static_cast<std::int32_t>((low - padding_[axis]) * per_size));
+      const auto last = static_cast<std::uint32_t>(static_cast<std::int32_t>((high + padding_[axis]) * per_size));
+      if (last > first) {
+        ++wide_axes;
+      } else {
+        flat_axis = axis;
+      }
+      range.low[axis] = std::max(first, within.low[axis]);
+      range.high[axis] = std::min(last + 1, within.high[axis]);
+      if (range.low[axis] >= range.high[axis]) return;
+    }
+    // Along a row of cells that is as wide as its box, a triangle meets each.
+    if (wide_axes <= 1) {
+      for (std::uint32_t z = range.low[2]; z < range.high[2]; ++z) {
+        for (std::uint32_t y = range.low[1]; y < range.high[1]; ++y) {
+          for (std::uint32_t x = range.low[0]; x < range.high[0]; ++x) list(x, y, z);
+        }
+      }
+      return;
+    }
+    list_parts(detail::TriangleOverlap(triangle, padding_, flat_axis), size, range, list);
+  }
+
+  /// Lists the cells of the range that the triangle meets, by halving it until it is a cell that the triangle meets, or
+  /// a range that it misses. The first one it meets.
+  template <typename List>
+  static void list_parts(const detail::TriangleOverlap& triangle, float size, const detail::CellRange& range,
+                         const List& list) {
+    std::size_t longest = range.length(0) >= range.length(1) ? 0 : 1;
+    if (range.length(2) > range.length(longest)) longest = 2;
+    if (range.length(longest) == 1) {
+      list(range.low[0], range.low[1], range.low[2]);
+      return;
+    }
+    const std::uint32_t middle = (range.low[longest] + range.high[longest]) / 2;
+    for (const bool upper : {false, true}) {
+      detail::CellRange part = range;
+      (upper ? part.low : part.high)[longest] = middle;
+      detail::CellPoint low;
+      detail::CellPoint high;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = size * static_cast<float>(static_cast<std::int32_t>(part.low[axis]));
+        high[axis] = size * static_cast<float>(static_cast<std::int32_t>(part.high[axis]));
+      }
+      if (triangle.meets(low, high)) list_parts(triangle, size, part, list);
     }
   }
-  return corners;
-}
 
-}  // namespace
+  /// Lists all triangles in top cells, unless that takes more entries than the budget. One cell always fits.
+  bool try_list(std::size_t budget) {
+    const auto& [nx, ny, nz] = grid_.frame_.cells;
+    const std::size_t cell_count = std::size_t{nx} * ny * nz;
+    const auto& triangles = scratch_.triangles_;
+    auto& met = scratch_.met_;
+    auto& offsets = scratch_.offsets_;
+    offsets.assign(cell_count + 1, 0);
+    scratch_.met_count_.resize(triangles.size());
+    met.clear();
+    for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) {
+      const std::size_t before = met.size();
+      list_cells(triangles[triangle], static_cast<float>(division), {{0, 0, 0}, grid_.frame_.cells},
+                 [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+                   const std::size_t cell = (std::size_t{z} * ny + y) * nx + x;
+                   ++offsets[cell + 1];
+                   met.push_back(static_cast<std::uint32_t>(cell));
+                 });
+      if (met.size() > budget && cell_count > 1) return false;
+      scratch_.met_count_[triangle] = static_cast<std::uint32_t>(met.size() - before);
+    }
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    scratch_.listed_.resize(met.size());
+    auto& next = scratch_.next_;
+    next.assign(offsets.begin(), offsets.end() - 1);
+    const std::uint32_t* cell = met.data();
+    for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) {
+      for (std::uint32_t i = 0; i < scratch_.met_count_[triangle]; ++i) {
+        scratch_.listed_[next[*cell++]++] = static_cast<std::uint32_t>(triangle);
+      }
+    }
+    return true;
+  }
+
+  /// Makes the words, bricks and entries. False if the entries are more than offsets in granules can tell.
+  bool try_emit() {
+    const auto& cells = grid_.frame_.cells;
+    const auto& offsets = scratch_.offsets_;
+    const auto& listed = scratch_.listed_;
+    auto& words = scratch_.words_;
+    grid_.levels_ = 0;
+    grid_.top_count_ = offsets.size() - 1;
+    grid_.entries_.clear();
+    grid_.entries_.reserve(listed.size() + listed.size() / 4);
+    grid_.bricks_.clear();
+    words.assign(grid_.top_count_, 0);
+    std::size_t cell = 0;
+    for (std::uint32_t z = 0; z < cells[2]; ++z) {
+      for (std::uint32_t y = 0; y < cells[1]; ++y) {
+        for (std::uint32_t x = 0; x < cells[0]; ++x, ++cell) {
+          const std::span<const std::uint32_t> ids(listed.data() + offsets[cell], offsets[cell + 1] - offsets[cell]);
+          if (!ids.empty()) words[cell] = emit(ids, {x, y, z}, division, 0);
+        }
+      }
+      if (grid_.entries_.size() / grid_.granule_ > CellWord::most_offset) return false;
+    }
+    detail::measure_empty_space(words, cells, scratch_.distances_);
+    grid_.top_.assign(grid_.top_count_ + top_slack, CellWord());
+    std::transform(words.begin(), words.end(), grid_.top_.begin(), [](std::uint32_t bits) { return CellWord(bits); });
+    return true;
+  }
+
+  /// The word of a cell that is not empty, at `place` in cells of its `size`.
+  std::uint32_t emit(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& place, std::uint32_t size,
+                     std::uint32_t level) {
+    if (ids.size() > crowded_ && level < Grid::most_levels) {
+      if (const std::uint32_t word = divide(ids, place, size / Grid::brick_edge, level + 1); word != 0) return word;
+    }
+    const std::size_t granule = grid_.granule_;
+    const std::size_t granules = (ids.size() + granule - 1) / granule;
+    std::vector<std::uint32_t>& entries = grid_.entries_;
+    if (granules >= CellWord::most_granules) {
+      entries.resize(entries.size() + granule);
+      entries.back() = static_cast<std::uint32_t>(granules * granule);
+    }
+    const auto offset = static_cast<std::uint32_t>(entries.size() / granule);
+    entries.insert(entries.end(), ids.begin(), ids.end());
+    entries.resize((offset + granules) * granule, ids.back());
+    const auto counted = static_cast<std::uint32_t>(std::min<std::size_t>(granules, CellWord::most_granules));
+    return CellWord::listing(counted, offset & CellWord::most_offset).bits();
+  }
+
+  /// The word of a cell that is divided into a brick of cells of `size`; 0 if that would not part its triangles.
+  std::uint32_t divide(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& place,
+                       std::uint32_t size, std::uint32_t level) {
+    constexpr std::uint32_t edge = Grid::brick_edge;
+    detail::CellRange within;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      within.low[axis] = place[axis] * edge;
+      within.high[axis] = within.low[axis] + edge;
+    }
+    std::vector<std::uint64_t>& met =
+        scratch_.met_in_brick_[level - 1];  // cells of each triangle in turn, a bit for each
+    met.assign(ids.size(), 0);
+    std::array<std::uint32_t, Grid::brick_size + 1> ends = {};
+    std::size_t entries = 0;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      list_cells(scratch_.triangles_[ids[i]], static_cast<float>(size), within,
+                 [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+                   const std::uint32_t cell =
+                       ((z - within.low[2]) * edge + (y - within.low[1])) * edge + (x - within.low[0]);
+                   met[i] |= std::uint64_t{1} << cell;
+                   ++ends[cell + 1];
+                   ++entries;
+                 });
+      if (entries > most_growth * ids.size()) return 0;
+    }
+    // The brick of no number is no one's: a word of zeros would be that of an empty cell not yet measured.
+    const std::size_t first = std::max<std::size_t>(grid_.bricks_.size(), Grid::brick_size);
+    if (first / Grid::brick_size > CellWord::most_offset) return 0;
+    grid_.bricks_.resize(first + Grid::brick_size);
+    grid_.levels_ = std::max(grid_.levels_, level);
+
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<std::uint32_t>& lists = scratch_.lists_in_brick_[level - 1];
+    lists.resize(entries);
+    std::array<std::uint32_t, Grid::brick_size> next;
+    std::copy_n(ends.begin(), next.size(), next.begin());
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      for (std::uint64_t cells = met[i]; cells != 0; cells &= cells - 1) {
+        lists[next[static_cast<std::size_t>(std::countr_zero(cells))]++] = ids[i];
+      }
+    }
+    std::array<std::uint32_t, Grid::brick_size> words = {};
+    for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) {
+      if (ends[cell] == ends[cell + 1]) continue;
+      words[cell] =
+          emit({lists.data() + ends[cell], ends[cell + 1] - ends[cell]},
+               {within.low[0] + cell % edge, within.low[1] + cell / edge % edge, within.low[2] + cell / edge / edge},
+               size, level);
+    }
+    detail::measure_empty_space(words);
+    for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) grid_.bricks_[first + cell] = CellWord(words[cell]);
+    return CellWord::divided(static_cast<std::uint32_t>(first / Grid::brick_size)).bits();
+  }
+
+  /// Counts in the finest cells that there are.
+  void shrink_division() {
+    for (std::uint32_t level = grid_.levels_; level < Grid::most_levels; ++level) {
+      grid_.frame_.coarsen(Grid::brick_edge);
+    }
+  }
+
+  Grid& grid_;
+  GridScratch& scratch_;
+  std::size_t crowded_;
+  detail::CellPoint padding_ = {};
+};
+
+std::size_t GridScratch::memory_bytes() const noexcept {
+  const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector.front()); };
+  std::size_t sum = bytes(points_) + bytes(triangles_) + bytes(met_) + bytes(met_count_) + bytes(offsets_) +
+                    bytes(next_) + bytes(listed_) + bytes(words_) + bytes(distances_);
+  for (const auto& met : met_in_brick_) sum += bytes(met);
+  for (const auto& lists : lists_in_brick_) sum += bytes(lists);
+  return sum;
+}
 
 template <typename Scalar>
 Grid::Grid(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options) {
-  const FloatingPointEnvironment environment;
-  if (mesh.triangle_count() == 0) return;
-  const std::size_t budget = std::min<std::size_t>(std::max(free_entries, entries_per_triangle * mesh.triangle_count()),
-                                                   std::numeric_limits<std::uint32_t>::max());
-  frame_ = GridFrame::around(box, {1, 1, 1});
-  std::array<double, 3> wished = wished_resolution(frame_, box, mesh.triangle_count(), options);
-  for (;;) {
-    frame_ = GridFrame::around(box, wished);
-    if (try_list(mesh, budget)) return;
-    for (double& cells : wished) cells = std::max(1.0, std::floor(cells / 2));
-  }
+  GridScratch scratch;
+  rebuild(mesh, box, options, scratch);
 }
 
-/// Lists all triangles, unless that takes more entries than the budget. One cell a triangle always fits.
 template <typename Scalar>
-bool Grid::try_list(const TriangleMeshView<Scalar>& mesh, std::size_t entry_budget) {
-  const auto& cells = frame_.resolution;
-  offsets_.assign(std::size_t{cells[0]} * cells[1] * cells[2] + 1, 0);
-  std::vector<std::uint32_t> cells_met;                           // of all triangles in turn
-  std::vector<std::size_t> cells_met_end(mesh.triangle_count());  // where each triangle's end
-
-  for (std::size_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
-    detail::list_cells(frame_, in_frame(frame_, mesh.triangle(triangle)),
-                       [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-                         const std::size_t cell = cell_index({x, y, z});
-                         ++offsets_[cell + 1];
-                         cells_met.push_back(static_cast<std::uint32_t>(cell));
-                       });
-    if (cells_met.size() > entry_budget) return false;
-    cells_met_end[triangle] = cells_met.size();
+void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
+                   GridScratch& scratch) {
+  const FloatingPointEnvironment environment;
+  if (mesh.triangle_count() != 0) {
+    GridBuild(*this, scratch, mesh, box, options);
+  } else {
+    *this = Grid();
   }
-
-  for (std::size_t cell = 1; cell < offsets_.size(); ++cell) offsets_[cell] += offsets_[cell - 1];
-  entries_.resize(cells_met.size());
-  std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
-  std::size_t met = 0;
-  for (std::size_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
-    for (; met < cells_met_end[triangle]; ++met)
-      entries_[next[cells_met[met]]++] = static_cast<std::uint32_t>(triangle);
-  }
-  return true;
 }
 
 template Grid::Grid(const TriangleMeshView<float>&, const Box<float>&, const GridOptions&);
 template Grid::Grid(const TriangleMeshView<double>&, const Box<double>&, const GridOptions&);
+template void Grid::rebuild(const TriangleMeshView<float>&, const Box<float>&, const GridOptions&, GridScratch&);
+template void Grid::rebuild(const TriangleMeshView<double>&, const Box<double>&, const GridOptions&, GridScratch&);
 
 }  // namespace surehit

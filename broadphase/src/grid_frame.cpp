@@ -1,26 +1,42 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "surehit/grid.hpp"
 
 namespace surehit {
 
-// The padding. In the frame, the mesh's box is [0, w] with w <= 1 on each axis; u = 2^-53. A point of a triangle and
-// the place where a path is taken to be may each be off:
-//  - a vertex by u (its difference to the origin is rounded; the scaling is exact), and by 2^-1074 if the scaling
-//  underflows;
-//  - what is left of a triangle after a cut by 5 u more: the weight of a crossing has three roundings, its place two.
-//  There are
-//    four cuts: with the vertices, below 32 u = 2^-48 in all;
-//  - a path by up to `path_error` of grid_traversal.cpp, which is held below 2^-33.
-// Together they are below 2^-32 = `padding`: a cell grown by it lists every triangle that a path, walking through that
-// cell by rounded numbers, truly meets there. Cells are wider than 16 paddings.
+// The padding. R is the resolution of an axis in finest cells, u = 2^-24: all that is counted in cells is rounded to
+// float. A point of a triangle and the place where a path is taken to be may each be off:
+//  - a vertex by 3 u R: its difference to the origin, the scaling and the margin are rounded, and none of them exceeds
+//  R
+//    (in double, for other meshes, by u R when it is rounded at last);
+//  - the tests of `TriangleOverlap` by less than 8 u R;
+//  - a path by less than 16 u R, see grid_traversal.cpp.
+// Together they are below 32 u R = 2^-19 R = `padding`: a cell grown by it lists every triangle that a path, walking
+// through that cell by rounded numbers, truly meets there.
 
-constexpr double least_cell = 32 * GridFrame::padding;
+namespace {
+
+/// So that a path that touches the box walks inside the grid by rounded numbers too.
+constexpr double margin_share = 2 * double{GridFrame::padding_share};
+
+/// Of the box's greatest extent: an axis less wide is not divided, so that a scaled coordinate that is off by 2^-43
+/// (grid_traversal.cpp) is off by less than 2^-22 of the grid's width.
+constexpr double least_width = 0x1p-20;
+
+/// Rounded down to a float: what is multiplied by it in float is multiplied by the same number as in double.
+double float_below(double x) {
+  const auto rounded = static_cast<float>(x);
+  return rounded > x ? std::nextafter(rounded, 0.0F) : rounded;
+}
+
+}  // namespace
 
 template <typename Scalar>
-GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>& wished_resolution) {
+GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>& wished_cells, std::uint32_t division) {
   GridFrame frame;
+  frame.division = division;
   // Exponent of the greatest extent; of the greatest coordinate if the box is a point.
   int largest = std::numeric_limits<int>::min();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -36,38 +52,50 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
   // overflows.
   if (coordinate > 0) frame.exponent = std::min(frame.exponent, 1000 - std::ilogb(coordinate));
 
-  // So that a path that touches the box walks inside the grid by rounded numbers too.
-  constexpr double margin = 2 * padding;
+  frame.unit = {std::ldexp(1.0, frame.exponent / 2), std::ldexp(1.0, frame.exponent - frame.exponent / 2)};
+
+  const double most_cells = most_finest_cells / division;
+  double finest = 0;
+  std::array<double, 3> width = {};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     frame.origin[axis] = frame.scaled(box.low[i]);
-    const double width = std::max((frame.scaled(box.high[i]) - frame.origin[axis]) + 2 * margin, least_cell);
-    const double cells = std::clamp(std::floor(wished_resolution[axis]), 1.0, std::floor(width / least_cell));
-    frame.low[axis] = -margin;
-    frame.resolution[axis] = static_cast<std::uint32_t>(cells);
-    frame.cell_size[axis] = width / cells;
+    width[axis] = frame.scaled(box.high[i]) - frame.origin[axis];
+    frame.cells[axis] = static_cast<std::uint32_t>(std::clamp(std::floor(wished_cells[axis]), 1.0, most_cells));
+    const double resolution = frame.resolution(axis);
+    frame.margin[axis] = static_cast<float>(margin_share * resolution);
+    const double scale = (resolution - 2 * double{frame.margin[axis]}) / width[axis];
+    frame.scale[axis] = scale;
+    if (width[axis] >= least_width) finest = std::max(finest, scale);
   }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (width[axis] >= least_width) continue;
+    frame.cells[axis] = 1;
+    const double resolution = division;
+    frame.margin[axis] = static_cast<float>(margin_share * resolution);
+    frame.scale[axis] = std::min(finest > 0 ? finest : 1.0, resolution / 2);
+  }
+  for (double& scale : frame.scale) scale = float_below(scale);
+  frame.coarsen(1);
   return frame;
 }
 
-double GridFrame::scaled(double x) const noexcept { return std::ldexp(x, exponent); }
-
-double GridFrame::plane(std::size_t axis, std::uint32_t index) const noexcept {
-  return low[axis] + cell_size[axis] * index;
+void GridFrame::coarsen(std::uint32_t factor) noexcept {
+  division /= factor;
+  has_floats = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    scale[axis] /= factor;
+    margin[axis] /= static_cast<float>(factor);
+    const double unit_scale = scale[axis] * unit[0] * unit[1];
+    const double low = origin[axis] / unit[0] / unit[1];
+    float_scale[axis] = static_cast<float>(unit_scale);
+    float_low[axis] = static_cast<float>(low);
+    has_floats &= double{float_scale[axis]} == unit_scale && double{float_low[axis]} == low &&
+                  scaled(low) == origin[axis] && unit_scale > 0x1p-60 && unit_scale < 0x1p60;
+  }
 }
 
-std::uint32_t GridFrame::cell_at(std::size_t axis, double x) const noexcept {
-  const std::uint32_t last = resolution[axis] - 1;
-  // Compared before it is converted: an out-of-range conversion to integer is undefined.
-  const double guess = (x - low[axis]) / cell_size[axis];
-  std::uint32_t index = guess < last ? (guess > 0 ? static_cast<std::uint32_t>(guess) : 0) : last;
-  // The quotient may round up to the next cell. It never ends a cell too low: if x > plane(k), then fl(x - low) >=
-  // fl(k cell_size), and that over cell_size rounds to k or more.
-  while (index > 0 && x < plane(axis, index)) --index;
-  return index;
-}
-
-template GridFrame GridFrame::around(const Box<float>&, const std::array<double, 3>&);
-template GridFrame GridFrame::around(const Box<double>&, const std::array<double, 3>&);
+template GridFrame GridFrame::around(const Box<float>&, const std::array<double, 3>&, std::uint32_t);
+template GridFrame GridFrame::around(const Box<double>&, const std::array<double, 3>&, std::uint32_t);
 
 }  // namespace surehit

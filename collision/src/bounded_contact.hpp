@@ -21,9 +21,14 @@ struct BoundedContact {
   Bounded v_scaled;
 };
 
-/// The second stage: Möller-Trumbore in double with running error bounds. For float coordinates it settles nearly
-/// everything; what lies in the triangle's plane, and what double cannot tell apart, stays undecided. Nothing undecided
-/// is ever guessed.
+/// The second stage: Möller-Trumbore in double, with bounds that are known beforehand. Some 15 ns; for float
+/// coordinates it settles nearly everything.
+template <typename Scalar>
+[[nodiscard]] BoundedContact double_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                            const PathRange<Scalar>& range);
+
+/// The third stage: the same with running error bounds, which exact operations do not enlarge. What lies in the
+/// triangle's plane, and what double cannot tell apart, stays undecided. Nothing undecided is ever guessed.
 template <typename Scalar>
 [[nodiscard]] BoundedContact bounded_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
                                              const PathRange<Scalar>& range);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <type_traits>
+#include <utility>
 
 #include "exact_contact.hpp"
 #include "path_range.hpp"
@@ -10,6 +13,42 @@
 #include "surehit/floating_point_environment.hpp"
 
 namespace surehit {
+namespace {
+
+/// Large enough that what a task costs is nothing beside it, small enough that the last ones end together.
+constexpr std::size_t paths_in_a_task = 4096;
+
+/// Calls `answer(first, count, statistics)` for parts of `count` paths: all at once, or by the executor's tasks. Each
+/// holds an environment, for it may run on another thread.
+template <typename Answer>
+void in_tasks(std::size_t count, const Executor* executor, QueryStatistics* statistics, const Answer& answer) {
+  if (count == 0) return;
+  std::mutex mutex;
+  const auto answer_part = [&](std::size_t first, std::size_t part) {
+    const FloatingPointEnvironment environment;
+    QueryStatistics of_part;
+    answer(first, part, of_part);
+    if (statistics == nullptr) return;
+    const std::lock_guard lock(mutex);
+    *statistics += of_part;
+  };
+  if (executor == nullptr) {
+    answer_part(0, count);
+    return;
+  }
+  executor->run((count + paths_in_a_task - 1) / paths_in_a_task, [&](std::size_t task) {
+    const std::size_t first = task * paths_in_a_task;
+    answer_part(first, std::min(paths_in_a_task, count - first));
+  });
+}
+
+}  // namespace
+
+template <typename Scalar>
+detail::Query<Scalar> Collider<Scalar>::query(Filter filter, const QueryOptions<Scalar>& options,
+                                              QueryStatistics* statistics, QueryStatistics& unread) const noexcept {
+  return {grid_, mesh_, masks_, options, filter, statistics != nullptr ? *statistics : unread};
+}
 
 template <typename Scalar>
 std::optional<InvalidMesh> Collider<Scalar>::try_build(const TriangleMeshView<Scalar>& mesh,
@@ -25,9 +64,29 @@ std::optional<InvalidMesh> Collider<Scalar>::try_build(const TriangleMeshView<Sc
   built.box_ = box_of(mesh);
   built.grid_ = Grid(mesh, built.box_, options.grid);
   built.masks_.assign(options.masks.begin(), options.masks.end());
-  built.triangles_.reserve(mesh.triangle_count());
-  for (std::size_t i = 0; i < mesh.triangle_count(); ++i) built.triangles_.push_back(mesh.triangle(i));
+  built.grid_options_ = options.grid;
+  built.mesh_ = MeshBlocks<Scalar>(mesh, built.grid_);
   *this = std::move(built);
+  return std::nullopt;
+}
+
+template <typename Scalar>
+std::optional<InvalidMesh> Collider<Scalar>::try_rebuild(const VertexView<Scalar>& vertices) {
+  const FloatingPointEnvironment environment;
+  const TriangleMeshView<Scalar> old = mesh_.view();
+  if (vertices.count != old.vertex_count()) {
+    return InvalidMesh(
+        InvalidMesh::Reason::vertices_do_not_match, vertices.count,
+        std::to_string(vertices.count) + " vertices for a mesh of " + std::to_string(old.vertex_count()));
+  }
+  const TriangleMeshView<Scalar> mesh = mesh_.view_with(vertices);
+  if (std::optional<InvalidMesh> invalid = find_invalid(mesh)) return invalid;
+  const Box<Scalar> box = box_of(mesh);
+  spare_.grid.rebuild(mesh, box, grid_options_, spare_.scratch);
+  spare_.mesh.rebuild(mesh, spare_.grid);
+  std::swap(spare_.grid, grid_);
+  std::swap(spare_.mesh, mesh_);
+  box_ = box;
   return std::nullopt;
 }
 
@@ -36,18 +95,14 @@ std::optional<Hit<Scalar>> Collider<Scalar>::find_first(const Path<Scalar>& path
                                                         const QueryOptions<Scalar>& options,
                                                         QueryStatistics* statistics) const noexcept {
   QueryStatistics unread;
-  return detail::Query<Scalar>(grid_, triangles_, masks_, path, options, filter,
-                               statistics != nullptr ? *statistics : unread)
-      .first_hit();
+  return detail::first_hit(query(filter, options, statistics, unread), path);
 }
 
 template <typename Scalar>
 bool Collider<Scalar>::find_any(const Path<Scalar>& path, const HitFilter<Scalar>* filter,
                                 const QueryOptions<Scalar>& options, QueryStatistics* statistics) const noexcept {
   QueryStatistics unread;
-  return detail::Query<Scalar>(grid_, triangles_, masks_, path, options, filter,
-                               statistics != nullptr ? *statistics : unread)
-      .any_hit();
+  return detail::any_hit(query(filter, options, statistics, unread), path);
 }
 
 template <typename Scalar>
@@ -56,8 +111,7 @@ void Collider<Scalar>::find_all(const Path<Scalar>& path, std::vector<Hit<Scalar
                                 QueryStatistics* statistics) const {
   QueryStatistics unread;
   hits.clear();
-  detail::Query<Scalar>(grid_, triangles_, masks_, path, options, filter, statistics != nullptr ? *statistics : unread)
-      .all_hits(hits);
+  detail::all_hits(query(filter, options, statistics, unread), path, hits);
 }
 
 template <typename Scalar>
@@ -125,22 +179,36 @@ void Collider<Scalar>::all_hits(const Path<Scalar>& path, std::vector<Hit<Scalar
 template <typename Scalar>
 template <typename AnyPath>
 void Collider<Scalar>::find_each_first(std::span<const AnyPath> paths, std::span<Hit<Scalar>> hits,
-                                       const QueryOptions<Scalar>& options,
+                                       const Executor* executor, const QueryOptions<Scalar>& options,
                                        QueryStatistics* statistics) const noexcept {
-  const FloatingPointEnvironment environment;
-  for (std::size_t i = 0; i < std::min(paths.size(), hits.size()); ++i) {
-    hits[i] = find_first(paths[i], nullptr, options, statistics).value_or(Hit<Scalar>{});
-  }
+  in_tasks(std::min(paths.size(), hits.size()), executor, statistics,
+           [&](std::size_t first, std::size_t count, QueryStatistics& of_task) {
+             if constexpr (std::is_same_v<Scalar, float>) {
+               detail::first_hits(query(nullptr, options, nullptr, of_task), paths.subspan(first, count), &hits[first]);
+             } else {
+               for (std::size_t i = first; i < first + count; ++i) {
+                 hits[i] = find_first(paths[i], nullptr, options, &of_task).value_or(Hit<Scalar>{});
+               }
+             }
+           });
 }
 
 template <typename Scalar>
 template <typename AnyPath>
 void Collider<Scalar>::find_each_any(std::span<const AnyPath> paths, std::span<std::uint8_t> blocked,
-                                     const QueryOptions<Scalar>& options, QueryStatistics* statistics) const noexcept {
-  const FloatingPointEnvironment environment;
-  for (std::size_t i = 0; i < std::min(paths.size(), blocked.size()); ++i) {
-    blocked[i] = find_any(paths[i], nullptr, options, statistics) ? 1 : 0;
-  }
+                                     const Executor* executor, const QueryOptions<Scalar>& options,
+                                     QueryStatistics* statistics) const noexcept {
+  in_tasks(std::min(paths.size(), blocked.size()), executor, statistics,
+           [&](std::size_t first, std::size_t count, QueryStatistics& of_task) {
+             if constexpr (std::is_same_v<Scalar, float>) {
+               detail::any_hits(query(nullptr, options, nullptr, of_task), paths.subspan(first, count),
+                                &blocked[first]);
+             } else {
+               for (std::size_t i = first; i < first + count; ++i) {
+                 blocked[i] = find_any(paths[i], nullptr, options, &of_task) ? 1 : 0;
+               }
+             }
+           });
 }
 
 template <typename Scalar>
@@ -162,12 +230,24 @@ Vector3<Scalar> Collider<Scalar>::last_free_point(const Segment<Scalar>& segment
   template <typename Scalar>                                                                                           \
   void Collider<Scalar>::first_hits(std::span<const AnyPath<Scalar>> paths, std::span<Hit<Scalar>> hits,               \
                                     const QueryOptions<Scalar>& options, QueryStatistics* statistics) const noexcept { \
-    find_each_first(paths, hits, options, statistics);                                                                 \
+    find_each_first(paths, hits, nullptr, options, statistics);                                                        \
+  }                                                                                                                    \
+  template <typename Scalar>                                                                                           \
+  void Collider<Scalar>::first_hits(std::span<const AnyPath<Scalar>> paths, std::span<Hit<Scalar>> hits,               \
+                                    Executor executor, const QueryOptions<Scalar>& options,                            \
+                                    QueryStatistics* statistics) const noexcept {                                      \
+    find_each_first(paths, hits, &executor, options, statistics);                                                      \
   }                                                                                                                    \
   template <typename Scalar>                                                                                           \
   void Collider<Scalar>::any_hits(std::span<const AnyPath<Scalar>> paths, std::span<std::uint8_t> blocked,             \
                                   const QueryOptions<Scalar>& options, QueryStatistics* statistics) const noexcept {   \
-    find_each_any(paths, blocked, options, statistics);                                                                \
+    find_each_any(paths, blocked, nullptr, options, statistics);                                                       \
+  }                                                                                                                    \
+  template <typename Scalar>                                                                                           \
+  void Collider<Scalar>::any_hits(std::span<const AnyPath<Scalar>> paths, std::span<std::uint8_t> blocked,             \
+                                  Executor executor, const QueryOptions<Scalar>& options, QueryStatistics* statistics) \
+      const noexcept {                                                                                                 \
+    find_each_any(paths, blocked, &executor, options, statistics);                                                     \
   }
 SUREHIT_BATCH(Segment)
 SUREHIT_BATCH(Ray)

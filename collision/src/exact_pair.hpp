@@ -46,9 +46,8 @@ class ExactPair {
   [[nodiscard]] std::optional<Contact> find(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights) {
     if (is_zero(d_)) return standing_point(range, t, weights);
     if (std::optional<Contact> contact; crosses_plane(range, t, weights, contact)) return contact;
-    const Plane plane = find_plane();
-    if (plane.is_degenerate) return along_degenerate(range, t, weights);
-    return plane.contains_start ? along_plane(plane, range, t, weights) : std::nullopt;
+    if (std::optional<Contact> contact; is_parallel_to_plane(range, t, weights, contact)) return contact;
+    return along_degenerate(range, t, weights);
   }
 
  private:
@@ -104,24 +103,42 @@ class ExactPair {
   /// det ≠ 0: one parameter T / det, weights U / det and V / det. False if det = 0 and nothing is decided.
   [[gnu::noinline]] bool crosses_plane(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights,
                                        std::optional<Contact>& contact) {
+    const Crossing crossing = cross_plane(t);
+    if (crossing == Crossing::none) return false;
+    if (crossing == Crossing::beside) return true;
+    contact = cut(t, t, range, t);
+    if (!contact) return true;
+    contact->side = crossing == Crossing::from_front ? Side::front : Side::back;
+    if (weights != nullptr) *weights = crossing_weights();
+    return true;
+  }
+
+  /// How the path's whole line meets the triangle's plane.
+  enum class Crossing { none, beside, from_front, from_back };
+
+  [[gnu::noinline]] Crossing cross_plane(Parameter& t) const {
     WideInt<B::det> det;
     WideInt<B::det> u;
     WideInt<B::det> v;
     set_determinants(det, u, v, t);
-    if (det.is_zero()) return false;
+    if (det.is_zero()) return Crossing::none;
     const int side = det.sign();
-    if (u.sign() * side < 0 || v.sign() * side < 0) return true;
-    {
-      WideInt<B::weight> w = det;
-      w.add(u, true);
-      w.add(v, true);
-      if (w.sign() * side < 0) return true;
-    }
-    contact = cut(t, t, range, t);
-    if (!contact) return true;
-    contact->side = side > 0 ? Side::front : Side::back;
-    if (weights != nullptr) *weights = {rounded_quotient<Scalar>(u, det), rounded_quotient<Scalar>(v, det)};
-    return true;
+    if (u.sign() * side < 0 || v.sign() * side < 0) return Crossing::beside;
+    WideInt<B::weight> w = det;
+    w.add(u, true);
+    w.add(v, true);
+    if (w.sign() * side < 0) return Crossing::beside;
+    return side > 0 ? Crossing::from_front : Crossing::from_back;
+  }
+
+  /// Worked out once more than need be, so that the determinants are off the stack while t is cut to the range.
+  [[gnu::noinline]] Weights<Scalar> crossing_weights() const {
+    WideInt<B::det> det;
+    WideInt<B::det> u;
+    WideInt<B::det> v;
+    Parameter t;
+    set_determinants(det, u, v, t);
+    return {rounded_quotient<Scalar>(u, det), rounded_quotient<Scalar>(v, det)};
   }
 
   [[gnu::noinline]] void set_determinants(WideInt<B::det>& det, WideInt<B::det>& u, WideInt<B::det>& v,
@@ -134,6 +151,15 @@ class ExactPair {
     set_dot(v, d_, cross);
     set_dot(t.num, e2_, cross);
     t.set(t.num, det);
+  }
+
+  /// det = 0. False if the triangle spans no plane, and nothing is decided.
+  [[gnu::noinline]] bool is_parallel_to_plane(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights,
+                                              std::optional<Contact>& contact) {
+    const Plane plane = find_plane();
+    if (plane.is_degenerate) return false;
+    if (plane.contains_start) contact = along_plane(plane, range, t, weights);
+    return true;
   }
 
   /// A path in the plane of a triangle that spans it. The line's weights run linearly, u (t) = (su + t du) / n and so
@@ -193,15 +219,8 @@ class ExactPair {
   [[gnu::noinline]] std::optional<Contact> cut_to_weights(std::size_t axis, const WideInt<B::cross>& n,
                                                           const PathRange<Scalar>& range, PlaneParameter& t) {
     Interval interval;
-    PlaneTerm s;
-    PlaneTerm d;
     for (const PlaneWeight which : {PlaneWeight::u, PlaneWeight::v, PlaneWeight::w}) {
-      set_weight(which, axis, n, s, d);
-      if (n.sign() < 0) {
-        s.negate();
-        d.negate();
-      }
-      if (!interval.bound(s, d)) return std::nullopt;
+      if (!bound_by(which, axis, n, interval)) return std::nullopt;
     }
     if (compare(interval.first, interval.last) > 0) return std::nullopt;
     return cut(interval.first, interval.last, range, t);
@@ -227,6 +246,18 @@ class ExactPair {
       return true;
     }
   };
+
+  [[gnu::noinline]] bool bound_by(PlaneWeight which, std::size_t axis, const WideInt<B::cross>& n,
+                                  Interval& interval) const {
+    PlaneTerm s;
+    PlaneTerm d;
+    set_weight(which, axis, n, s, d);
+    if (n.sign() < 0) {
+      s.negate();
+      d.negate();
+    }
+    return interval.bound(s, d);
+  }
 
   template <int X, int Y>
   static WideInt<X + Y + 1> cross_component(const WideVector<X>& x, const WideVector<Y>& y, std::size_t axis) {
@@ -273,8 +304,10 @@ class ExactPair {
   template <int N, int D>
   [[gnu::noinline]] static Weights<Scalar> span_weights(const Span& span, const WideInt<N>& num,
                                                         const WideInt<D>& den) {
-    const Scalar greatest = rounded_quotient<Scalar>(num, den);
-    const Scalar least = rounded_quotient<Scalar>(den - num, den);
+    return span_weights(span, rounded_quotient<Scalar>(num, den), rounded_quotient<Scalar>(den - num, den));
+  }
+
+  static Weights<Scalar> span_weights(const Span& span, Scalar greatest, Scalar least) {
     const auto of = [&](int corner) {
       return corner == span.greatest ? greatest : corner == span.least ? least : Scalar{0};
     };
@@ -333,9 +366,13 @@ class ExactPair {
                                                               const WideInt<B::difference>& g,
                                                               const WideInt<B::difference>& d,
                                                               const PlaneParameter& t) {
-    WideInt<B::difference + B::cross + 4> w = r * t.den;
+    WideInt<B::difference + B::cross + 5> w = r * t.den;
     w.add(d * t.num);
-    return span_weights(ends, w, g * t.den);
+    const auto den = g * t.den;
+    const Scalar greatest = rounded_quotient<Scalar>(w, den);
+    w.negate();  // and den - w in the same place: the stack is short here
+    w.add(den);
+    return span_weights(ends, greatest, rounded_quotient<Scalar>(w, den));
   }
 
   /// Two lines that cross, if they are in one plane: r + t d = w g, so that t = (r × g)·axis / (g × d)·axis and

@@ -80,13 +80,9 @@ struct Ratio {
 
 /// The sign of x_num / x_den - y_num / y_den; both denominators are positive.
 template <int XN, int XD, int YN, int YD>
-[[gnu::noinline]] int compare(const WideInt<XN>& x_num, const WideInt<XD>& x_den, const WideInt<YN>& y_num,
-                              const WideInt<YD>& y_den) {
+int compare(const WideInt<XN>& x_num, const WideInt<XD>& x_den, const WideInt<YN>& y_num, const WideInt<YD>& y_den) {
   if (x_num.sign() != y_num.sign()) return x_num.sign() < y_num.sign() ? -1 : 1;
-  WideInt<std::max(XN + YD, YN + XD) + 1> difference;
-  difference.set_product(x_num, y_den);
-  difference.add(y_num * x_den, true);
-  return difference.sign();
+  return x_num.sign() * compare_products(x_num, y_den, y_num, x_den);
 }
 
 /// The sign of x - y.

@@ -10,11 +10,13 @@ std::optional<Hit<Scalar>> intersect(const std::type_identity_t<Path<Scalar>>& p
                                      const std::type_identity_t<QueryOptions<Scalar>>& options) noexcept {
   const FloatingPointEnvironment environment;
   QueryStatistics statistics;
-  const detail::Narrowphase<Scalar> narrowphase(path, options, statistics);
-  if (narrowphase.admits_nothing() || !detail::is_finite(triangle)) return std::nullopt;
-  const std::optional<detail::Contact> contact = narrowphase.contact(triangle);
-  if (!contact) return std::nullopt;
-  return narrowphase.hit({&triangle, 0, *contact});
+  const Path<Scalar>& whole = path;
+  const detail::PathRange<Scalar> range(whole, options);
+  if (!detail::is_finite(whole) || range.is_empty() || !detail::is_finite(triangle)) return std::nullopt;
+  const detail::Narrowphase<Scalar> narrowphase(whole, options, range, statistics);
+  detail::Candidate<Scalar> candidate{0, triangle, {}};
+  if (!narrowphase.find_contact(triangle, candidate.bounded)) return std::nullopt;
+  return narrowphase.hit(candidate);
 }
 
 template std::optional<Hit<float>> intersect(const Path<float>&, const Triangle<float>&,

@@ -1,10 +1,22 @@
 #include "narrowphase.hpp"
 
-#include "bounded_contact.hpp"
 #include "exact_contact.hpp"
 
 namespace surehit::detail {
 namespace {
+
+/// Whether both triangles lie in one plane that is square to an axis. A path that crosses it meets both at the same t.
+template <typename Scalar>
+bool share_axis_plane(const Triangle<Scalar>& x, const Triangle<Scalar>& y) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Scalar height = x.a[axis];
+    if (x.b[axis] == height && x.c[axis] == height && y.a[axis] == height && y.b[axis] == height &&
+        y.c[axis] == height) {
+      return true;
+    }
+  }
+  return false;
+}
 
 /// Rounds a quotient if all that its bounds allow rounds to the same number (Ziv 1991).
 template <typename Scalar>
@@ -14,51 +26,32 @@ bool try_round(const Bounded& numerator, const Bounded& denominator, Scalar& rou
   return static_cast<Scalar>(lower) == rounded;
 }
 
+template <typename Scalar>
+bool try_round(const BoundedContact& contact, Hit<Scalar>& hit) {
+  return contact.verdict == Verdict::hit && try_round(contact.height, contact.det, hit.t) &&
+         try_round(contact.u_scaled, contact.det, hit.u) && try_round(contact.v_scaled, contact.det, hit.v);
+}
+
 }  // namespace
 
 template <typename Scalar>
-Narrowphase<Scalar>::Narrowphase(const Path<Scalar>& path, const QueryOptions<Scalar>& options,
-                                 QueryStatistics& statistics)
-    : path_(path),
-      options_(options),
-      statistics_(statistics),
-      range_(path, options),
-      kernel_(path, range_),
-      admits_nothing_(!is_finite(path) || range_.is_empty()),
-      every_hit_counts_(options.culling == Culling::none && !options.ignore_start_contact &&
-                        !options.ignore_end_contact) {
-  ++statistics.paths;
+bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, BoundedContact& found) const {
+  found = double_contact(path_, triangle, range_);
+  if (found.verdict == Verdict::miss) return false;
+  if (found.verdict == Verdict::undecided && !find_exactly(triangle, found)) return false;
+  return admits(found.contact);
 }
 
+// Apart, and so are the other two exact steps: their frames are large, and those of the grid's walk lie above them.
 template <typename Scalar>
-std::optional<Contact> Narrowphase<Scalar>::contact(const Triangle<Scalar>& triangle) const {
-  ++statistics_.candidates;
-  const Verdict verdict = kernel_.classify(triangle);
-  if (verdict == Verdict::miss) return std::nullopt;
-  if (verdict == Verdict::undecided) ++statistics_.undecided;
-  return resolve(triangle);
-}
-
-template <typename Scalar>
-bool Narrowphase<Scalar>::meets(const Triangle<Scalar>& triangle) const {
-  ++statistics_.candidates;
-  const Verdict verdict = kernel_.classify(triangle);
-  if (verdict == Verdict::miss) return false;
-  if (verdict == Verdict::hit && every_hit_counts_) return true;
-  if (verdict == Verdict::undecided) ++statistics_.undecided;
-  return resolve(triangle).has_value();
-}
-
-template <typename Scalar>
-std::optional<Contact> Narrowphase<Scalar>::resolve(const Triangle<Scalar>& triangle) const {
-  const BoundedContact bounded = bounded_contact(path_, triangle, range_);
-  if (bounded.verdict == Verdict::miss) return std::nullopt;
-  std::optional<Contact> contact = bounded.contact;
-  if (bounded.verdict == Verdict::undecided) {
-    ++statistics_.exact_decisions;
-    contact = exact_contact(path_, triangle, range_);
-  }
-  return contact && admits(*contact) ? contact : std::nullopt;
+[[gnu::noinline]] bool Narrowphase<Scalar>::find_exactly(const Triangle<Scalar>& triangle,
+                                                         BoundedContact& found) const {
+  found = bounded_contact(path_, triangle, range_);
+  if (found.verdict != Verdict::undecided) return found.verdict == Verdict::hit;
+  ++statistics_.exact_decisions;
+  const std::optional<Contact> contact = exact_contact(path_, triangle, range_);
+  if (contact) found.contact = *contact;
+  return contact.has_value();
 }
 
 template <typename Scalar>
@@ -71,26 +64,39 @@ bool Narrowphase<Scalar>::admits(const Contact& contact) const {
 }
 
 template <typename Scalar>
-bool Narrowphase<Scalar>::comes_before(const Candidate& x, const Candidate& y) const {
-  if (x.contact.t_upper < y.contact.t_lower) return true;
-  if (y.contact.t_upper < x.contact.t_lower) return false;
+bool Narrowphase<Scalar>::comes_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const {
+  if (x.contact().t_upper < y.contact().t_lower) return true;
+  if (y.contact().t_upper < x.contact().t_lower) return false;
+  // The usual tie in a level: floors that lie on floors. Where both sides are certain, both are crossed.
+  if (x.contact().side != Side::edge_on && y.contact().side != Side::edge_on &&
+      share_axis_plane(x.triangle, y.triangle)) {
+    return x.id < y.id;
+  }
+  return exactly_before(x, y);
+}
+
+template <typename Scalar>
+[[gnu::noinline]] bool Narrowphase<Scalar>::exactly_before(const Candidate<Scalar>& x,
+                                                           const Candidate<Scalar>& y) const {
   ++statistics_.exact_orders;
-  const auto order = exact_order(path_, *x.triangle, *y.triangle, range_);
+  const auto order = exact_order(path_, x.triangle, y.triangle, range_);
   return order != 0 ? order < 0 : x.id < y.id;
 }
 
 template <typename Scalar>
-Hit<Scalar> Narrowphase<Scalar>::hit(const Candidate& candidate) const {
+Hit<Scalar> Narrowphase<Scalar>::hit(const Candidate<Scalar>& candidate) const {
   Hit<Scalar> hit;
   hit.triangle = candidate.id;
-  hit.side = candidate.contact.side;
-  const BoundedContact bounded = bounded_contact(path_, *candidate.triangle, range_);
-  if (bounded.verdict != Verdict::hit || !try_round(bounded.height, bounded.det, hit.t) ||
-      !try_round(bounded.u_scaled, bounded.det, hit.u) || !try_round(bounded.v_scaled, bounded.det, hit.v)) {
-    ++statistics_.exact_roundings;
-    exact_rounding(path_, *candidate.triangle, range_, hit);
-  }
+  hit.side = candidate.contact().side;
+  if (!try_round(candidate.bounded, hit)) round_exactly(candidate, hit);
   return hit;
+}
+
+template <typename Scalar>
+[[gnu::noinline]] void Narrowphase<Scalar>::round_exactly(const Candidate<Scalar>& candidate, Hit<Scalar>& hit) const {
+  if (try_round(bounded_contact(path_, candidate.triangle, range_), hit)) return;
+  ++statistics_.exact_roundings;
+  exact_rounding(path_, candidate.triangle, range_, hit);
 }
 
 template class Narrowphase<float>;

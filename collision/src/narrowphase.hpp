@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "bounded_contact.hpp"
 #include "contact.hpp"
-#include "moller_trumbore.hpp"
 #include "path_range.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/path.hpp"
@@ -14,44 +14,44 @@
 
 namespace surehit::detail {
 
-/// One path, asked against triangle after triangle: the kernel first, what it leaves undecided in double with error
-/// bounds, and what that leaves undecided exactly.
+/// A triangle that a path meets.
+template <typename Scalar>
+struct Candidate {
+  std::uint32_t id = no_triangle;
+  Triangle<Scalar> triangle;
+  BoundedContact bounded;  ///< its verdict is a hit, unless only the exact stage could tell
+
+  [[nodiscard]] const Contact& contact() const { return bounded.contact; }
+};
+
+/// One path, asked against triangles that the kernel did not call misses: in double first, what that leaves undecided
+/// with running error bounds, and what they leave undecided exactly.
 template <typename Scalar>
 class Narrowphase {
  public:
-  Narrowphase(const Path<Scalar>& path, const QueryOptions<Scalar>& options, QueryStatistics& statistics);
+  Narrowphase(const Path<Scalar>& path, const QueryOptions<Scalar>& options, const PathRange<Scalar>& range,
+              QueryStatistics& statistics)
+      : path_(path), options_(options), range_(range), statistics_(statistics) {}
 
-  /// Whether nothing can be hit: the path is not finite, or the options admit no parameter.
-  [[nodiscard]] bool admits_nothing() const { return admits_nothing_; }
-  [[nodiscard]] const PathRange<Scalar>& range() const { return range_; }
+  /// Fills in the contact, unless there is none or the options leave it out.
+  [[nodiscard]] bool find_contact(const Triangle<Scalar>& triangle, BoundedContact& found) const;
 
-  /// The contact, unless the options leave it out.
-  [[nodiscard]] std::optional<Contact> contact(const Triangle<Scalar>& triangle) const;
-  /// Whether there is one; it need not be located.
-  [[nodiscard]] bool meets(const Triangle<Scalar>& triangle) const;
-
-  struct Candidate {
-    const Triangle<Scalar>* triangle = nullptr;
-    std::uint32_t id = no_triangle;
-    Contact contact;
-  };
   /// By exact t, then by id.
-  [[nodiscard]] bool comes_before(const Candidate& x, const Candidate& y) const;
+  [[nodiscard]] bool comes_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const;
 
   /// A contact as it is reported: t, u and v rounded once.
-  [[nodiscard]] Hit<Scalar> hit(const Candidate& candidate) const;
+  [[nodiscard]] Hit<Scalar> hit(const Candidate<Scalar>& candidate) const;
 
  private:
   [[nodiscard]] bool admits(const Contact& contact) const;
-  [[nodiscard]] std::optional<Contact> resolve(const Triangle<Scalar>& triangle) const;
+  [[nodiscard]] bool find_exactly(const Triangle<Scalar>& triangle, BoundedContact& found) const;
+  [[nodiscard]] bool exactly_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const;
+  void round_exactly(const Candidate<Scalar>& candidate, Hit<Scalar>& hit) const;
 
   const Path<Scalar>& path_;
   const QueryOptions<Scalar>& options_;
+  const PathRange<Scalar>& range_;
   QueryStatistics& statistics_;
-  PathRange<Scalar> range_;
-  MollerTrumbore<Scalar> kernel_;
-  bool admits_nothing_;
-  bool every_hit_counts_;  ///< no option looks at the side or at the path's ends
 };
 
 }  // namespace surehit::detail

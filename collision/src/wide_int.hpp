@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -174,6 +175,27 @@ class WideInt {
     return 0;
   }
 
+  /// Digit `index` of |a b|, where `carry` holds what the lower digits have carried so far: products are added column
+  /// by column (Comba 1990), so that a product can be read without room to store it.
+  template <int B>
+  [[nodiscard]] std::uint64_t next_product_digit(const WideInt<B>& b, int index,
+                                                 std::array<std::uint64_t, 2>& carry) const {
+    Uint128 low = carry[0];
+    Uint128 high = carry[1];
+    for (int i = std::max(0, index - b.size_ + 1); i < std::min(size_, index + 1); ++i) {
+      const Uint128 product = Uint128{limb_[i]} * b.limb_[index - i];
+      low += static_cast<std::uint64_t>(product);
+      high += static_cast<std::uint64_t>(product >> 64);
+    }
+    high += low >> 64;
+    carry = {static_cast<std::uint64_t>(high), static_cast<std::uint64_t>(high >> 64)};
+    return static_cast<std::uint64_t>(low);
+  }
+
+  /// -1, 0 or 1 as |a b| is less than, equal to or greater than |c d|.
+  template <int A, int B, int C, int D>
+  friend int compare_products(const WideInt<A>& a, const WideInt<B>& b, const WideInt<C>& c, const WideInt<D>& d);
+
  private:
   template <int>
   friend class WideInt;
@@ -219,6 +241,19 @@ class WideInt {
   bool negative_ = false;
   std::uint64_t limb_[capacity];  ///< least significant first; those from size_ on are not set
 };
+
+template <int A, int B, int C, int D>
+int compare_products(const WideInt<A>& a, const WideInt<B>& b, const WideInt<C>& c, const WideInt<D>& d) {
+  std::array<std::uint64_t, 2> first_carry = {0, 0};
+  std::array<std::uint64_t, 2> second_carry = {0, 0};
+  int order = 0;
+  for (int index = 0; index < std::max(a.size_ + b.size_, c.size_ + d.size_); ++index) {
+    const std::uint64_t first = a.next_product_digit(b, index, first_carry);
+    const std::uint64_t second = c.next_product_digit(d, index, second_carry);
+    if (first != second) order = first < second ? -1 : 1;  // a higher digit outweighs the lower ones
+  }
+  return order;
+}
 
 template <int A, int B>
 [[nodiscard]] WideInt<A + B> operator*(const WideInt<A>& a, const WideInt<B>& b) {

@@ -1,12 +1,14 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 #include "support/exact_cells.hpp"
+#include "support/random.hpp"
 #include "support/scalars.hpp"
 #include "surehit/grid.hpp"
 
@@ -34,6 +36,8 @@ class GridFrameTest : public testing::Test {
         box({0, 0, 0}, {0, 0, 0}),
         box({1e30F, -1e30F, 0}, {1e30F, -1e30F, 0}),
         box({0, 0, 7}, {1, 1, 7}),
+        box({0, 0, 7}, {1, 1, 7 + 0x1p-18F}),
+        box({0, 0, 7}, {1, 1, 7 + 0x1p-21F}),
         box({-largest, -largest, -largest}, {largest, largest, largest}),
         box({-largest, 0, -1}, {largest, least, 1}),
         box({0, 0, 0}, {least, least, least}),
@@ -46,23 +50,32 @@ class GridFrameTest : public testing::Test {
 };
 TYPED_TEST_SUITE(GridFrameTest, Scalars, ScalarNames);
 
-constexpr double padding = GridFrame::padding;
-
-TYPED_TEST(GridFrameTest, BoxFillsTheUnitCubeAndLiesInsideTheOuterPlanes) {
+TYPED_TEST(GridFrameTest, BoxLiesInsideTheOuterPlanesByTwoPaddings) {
   for (const auto& box : this->boxes()) {
-    const GridFrame frame = GridFrame::around(box, {5, 6, 7});
-    mpq_class widest = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const mpq_class low = in_frame(frame, box.low)[axis];
-      const mpq_class high = in_frame(frame, box.high)[axis];
-      EXPECT_LE(abs(low), 0x1p-1000) << "the origin is the low corner";
-      EXPECT_LE(high, 1);
-      EXPECT_GE(mpq_class(low - mpq_class(frame.plane(axis, 0))), 1.5 * padding);
-      EXPECT_GE(mpq_class(mpq_class(frame.plane(axis, frame.resolution[axis])) - high), 1.5 * padding);
-      widest = std::max(widest, mpq_class(high - low));
+    for (const std::uint32_t division : {1U, 4U, 16U}) {
+      const GridFrame frame = GridFrame::around(box, {5, 6, 7}, division);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const mpq_class low = in_frame(frame, box.low)[axis];
+        const mpq_class high = in_frame(frame, box.high)[axis];
+        const double resolution = frame.resolution(axis);
+        EXPECT_GE(low, 1.999 * frame.padding(axis));
+        EXPECT_LE(high, resolution - 1.999 * frame.padding(axis));
+      }
     }
-    if ((box.high - box.low).maxCoeff() > 3 * std::numeric_limits<TypeParam>::denorm_min()) {
-      EXPECT_GE(widest, 0.25);
+  }
+}
+
+TYPED_TEST(GridFrameTest, BoxFillsTheGridWhereItIsWideEnough) {
+  for (const auto& box : this->boxes()) {
+    const GridFrame frame = GridFrame::around(box, {5, 6, 7}, 4);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (frame.cells[axis] == 1) continue;
+      const mpq_class width = in_frame(frame, box.high)[axis] - in_frame(frame, box.low)[axis];
+      EXPECT_GE(width, frame.resolution(axis) * 0.9999);
+    }
+    const auto i = (box.high / 2 - box.low / 2).maxCoeff();
+    if (i > std::numeric_limits<TypeParam>::denorm_min()) {
+      EXPECT_GT(*std::max_element(frame.cells.begin(), frame.cells.end()), 1U) << "the longest axis is divided";
     }
   }
 }
@@ -70,13 +83,15 @@ TYPED_TEST(GridFrameTest, BoxFillsTheUnitCubeAndLiesInsideTheOuterPlanes) {
 TYPED_TEST(GridFrameTest, PaddingIsAtMostASixteenthOfACellWhateverIsWished) {
   for (const auto& box : this->boxes()) {
     for (const double wish : {1.0, 100.0, 1e6, 1e12, 1e300, std::numeric_limits<double>::infinity()}) {
-      const GridFrame frame = GridFrame::around(box, {wish, wish, wish});
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        ASSERT_GE(frame.resolution[axis], 1U);
-        const std::uint32_t last = frame.resolution[axis];
-        for (const std::uint32_t cell : {std::uint32_t{0}, last / 2, last - 1}) {
-          const double size = frame.plane(axis, cell + 1) - frame.plane(axis, cell);
-          EXPECT_GE(size, 16 * padding * (1 - 0x1p-18)) << "but for the rounding of planes near 1";
+      for (const std::uint32_t division : {1U, 4U, 16U}) {
+        const GridFrame frame = GridFrame::around(box, {wish, wish, wish}, division);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          EXPECT_EQ(frame.division, division);
+          EXPECT_GE(frame.cells[axis], 1U);
+          EXPECT_EQ(frame.resolution(axis), frame.cells[axis] * division);
+          EXPECT_LE(frame.resolution(axis), std::uint32_t{1} << 15);
+          EXPECT_LE(16 * frame.padding(axis), 1);
+          EXPECT_GE(frame.padding(axis), 32 * 0x1p-24 * frame.resolution(axis)) << "what the roundings may add up to";
         }
       }
     }
@@ -84,62 +99,76 @@ TYPED_TEST(GridFrameTest, PaddingIsAtMostASixteenthOfACellWhateverIsWished) {
 }
 
 TYPED_TEST(GridFrameTest, HasTheResolutionThatIsWishedWherePaddingAllows) {
-  const GridFrame frame = GridFrame::around(this->box({0, 0, 3}, {2, 1, 3}), {5, 1000, 8});
-  EXPECT_EQ(frame.resolution, (std::array<std::uint32_t, 3>{5, 1000, 1})) << "a flat axis has one cell";
-  const GridFrame fractional = GridFrame::around(this->box({0, 0, 0}, {1, 1, 1}), {0, 0.5, 2.9});
-  EXPECT_EQ(fractional.resolution, (std::array<std::uint32_t, 3>{1, 1, 2}));
+  const GridFrame frame = GridFrame::around(this->box({0, 0, 3}, {2, 1, 3}), {5, 1000, 8}, 16);
+  EXPECT_EQ(frame.cells, (std::array<std::uint32_t, 3>{5, 1000, 1})) << "a flat axis has one cell";
+  EXPECT_EQ(frame.resolution(1), 16'000U);
+  const GridFrame fractional = GridFrame::around(this->box({0, 0, 0}, {1, 1, 1}), {0, 0.5, 2.9}, 1);
+  EXPECT_EQ(fractional.cells, (std::array<std::uint32_t, 3>{1, 1, 2}));
+  const GridFrame fine = GridFrame::around(this->box({0, 0, 0}, {1, 1, 1}), {1e9, 1e9, 1e9}, 16);
+  EXPECT_EQ(fine.cells, (std::array<std::uint32_t, 3>{2048, 2048, 2048}));
 }
 
-TYPED_TEST(GridFrameTest, PlanesRiseEvenly) {
+/// What is multiplied by the scale in float is multiplied by the same number as in double.
+TYPED_TEST(GridFrameTest, ScaleIsAFloat) {
   for (const auto& box : this->boxes()) {
-    const GridFrame frame = GridFrame::around(box, {300, 300, 300});
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::uint32_t cell = 0; cell < frame.resolution[axis]; ++cell) {
-        const double size = frame.plane(axis, cell + 1) - frame.plane(axis, cell);
-        ASSERT_GT(size, 0);
-        ASSERT_NEAR(size, frame.cell_size[axis], 0x1p-50);
+    for (const std::uint32_t division : {1U, 16U}) {
+      for (const double scale : GridFrame::around(box, {5, 600, 7}, division).scale) {
+        EXPECT_GT(scale, 0);
+        EXPECT_EQ(double{static_cast<float>(scale)}, scale);
       }
     }
   }
 }
 
-TYPED_TEST(GridFrameTest, CellAtStandsBetweenItsPlanes) {
+/// The padding gives a vertex three roundings of float; in double it takes far less until it is rounded at last.
+TYPED_TEST(GridFrameTest, PlacesWithFewRoundings) {
+  Random random(20240229);
   for (const auto& box : this->boxes()) {
-    const GridFrame frame = GridFrame::around(box, {300, 7, 1e6});
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t count = frame.resolution[axis];
-      for (std::uint32_t plane = 0; plane <= count; plane += 1 + count / 1000) {
-        const double on = frame.plane(axis, plane);
-        for (const double x :
-             {std::nextafter(on, -1.0), on, std::nextafter(on, 2.0), on + 0.3 * frame.cell_size[axis]}) {
-          const std::uint32_t cell = frame.cell_at(axis, x);
-          ASSERT_LT(cell, count);
-          EXPECT_TRUE(cell == 0 || frame.plane(axis, cell) <= x) << cell << " for " << x;
-          EXPECT_TRUE(cell == count - 1 || x <= frame.plane(axis, cell + 1)) << cell << " for " << x;
-        }
+    const GridFrame frame = GridFrame::around(box, {300, 7, 1e6}, 4);
+    for (int i = 0; i < 300; ++i) {
+      Vector3<TypeParam> point;
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const TypeParam weight = random.unit<TypeParam>();
+        point[k] = std::clamp(box.low[k] * (1 - weight) + box.high[k] * weight, box.low[k], box.high[k]);
+      }
+      const ExactPoint exact = in_frame(frame, point);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double placed = frame.place(axis, frame.scaled(point[static_cast<Eigen::Index>(axis)]));
+        const double resolution = frame.resolution(axis);
+        EXPECT_LE(abs(mpq_class(placed) - exact[axis]), 0x1p-29 * resolution);
+        const double rounded = static_cast<float>(placed);
+        EXPECT_LE(abs(mpq_class(rounded) - exact[axis]), 1.5 * 0x1p-24 * resolution);
+        EXPECT_GE(placed, 0);
+        EXPECT_LE(placed, resolution);
       }
     }
-  }
-}
-
-TYPED_TEST(GridFrameTest, CellAtIsTheFirstOrTheLastForWhatLiesOutside) {
-  const GridFrame frame = GridFrame::around(this->box({0, 0, 0}, {1, 1, 1}), {300, 7, 1});
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const double x : {-0.1, -1e10, -1e300, -infinity}) EXPECT_EQ(frame.cell_at(axis, x), 0U);
-    for (const double x : {1.1, 1e10, 1e300, infinity}) EXPECT_EQ(frame.cell_at(axis, x), frame.resolution[axis] - 1);
-    EXPECT_LT(frame.cell_at(axis, std::numeric_limits<double>::quiet_NaN()), frame.resolution[axis]);
   }
 }
 
 TYPED_TEST(GridFrameTest, ScalesByAPowerOfTwo) {
-  const GridFrame large = GridFrame::around(this->box({0, 0, 0}, {1000, 1, 1}), {1, 1, 1});
+  const GridFrame large = GridFrame::around(this->box({0, 0, 0}, {1000, 1, 1}), {1, 1, 1}, 1);
   EXPECT_EQ(large.scaled(1000), 1000 * std::ldexp(1.0, large.exponent));
   EXPECT_EQ(large.scaled(0), 0);
   EXPECT_LT(large.exponent, 0);
-  const GridFrame small = GridFrame::around(this->box({0, 0, 0}, {0x1p-100F, 0, 0}), {1, 1, 1});
+  const GridFrame small = GridFrame::around(this->box({0, 0, 0}, {0x1p-100F, 0, 0}), {1, 1, 1}, 1);
   EXPECT_EQ(small.scaled(0x1p-100), std::ldexp(1.0, small.exponent - 100));
   EXPECT_GT(small.exponent, 0);
+}
+
+TYPED_TEST(GridFrameTest, BringsEveryBoxToASizeOfAboutOne) {
+  for (const auto& box : this->boxes()) {
+    const GridFrame frame = GridFrame::around(box, {1, 1, 1}, 1);
+    mpq_class widest = 0;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const mpq_class width =
+          scaled_exactly(box.high[axis], frame.exponent) - scaled_exactly(box.low[axis], frame.exponent);
+      EXPECT_LE(width, 1);
+      widest = std::max(widest, width);
+    }
+    if ((box.high / 2 - box.low / 2).maxCoeff() > std::numeric_limits<TypeParam>::denorm_min()) {
+      EXPECT_GE(widest, 0.25);
+    }
+  }
 }
 
 }  // namespace

@@ -37,7 +37,13 @@ class BoundedContactOfFamily : public testing::TestWithParam<PairFamily> {
     keep_limits_alone(options);
     const PathRange<Scalar> range(path, options);
     if (range.is_empty()) return;
-    const BoundedContact bounded = detail::bounded_contact(path, triangle, range);
+    expect_true(detail::bounded_contact(path, triangle, range), path, triangle, options);
+    expect_true(detail::double_contact(path, triangle, range), path, triangle, options);
+  }
+
+  template <typename Scalar>
+  static void expect_true(const BoundedContact& bounded, const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                          const QueryOptions<Scalar>& options) {
     if (bounded.verdict == Verdict::undecided) return;
     SCOPED_TRACE(hex_text(path) + hex_text(triangle) + hex_text(options));
     const auto truth = exact_contact(path, triangle, options);
@@ -113,6 +119,64 @@ TYPED_TEST(BoundedContactOf, leaves_a_parameter_beyond_double_undecided) {
     const BoundedContact contact = this->contact_of(Ray<TypeParam>{{0, 0, 0}, {0, 0, 1e-45f}}, triangle);
     EXPECT_EQ(contact.verdict, Verdict::hit);
     EXPECT_GT(contact.contact.t_lower, double{std::numeric_limits<TypeParam>::max()});
+  }
+}
+
+template <typename Scalar>
+class DoubleContactOf : public testing::Test {
+ protected:
+  static BoundedContact contact_of(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                   const QueryOptions<Scalar>& options = {}) {
+    return detail::double_contact(path, triangle, PathRange<Scalar>(path, options));
+  }
+};
+TYPED_TEST_SUITE(DoubleContactOf, Scalars, ScalarNames);
+
+TYPED_TEST(DoubleContactOf, settles_nearly_all_random_pairs) {
+  Random random(14);
+  const std::size_t pairs = case_count(10'000);
+  std::size_t undecided = 0;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const auto point = [&]() -> Vector3<TypeParam> {
+      return Vector3<TypeParam>::NullaryExpr([&] { return random.symmetric<TypeParam>(); });
+    };
+    const Triangle<TypeParam> triangle{point(), point(), point()};
+    undecided += this->contact_of(Segment<TypeParam>{point(), point()}, triangle).verdict == Verdict::undecided;
+  }
+  EXPECT_LE(undecided, pairs / 1000);
+}
+
+TYPED_TEST(DoubleContactOf, knows_side_and_parameter_of_a_clear_hit) {
+  const Triangle<TypeParam> triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  const BoundedContact down = this->contact_of(Segment<TypeParam>{{1, 1, 1}, {1, 1, -3}}, triangle);
+  ASSERT_EQ(down.verdict, Verdict::hit);
+  EXPECT_EQ(down.contact.side, Side::front);
+  EXPECT_LE(down.contact.t_lower, 0.25);
+  EXPECT_GE(down.contact.t_upper, 0.25);
+  EXPECT_LT(down.contact.t_upper - down.contact.t_lower, 1e-12);
+  const BoundedContact up = this->contact_of(Segment<TypeParam>{{1, 1, -3}, {1, 1, 1}}, triangle);
+  ASSERT_EQ(up.verdict, Verdict::hit);
+  EXPECT_EQ(up.contact.side, Side::back);
+}
+
+/// A bound known beforehand is never 0, so no zero is certain.
+TYPED_TEST(DoubleContactOf, leaves_edges_ends_and_planes_undecided) {
+  const Triangle<TypeParam> triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  for (const Segment<TypeParam>& segment :
+       {Segment<TypeParam>{{2, 0, -1}, {2, 0, 1}}, Segment<TypeParam>{{1, 1, 0}, {1, 1, 5}},
+        Segment<TypeParam>{{1, 1, 5}, {1, 1, 0}}, Segment<TypeParam>{{-1, 1, 0}, {5, 1, 0}}}) {
+    EXPECT_EQ(this->contact_of(segment, triangle).verdict, Verdict::undecided);
+  }
+}
+
+TYPED_TEST(DoubleContactOf, leaves_what_is_too_large_for_its_bound_undecided) {
+  const Triangle<TypeParam> triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  const Ray<TypeParam> ray{{1, 1, -1}, {0, 0, 1}};
+  EXPECT_EQ(this->contact_of(ray, triangle, {.max_t = 65536}).verdict, Verdict::hit);
+  EXPECT_EQ(this->contact_of(ray, triangle, {.max_t = 65537}).verdict, Verdict::undecided);
+  if constexpr (std::is_same_v<TypeParam, double>) {
+    EXPECT_EQ(this->contact_of(Ray<TypeParam>{{1, 1, -1}, {0, 0, 1e300}}, triangle).verdict, Verdict::undecided);
+    EXPECT_EQ(this->contact_of(ray, {{0, 0, 0}, {4, 0, 0}, {0, 1e300, 0}}).verdict, Verdict::undecided);
   }
 }
 

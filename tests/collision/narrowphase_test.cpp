@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <type_traits>
 
@@ -19,8 +21,11 @@
 namespace surehit::test {
 namespace {
 
+using detail::Candidate;
 using detail::Contact;
 using detail::Narrowphase;
+using detail::PathRange;
+using detail::Verdict;
 
 class NarrowphaseOfFamily : public testing::TestWithParam<PairFamily> {
  protected:
@@ -34,22 +39,27 @@ class NarrowphaseOfFamily : public testing::TestWithParam<PairFamily> {
                                    const QueryOptions<Scalar>& options) {
     SCOPED_TRACE(hex_text(path) + hex_text(triangle) + hex_text(options));
     const auto truth = exact_contact(path, triangle, options);
-    QueryStatistics statistics;
-    const Narrowphase<Scalar> narrowphase(path, options, statistics);
-    if (narrowphase.admits_nothing()) {
+    const PathRange<Scalar> range(path, options);
+    if (range.is_empty()) {
       EXPECT_FALSE(truth);
       return;
     }
-    const std::optional<Contact> contact = narrowphase.contact(triangle);
-    EXPECT_EQ(contact.has_value(), truth.has_value());
-    EXPECT_EQ(narrowphase.meets(triangle), truth.has_value());
-    if (contact && truth) {
-      EXPECT_TRUE(same_bits(narrowphase.hit({&triangle, 5, *contact}), rounded_hit<Scalar>(*truth, 5)));
+    QueryStatistics statistics;
+    const Narrowphase<Scalar> narrowphase(path, options, range, statistics);
+    Candidate<Scalar> candidate{5, triangle, {}};
+    const bool found = narrowphase.find_contact(triangle, candidate.bounded);
+    EXPECT_EQ(found, truth.has_value());
+    EXPECT_LE(statistics.exact_decisions, 1u);
+    if (!found || !truth) return;
+    const Contact& contact = candidate.contact();
+    EXPECT_EQ(contact.side, truth->side);
+    if (std::isfinite(contact.t_lower)) {
+      EXPECT_LE(mpq_class(contact.t_lower), truth->t);
     }
-    EXPECT_EQ(statistics.paths, 1u);
-    EXPECT_EQ(statistics.candidates, 2u);
-    EXPECT_LE(statistics.exact_decisions, statistics.undecided);
-    EXPECT_LE(statistics.undecided, statistics.candidates);
+    if (std::isfinite(contact.t_upper)) {
+      EXPECT_GE(mpq_class(contact.t_upper), truth->t);
+    }
+    EXPECT_TRUE(same_bits(narrowphase.hit(candidate), rounded_hit<Scalar>(*truth, 5)));
   }
 };
 
@@ -62,93 +72,94 @@ INSTANTIATE_TEST_SUITE_P(Families, NarrowphaseOfFamily, testing::ValuesIn(all_pa
 template <typename Scalar>
 class NarrowphaseOf : public testing::Test {
  protected:
-  using Candidate = typename Narrowphase<Scalar>::Candidate;
+  explicit NarrowphaseOf(const Path<Scalar>& path) : path_(path) {}
+  NarrowphaseOf() : NarrowphaseOf(Segment<Scalar>{{Scalar{0.25}, Scalar{0.25}, -1}, {Scalar{0.25}, Scalar{0.25}, 3}}) {}
 
-  static Candidate candidate_of(const Narrowphase<Scalar>& narrowphase, const Triangle<Scalar>& triangle,
-                                std::uint32_t id) {
-    return {&triangle, id, narrowphase.contact(triangle).value()};
+  [[nodiscard]] Candidate<Scalar> candidate_of(const Triangle<Scalar>& triangle, std::uint32_t id) {
+    Candidate<Scalar> candidate{id, triangle, {}};
+    EXPECT_TRUE(narrowphase_.find_contact(triangle, candidate.bounded));
+    return candidate;
   }
+
+  Path<Scalar> path_;
+  QueryOptions<Scalar> options_;
+  PathRange<Scalar> range_{path_, options_};
+  QueryStatistics statistics_;
+  Narrowphase<Scalar> narrowphase_{path_, options_, range_, statistics_};
 };
 TYPED_TEST_SUITE(NarrowphaseOf, Scalars, ScalarNames);
 
 TYPED_TEST(NarrowphaseOf, clear_hit_takes_no_exact_decision) {
-  const Path<TypeParam> path =
+  this->path_ =
       Segment<TypeParam>{{TypeParam{0.21875}, TypeParam{0.3125}, -1}, {TypeParam{0.3125}, TypeParam{0.21875}, 2}};
-  const QueryOptions<TypeParam> options;
-  QueryStatistics statistics;
-  const Narrowphase<TypeParam> narrowphase(path, options, statistics);
-  const auto triangle = unit_triangle<TypeParam>();
-  const auto candidate = this->candidate_of(narrowphase, triangle, 0);
-  static_cast<void>(narrowphase.hit(candidate));
-  EXPECT_EQ(statistics.candidates, 1u);
-  EXPECT_EQ(statistics.undecided, 0u);
-  EXPECT_EQ(statistics.exact_decisions, 0u);
-  EXPECT_EQ(statistics.exact_orders, 0u);
+  const auto candidate = this->candidate_of(unit_triangle<TypeParam>(), 0);
+  EXPECT_EQ(candidate.bounded.verdict, Verdict::hit);
+  static_cast<void>(this->narrowphase_.hit(candidate));
+  EXPECT_EQ(this->statistics_.exact_decisions, 0u);
+  EXPECT_EQ(this->statistics_.exact_orders, 0u);
   // A bound in double is narrow enough to round to float by; to double, it never is.
-  EXPECT_EQ(statistics.exact_roundings, (std::is_same_v<TypeParam, float> ? 0u : 1u));
+  EXPECT_EQ(this->statistics_.exact_roundings, (std::is_same_v<TypeParam, float> ? 0u : 1u));
+}
+
+/// What double with bounds known beforehand cannot tell, running bounds can: exact operations do not enlarge them.
+TYPED_TEST(NarrowphaseOf, edge_of_small_integers_takes_no_exact_decision) {
+  this->path_ = Segment<TypeParam>{{TypeParam{0.25}, 0, -1}, {TypeParam{0.25}, 0, 1}};
+  static_cast<void>(this->candidate_of(unit_triangle<TypeParam>(), 0));
+  EXPECT_EQ(this->statistics_.exact_decisions, 0u);
 }
 
 TYPED_TEST(NarrowphaseOf, contact_in_the_plane_takes_exact_arithmetic) {
-  const Path<TypeParam> path = Segment<TypeParam>{{-1, TypeParam{0.25}, 0}, {2, TypeParam{0.25}, 0}};
-  const QueryOptions<TypeParam> options;
-  QueryStatistics statistics;
-  const Narrowphase<TypeParam> narrowphase(path, options, statistics);
-  const auto triangle = unit_triangle<TypeParam>();
-  const auto candidate = this->candidate_of(narrowphase, triangle, 0);
-  static_cast<void>(narrowphase.hit(candidate));
-  EXPECT_EQ(statistics.undecided, 1u);
-  EXPECT_EQ(statistics.exact_decisions, 1u);
-  EXPECT_EQ(statistics.exact_roundings, 1u);
+  this->path_ = Segment<TypeParam>{{-1, TypeParam{0.25}, 0}, {2, TypeParam{0.25}, 0}};
+  const auto candidate = this->candidate_of(unit_triangle<TypeParam>(), 0);
+  EXPECT_NE(candidate.bounded.verdict, Verdict::hit);
+  static_cast<void>(this->narrowphase_.hit(candidate));
+  EXPECT_EQ(this->statistics_.exact_decisions, 1u);
+  EXPECT_EQ(this->statistics_.exact_roundings, 1u);
 }
 
 TYPED_TEST(NarrowphaseOf, order_is_by_t_and_then_by_id) {
-  const Path<TypeParam> path =
-      Segment<TypeParam>{{TypeParam{0.25}, TypeParam{0.25}, -1}, {TypeParam{0.25}, TypeParam{0.25}, 3}};
-  const QueryOptions<TypeParam> options;
-  QueryStatistics statistics;
-  const Narrowphase<TypeParam> narrowphase(path, options, statistics);
-  const auto near = unit_triangle<TypeParam>(0);
-  const auto far = unit_triangle<TypeParam>(1);
-  const Triangle<TypeParam> also_near{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}};
-  const auto first = this->candidate_of(narrowphase, near, 9);
-  const auto later = this->candidate_of(narrowphase, far, 1);
-  const auto tied = this->candidate_of(narrowphase, also_near, 4);
-  EXPECT_TRUE(narrowphase.comes_before(first, later));
-  EXPECT_FALSE(narrowphase.comes_before(later, first));
-  EXPECT_EQ(statistics.exact_orders, 0u);
-  EXPECT_TRUE(narrowphase.comes_before(tied, first));
-  EXPECT_FALSE(narrowphase.comes_before(first, tied));
-  EXPECT_FALSE(narrowphase.comes_before(first, first));
-  EXPECT_EQ(statistics.exact_orders, 3u);
+  const Triangle<TypeParam> also_near{{0, 0, 0}, {0, 1, 1}, {1, 0, -1}};  // at height 0 there, but tilted
+  const auto first = this->candidate_of(unit_triangle<TypeParam>(0), 9);
+  const auto later = this->candidate_of(unit_triangle<TypeParam>(1), 1);
+  const auto tied = this->candidate_of(also_near, 4);
+  EXPECT_TRUE(this->narrowphase_.comes_before(first, later));
+  EXPECT_FALSE(this->narrowphase_.comes_before(later, first));
+  EXPECT_EQ(this->statistics_.exact_orders, 0u);
+  EXPECT_TRUE(this->narrowphase_.comes_before(tied, first));
+  EXPECT_FALSE(this->narrowphase_.comes_before(first, tied));
+  EXPECT_EQ(this->statistics_.exact_orders, 2u);
+  EXPECT_FALSE(this->narrowphase_.comes_before(first, first));
+}
+
+TYPED_TEST(NarrowphaseOf, order_in_a_common_plane_across_an_axis_takes_no_exact_arithmetic) {
+  const Triangle<TypeParam> turned{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}};
+  const auto first = this->candidate_of(unit_triangle<TypeParam>(), 3);
+  const auto second = this->candidate_of(turned, 7);
+  EXPECT_TRUE(this->narrowphase_.comes_before(first, second));
+  EXPECT_FALSE(this->narrowphase_.comes_before(second, first));
+  EXPECT_EQ(this->statistics_.exact_orders, 0u);
+}
+
+/// Both lie in the plane z = 0, and so does the path: it meets them where their edges are.
+TYPED_TEST(NarrowphaseOf, order_of_contacts_in_a_common_plane_is_by_t) {
+  this->path_ = Segment<TypeParam>{{-1, TypeParam{0.25}, 0}, {3, TypeParam{0.25}, 0}};
+  const Triangle<TypeParam> farther{{TypeParam{0.5}, 0, 0}, {TypeParam{1.5}, 0, 0}, {TypeParam{0.5}, 1, 0}};
+  const auto first = this->candidate_of(unit_triangle<TypeParam>(), 7);
+  const auto second = this->candidate_of(farther, 3);
+  EXPECT_TRUE(this->narrowphase_.comes_before(first, second));
+  EXPECT_FALSE(this->narrowphase_.comes_before(second, first));
 }
 
 TYPED_TEST(NarrowphaseOf, overlapping_bounds_are_told_apart_exactly) {
   const TypeParam up = 1 + std::numeric_limits<TypeParam>::epsilon();
-  const Path<TypeParam> path = Segment<TypeParam>{{0, 0, 0}, {3, 0, 0}};
-  const QueryOptions<TypeParam> options;
-  QueryStatistics statistics;
-  const Narrowphase<TypeParam> narrowphase(path, options, statistics);
+  this->path_ = Segment<TypeParam>{{0, 0, 0}, {3, 0, 0}};
   // Met at x = 1 and at x = 1 + epsilon/2^k: at the middle of an edge that climbs by one ulp over a long way.
   const Triangle<TypeParam> straight{{1, -1, -1}, {1, 1, -1}, {1, 0, 2}};
   const Triangle<TypeParam> turned{{1, -1, -1}, {up, 1024, -1}, {1, 0, 2}};
-  const auto first = this->candidate_of(narrowphase, straight, 2);
-  const auto second = this->candidate_of(narrowphase, turned, 1);
-  EXPECT_TRUE(narrowphase.comes_before(first, second));
-  EXPECT_FALSE(narrowphase.comes_before(second, first));
-}
-
-TYPED_TEST(NarrowphaseOf, path_or_options_that_admit_nothing) {
-  const TypeParam nan = std::numeric_limits<TypeParam>::quiet_NaN();
-  QueryStatistics statistics;
-  const auto admits_nothing = [&](const Path<TypeParam>& path, const QueryOptions<TypeParam>& options) {
-    return Narrowphase<TypeParam>(path, options, statistics).admits_nothing();
-  };
-  const Segment<TypeParam> good{{0, 0, 0}, {1, 0, 0}};
-  EXPECT_FALSE(admits_nothing(good, {}));
-  EXPECT_TRUE(admits_nothing(Segment<TypeParam>{{0, nan, 0}, {1, 0, 0}}, {}));
-  EXPECT_TRUE(admits_nothing(good, {.min_t = nan}));
-  EXPECT_TRUE(admits_nothing(good, {.min_t = 2}));
-  EXPECT_EQ(statistics.paths, 4u);
+  const auto first = this->candidate_of(straight, 2);
+  const auto second = this->candidate_of(turned, 1);
+  EXPECT_TRUE(this->narrowphase_.comes_before(first, second));
+  EXPECT_FALSE(this->narrowphase_.comes_before(second, first));
 }
 
 }  // namespace

@@ -73,6 +73,14 @@ TYPED_TEST(BruteForceComparison, RoughGround) {
   this->compare(rough_ground<TypeParam>(24, TypeParam{0.1F}, this->random_), 1000);
 }
 
+TYPED_TEST(BruteForceComparison, SpotsCrowdedWithSmallTriangles) {
+  const auto ground = rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_);
+  const auto uneven = with_small_copy(ground, {TypeParam{0.3F}, TypeParam{-0.2F}, TypeParam{0.1F}});
+  EXPECT_EQ(Collider<TypeParam>(uneven.view(), BuildOptions{compared_grids().back(), {}}).grid().levels(),
+            Grid::most_levels);
+  this->compare(uneven, 1000);
+}
+
 TYPED_TEST(BruteForceComparison, LongPathsFromFarOutside) {
   const auto mesh = rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_);
   for (const TypeParam distance :
@@ -134,15 +142,16 @@ TYPED_TEST(BruteForceComparison, AxisParallelAndZeroComponentDirections) {
   }
 }
 
-/// Triangles and paths that lie in the planes between cells, to the bit in the double grid and as near as a float
-/// comes.
+/// Triangles and paths that lie in the planes between cells, as near as a Scalar comes.
 TYPED_TEST(BruteForceComparison, PointsExactlyOnCellPlanes) {
   constexpr std::uint32_t cells = 6;
-  const std::vector<GridOptions> grids = {{.resolution = {cells, cells, cells}}, {.resolution = {3, 2, 1}}, {}};
+  const std::vector<GridOptions> grids = {
+      {.resolution = {cells, cells, cells}, .crowded = 0}, {.resolution = {3, 2, 1}}, {}};
   const auto corners = scattered_triangles<TypeParam>(20, TypeParam{1}, this->random_);
-  GridFrame frame = GridFrame::around(box_of(corners.view()), {cells, cells, cells});
+  const GridFrame frame = Grid(corners.view(), box_of(corners.view()), grids.front()).frame();
   const auto on_plane = [&](std::size_t axis, std::uint32_t index) {
-    return static_cast<TypeParam>(std::ldexp(frame.plane(axis, index) + frame.origin[axis], -frame.exponent));
+    const double place = (index - double{frame.margin[axis]}) / frame.scale[axis] + frame.origin[axis];
+    return static_cast<TypeParam>(std::ldexp(place, -frame.exponent));
   };
   const auto crossing = [&] {
     Vector3<TypeParam> point;
@@ -158,7 +167,7 @@ TYPED_TEST(BruteForceComparison, PointsExactlyOnCellPlanes) {
   for (int i = 0; i < 60; ++i) mesh.add({crossing(), crossing(), crossing()});
 
   GridComparison<TypeParam> comparison(mesh.view(), {}, grids);
-  ASSERT_EQ(comparison.colliders().front().grid().frame().cell_size, frame.cell_size);
+  ASSERT_EQ(comparison.colliders().front().grid().frame().scale, frame.scale);
   PathDrawer<TypeParam> drawer(mesh.view(), 1);
   for (std::size_t i = 0; i < case_count(5000); ++i) {
     Segment<TypeParam> segment = {crossing(), crossing()};

@@ -15,13 +15,14 @@
 
 namespace surehit::test {
 
-/// The resolutions at which a mesh is compared: one cell, the grid's own, fine, and far from cubic.
+/// The grids in which a mesh is compared: one cell, the grid's own, fine, far from cubic, and divided twice.
 inline std::vector<GridOptions> compared_grids() {
-  return {{.resolution = {1, 1, 1}},
+  return {{.resolution = {1, 1, 1}, .crowded = 0},
           {},
           {.resolution = {61, 64, 67}},
           {.resolution = {1, 7, 200}},
-          {.resolution = {900, 1, 2}}};
+          {.resolution = {900, 1, 2}},
+          {.resolution = {3, 2, 4}, .crowded = 3}};
 }
 
 /// One mesh in grids of several resolutions, each of which must answer as asking every triangle does, to the bit.

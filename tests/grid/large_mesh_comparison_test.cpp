@@ -12,8 +12,9 @@
 namespace surehit::test {
 namespace {
 
-/// What the lists of a grid may hold whatever the mesh: 16 entries a triangle, and 2^24 in any case.
-std::size_t entry_budget(std::size_t triangles) { return std::max(std::size_t{1} << 24, 16 * triangles); }
+/// What the lists of a grid may hold whatever the mesh: 8 entries a triangle, or 2^18, and three times as many for each
+/// of two levels of bricks.
+std::size_t entry_budget(std::size_t triangles) { return 9 * std::max(std::size_t{1} << 18, 8 * triangles); }
 
 template <typename Scalar>
 class LargeMeshComparison : public testing::Test {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace surehit::test {
 namespace {
@@ -25,10 +24,6 @@ ExactPolygon cut(const ExactPolygon& polygon, std::size_t axis, const mpq_class&
   return kept;
 }
 
-std::array<mpq_class, 2> cell_range(const GridFrame& frame, std::size_t axis, std::uint32_t cell, double growth) {
-  return {mpq_class(frame.plane(axis, cell)) - growth, mpq_class(frame.plane(axis, cell + 1)) + growth};
-}
-
 }  // namespace
 
 mpq_class scaled_exactly(double x, int exponent) {
@@ -45,7 +40,8 @@ template <typename Scalar>
 ExactPoint in_frame(const GridFrame& frame, const Vector3<Scalar>& point) {
   ExactPoint exact;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    exact[axis] = scaled_exactly(point[static_cast<Eigen::Index>(axis)], frame.exponent) - frame.origin[axis];
+    const mpq_class scaled = scaled_exactly(point[static_cast<Eigen::Index>(axis)], frame.exponent);
+    exact[axis] = (scaled - frame.origin[axis]) * frame.scale[axis] + double{frame.margin[axis]};
   }
   return exact;
 }
@@ -55,51 +51,111 @@ ExactPolygon in_frame(const GridFrame& frame, const Triangle<Scalar>& triangle) 
   return {in_frame(frame, triangle.a), in_frame(frame, triangle.b), in_frame(frame, triangle.c)};
 }
 
-std::vector<std::size_t> cells_met(const GridFrame& frame, const ExactPolygon& polygon, double growth) {
-  std::vector<std::size_t> cells;
-  const auto& [cells_x, cells_y, cells_z] = frame.resolution;
-  const auto part_in = [&](const ExactPolygon& whole, std::size_t axis, std::uint32_t cell) {
-    const auto [low, high] = cell_range(frame, axis, cell, growth);
-    return cut(cut(whole, axis, low, 1), axis, high, -1);
-  };
-  for (std::uint32_t x = 0; x < cells_x; ++x) {
-    const ExactPolygon slab = part_in(polygon, 0, x);
-    for (std::uint32_t y = 0; !slab.empty() && y < cells_y; ++y) {
-      const ExactPolygon bar = part_in(slab, 1, y);
-      for (std::uint32_t z = 0; !bar.empty() && z < cells_z; ++z) {
-        const auto [low, high] = cell_range(frame, 2, z, growth);
-        const auto [lowest, highest] = std::minmax_element(
-            bar.begin(), bar.end(), [](const ExactPoint& p, const ExactPoint& q) { return p[2] < q[2]; });
-        if ((*highest)[2] < low || high < (*lowest)[2]) continue;
-        cells.push_back((std::size_t{z} * cells_y + y) * cells_x + x);
-      }
+double out_of_frame(const GridFrame& frame, std::size_t axis, double place) {
+  return std::ldexp((place - double{frame.margin[axis]}) / frame.scale[axis] + frame.origin[axis], -frame.exponent);
+}
+
+Growth growth_by(const GridFrame& frame, double share, double more_cells) {
+  Growth growth;
+  for (std::size_t axis = 0; axis < 3; ++axis) growth[axis] = share * frame.resolution(axis) + more_cells;
+  return growth;
+}
+
+CellBox CellBox::grown(const Growth& growth) const {
+  CellBox box = *this;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] -= growth[axis];
+    box.high[axis] += growth[axis];
+  }
+  return box;
+}
+
+CellBox LeafCell::box() const {
+  CellBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = low[axis];
+    box.high[axis] = low[axis] + size;
+  }
+  return box;
+}
+
+LeafCells::LeafCells(const Grid& grid) {
+  const auto& [x_cells, y_cells, z_cells] = grid.resolution();
+  const std::uint32_t size = grid.frame().division;
+  std::size_t cell = 0;
+  for (std::uint32_t z = 0; z < z_cells; ++z) {
+    for (std::uint32_t y = 0; y < y_cells; ++y) {
+      for (std::uint32_t x = 0; x < x_cells; ++x) add(grid, grid.top()[cell++], {x * size, y * size, z * size}, size);
     }
   }
-  std::sort(cells.begin(), cells.end());
-  return cells;
+}
+
+void LeafCells::add(const Grid& grid, CellWord word, const std::array<std::uint32_t, 3>& low, std::uint32_t size) {
+  constexpr std::uint32_t edge = Grid::brick_edge;
+  if (!word.is_divided()) {
+    by_low_.emplace(low, leaves_.size());
+    leaves_.push_back({low, size, word});
+    return;
+  }
+  const std::uint32_t part = size / edge;
+  for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) {
+    add(grid, grid.bricks()[std::size_t{word.offset()} * Grid::brick_size + cell],
+        {low[0] + cell % edge * part, low[1] + cell / edge % edge * part, low[2] + cell / edge / edge * part}, part);
+  }
+}
+
+std::optional<std::size_t> LeafCells::at(const std::array<std::uint32_t, 3>& low) const {
+  const auto found = by_low_.find(low);
+  return found == by_low_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::vector<std::size_t> LeafCells::met_by(const ExactPolygon& polygon, const Growth& growth) const {
+  // Most cells are far from the polygon, which doubles can tell: by a whole cell more than they may be off.
+  std::array<double, 3> lowest;
+  std::array<double, 3> highest;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax_element(polygon.begin(), polygon.end(),
+                                                 [&](const auto& p, const auto& q) { return p[axis] < q[axis]; });
+    lowest[axis] = (*low)[axis].get_d() - growth[axis] - 1;
+    highest[axis] = (*high)[axis].get_d() + growth[axis] + 1;
+  }
+  std::vector<std::size_t> met;
+  for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    const auto& [low, size, word] = leaves_[leaf];
+    bool is_near = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      is_near &= low[axis] + size >= lowest[axis] && low[axis] <= highest[axis];
+    if (is_near && meets_box(polygon, leaves_[leaf].box().grown(growth))) met.push_back(leaf);
+  }
+  return met;
+}
+
+bool meets_box(const ExactPolygon& polygon, const CellBox& box) {
+  ExactPolygon part = polygon;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    part = cut(cut(part, axis, box.low[axis], 1), axis, box.high[axis], -1);
+  }
+  return !part.empty();
 }
 
 template <typename Scalar>
-bool meets_cell(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t, std::size_t cell,
-                double growth) {
-  const auto& [cells_x, cells_y, cells_z] = frame.resolution;
-  const std::array<std::size_t, 3> place = {cell % cells_x, cell / cells_x % cells_y, cell / cells_x / cells_y};
+bool meets_box(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t, const CellBox& box) {
   const ExactPoint start = in_frame(frame, path.start);
   std::optional<mpq_class> first;
   std::optional<mpq_class> last;
   if (std::isfinite(first_t)) first = first_t;
   if (std::isfinite(last_t)) last = last_t;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto toward = path.toward[static_cast<Eigen::Index>(axis)];
-    const mpq_class rate = path.has_end() ? scaled_exactly(toward, frame.exponent) - frame.origin[axis] - start[axis]
-                                          : scaled_exactly(toward, frame.exponent);
-    const auto [low, high] = cell_range(frame, axis, static_cast<std::uint32_t>(place[axis]), growth);
+    const auto k = static_cast<Eigen::Index>(axis);
+    mpq_class rate = scaled_exactly(path.toward[k], frame.exponent);
+    if (path.has_end()) rate -= scaled_exactly(path.start[k], frame.exponent);
+    rate *= frame.scale[axis];
     if (rate == 0) {
-      if (start[axis] < low || high < start[axis]) return false;
+      if (start[axis] < box.low[axis] || box.high[axis] < start[axis]) return false;
       continue;
     }
-    mpq_class enters = (low - start[axis]) / rate;
-    mpq_class leaves = (high - start[axis]) / rate;
+    mpq_class enters = (box.low[axis] - start[axis]) / rate;
+    mpq_class leaves = (box.high[axis] - start[axis]) / rate;
     if (rate < 0) std::swap(enters, leaves);
     if (!first || *first < enters) first = enters;
     if (!last || *last > leaves) last = leaves;
@@ -110,7 +166,7 @@ bool meets_cell(const GridFrame& frame, const Path<Scalar>& path, double first_t
 #define SUREHIT_INSTANTIATE(Scalar)                                          \
   template ExactPoint in_frame(const GridFrame&, const Vector3<Scalar>&);    \
   template ExactPolygon in_frame(const GridFrame&, const Triangle<Scalar>&); \
-  template bool meets_cell(const GridFrame&, const Path<Scalar>&, double, double, std::size_t, double);
+  template bool meets_box(const GridFrame&, const Path<Scalar>&, double, double, const CellBox&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)
 #undef SUREHIT_INSTANTIATE

@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "surehit/grid.hpp"
@@ -17,19 +20,65 @@ using ExactPolygon = std::vector<ExactPoint>;
 
 /// x 2^exponent
 [[nodiscard]] mpq_class scaled_exactly(double x, int exponent);
-/// Where a point, and where a triangle's corners truly stand in a grid's frame.
+/// Where a point, and where a triangle's corners truly stand, counted in finest cells.
 template <typename Scalar>
 [[nodiscard]] ExactPoint in_frame(const GridFrame& frame, const Vector3<Scalar>& point);
 template <typename Scalar>
 [[nodiscard]] ExactPolygon in_frame(const GridFrame& frame, const Triangle<Scalar>& triangle);
 
-/// Indices, ascending, of the cells that the convex polygon meets when each cell is grown by `growth` on all sides.
-[[nodiscard]] std::vector<std::size_t> cells_met(const GridFrame& frame, const ExactPolygon& polygon, double growth);
+/// The coordinate that stands at `place`, as near as a double comes.
+[[nodiscard]] double out_of_frame(const GridFrame& frame, std::size_t axis, double place);
 
-/// Whether the path, between two parameters, meets a cell that is grown by `growth` on all sides. The parameters may be
-/// infinite.
+/// By how many finest cells a box is grown on each side of an axis.
+using Growth = std::array<double, 3>;
+/// A share of the grid's width on each axis, and as many cells more on all of them.
+[[nodiscard]] Growth growth_by(const GridFrame& frame, double share, double more_cells = 0);
+
+/// A box, closed, in finest cells.
+struct CellBox {
+  ExactPoint low;
+  ExactPoint high;
+
+  [[nodiscard]] CellBox grown(const Growth& growth) const;
+};
+
+/// A cell that is not divided.
+struct LeafCell {
+  std::array<std::uint32_t, 3> low;  ///< in finest cells
+  std::uint32_t size;
+  CellWord word;
+
+  [[nodiscard]] CellBox box() const;
+};
+
+/// All cells of a grid that are not divided: they fill it without overlap.
+class LeafCells {
+ public:
+  explicit LeafCells(const Grid& grid);
+
+  [[nodiscard]] std::size_t size() const { return leaves_.size(); }
+  [[nodiscard]] const LeafCell& operator[](std::size_t leaf) const { return leaves_[leaf]; }
+  [[nodiscard]] auto begin() const { return leaves_.begin(); }
+  [[nodiscard]] auto end() const { return leaves_.end(); }
+
+  /// The leaf with this low corner.
+  [[nodiscard]] std::optional<std::size_t> at(const std::array<std::uint32_t, 3>& low) const;
+  /// Leaves, ascending, that the convex polygon meets when they are grown.
+  [[nodiscard]] std::vector<std::size_t> met_by(const ExactPolygon& polygon, const Growth& growth) const;
+
+ private:
+  void add(const Grid& grid, CellWord word, const std::array<std::uint32_t, 3>& low, std::uint32_t size);
+
+  std::vector<LeafCell> leaves_;
+  std::map<std::array<std::uint32_t, 3>, std::size_t> by_low_;
+};
+
+/// Whether a convex polygon meets the box.
+[[nodiscard]] bool meets_box(const ExactPolygon& polygon, const CellBox& box);
+
+/// Whether the path, between two parameters, meets the box. The parameters may be infinite.
 template <typename Scalar>
-[[nodiscard]] bool meets_cell(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t,
-                              std::size_t cell, double growth);
+[[nodiscard]] bool meets_box(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t,
+                             const CellBox& box);
 
 }  // namespace surehit::test

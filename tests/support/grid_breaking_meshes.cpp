@@ -173,6 +173,19 @@ GeneratedMesh<Scalar> flattened(GeneratedMesh<Scalar> mesh, int axis, Scalar coo
   return mesh;
 }
 
+template <typename Scalar>
+GeneratedMesh<Scalar> joined(GeneratedMesh<Scalar> mesh, const GeneratedMesh<Scalar>& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
+  return mesh;
+}
+
+template <typename Scalar>
+GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>& mesh, const Vector3<Scalar>& offset) {
+  return joined(mesh, placed(mesh, 1 / Scalar{24}, offset));
+}
+
 #define SUREHIT_INSTANTIATE(Scalar)                                                             \
   template struct GeneratedMesh<Scalar>;                                                        \
   template GeneratedMesh<Scalar> scattered_triangles(std::size_t, Scalar, Random&);             \
@@ -182,7 +195,9 @@ GeneratedMesh<Scalar> flattened(GeneratedMesh<Scalar> mesh, int axis, Scalar coo
   template GeneratedMesh<Scalar> bumpy_octahedron(std::int32_t, Random&);                       \
   template GeneratedMesh<Scalar> double_fan(std::int32_t);                                      \
   template GeneratedMesh<Scalar> placed(GeneratedMesh<Scalar>, Scalar, const Vector3<Scalar>&); \
-  template GeneratedMesh<Scalar> flattened(GeneratedMesh<Scalar>, int, Scalar);
+  template GeneratedMesh<Scalar> flattened(GeneratedMesh<Scalar>, int, Scalar);                 \
+  template GeneratedMesh<Scalar> joined(GeneratedMesh<Scalar>, const GeneratedMesh<Scalar>&);   \
+  template GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>&, const Vector3<Scalar>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)
 #undef SUREHIT_INSTANTIATE

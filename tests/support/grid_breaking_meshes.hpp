@@ -57,4 +57,12 @@ template <typename Scalar>
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> flattened(GeneratedMesh<Scalar> mesh, int axis, Scalar coordinate);
 
+/// The triangles of one and then those of the other.
+template <typename Scalar>
+[[nodiscard]] GeneratedMesh<Scalar> joined(GeneratedMesh<Scalar> mesh, const GeneratedMesh<Scalar>& other);
+
+/// Joined with a copy of itself a 24th as large, at `offset`: a spot crowded with small triangles.
+template <typename Scalar>
+[[nodiscard]] GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>& mesh, const Vector3<Scalar>& offset);
+
 }  // namespace surehit::test

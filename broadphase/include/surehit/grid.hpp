@@ -13,75 +13,177 @@ namespace surehit {
 
 /// How finely a grid divides the mesh's box. No setting changes an answer, only time and memory.
 struct GridOptions {
-  /// Cells along x, y and z; 0 leaves that axis to the grid, which aims at `cells_per_triangle` cubic cells in all.
-  /// Whatever is asked for is made coarser where it would break the grid's budget of memory or its bound on rounding.
+  /// Cells along x, y and z, before crowded ones are divided again; 0 leaves that axis to the grid, which aims at
+  /// `cells_per_triangle` cubic cells in all. Whatever is asked for is made coarser where it would break the grid's
+  /// budget of memory or its bound on rounding.
   std::array<std::uint32_t, 3> resolution = {0, 0, 0};
-  double cells_per_triangle = 2.0;
+  double cells_per_triangle = 1.0;
+  /// Cells that list more triangles than this are divided into 4 × 4 × 4, if that parts the triangles. 0: never.
+  std::uint32_t crowded = 96;
 };
 
-/// The cells' planes, and the scaled frame of doubles in which they are counted: the mesh's box becomes [0, 1] or less
-/// on each axis, whatever its size. Its bounds are derived in grid_frame.cpp.
+/// Where the cells are. A coordinate x stands at X = (x 2^exponent - origin) scale + margin, counted in the finest
+/// cells: the planes between them are the whole numbers from 0 to the resolution. The bounds are derived in
+/// grid_frame.cpp.
 struct GridFrame {
-  int exponent = 0;                                     ///< a coordinate x stands at x 2^exponent - origin
-  std::array<double, 3> origin = {0, 0, 0};             ///< the box's low corner, scaled
-  std::array<double, 3> low = {0, 0, 0};                ///< first plane on each axis
-  std::array<double, 3> cell_size = {0, 0, 0};          ///< distance between planes
-  std::array<std::uint32_t, 3> resolution = {0, 0, 0};  ///< cells on each axis; planes are one more
+  int exponent = 0;                                ///< brings the mesh's box to a size of about 1 first
+  std::array<double, 2> unit = {1, 1};             ///< 2^exponent, as a product: one double may not hold it
+  std::array<double, 3> origin = {0, 0, 0};        ///< the box's low corner, scaled
+  std::array<double, 3> scale = {0, 0, 0};         ///< finest cells in a scaled unit of length: a float
+  std::array<float, 3> margin = {0, 0, 0};         ///< by which the outer planes stand off the box
+  std::array<std::uint32_t, 3> cells = {0, 0, 0};  ///< top cells on each axis
+  std::uint32_t division = 1;                      ///< finest cells along an edge of a top cell
+  /// For coordinates in float, X = (x - float_low) float_scale + margin: the same frame, where floats hold its numbers.
+  bool has_floats = false;
+  std::array<float, 3> float_low = {0, 0, 0};
+  std::array<float, 3> float_scale = {0, 0, 0};
 
-  /// By which a cell's box is grown on each side when triangles are listed, in the frame's unit: under 1/16 of a cell.
-  static constexpr double padding = 0x1p-32;
+  /// Of the grid's width on an axis: by so much is a cell's box grown on each side when triangles are listed.
+  static constexpr float padding_share = 0x1p-19F;
+  /// The finest cells on an axis are no more than this, so that they are 16 paddings wide or wider.
+  static constexpr std::uint32_t most_finest_cells = std::uint32_t{1} << 15;
 
-  /// Around a box that is not empty, with as many cells on each axis as is wished and the padding allows.
+  /// Around a box that is not empty, with as many top cells on each axis as is wished and the padding allows.
   template <typename Scalar>
-  static GridFrame around(const Box<Scalar>& box, const std::array<double, 3>& wished_resolution);
+  static GridFrame around(const Box<Scalar>& box, const std::array<double, 3>& wished_cells, std::uint32_t division);
 
-  /// x 2^exponent, exactly unless it underflows (by less than 2^-1074) or overflows.
-  [[nodiscard]] double scaled(double x) const noexcept;
-  /// Plane `index` of an axis. Monotone in the index: a product and a sum, each rounded to nearest.
-  [[nodiscard]] double plane(std::size_t axis, std::uint32_t index) const noexcept;
-  /// The cell of an axis with plane(i) <= x <= plane(i + 1); the first or the last cell for an x outside.
-  [[nodiscard]] std::uint32_t cell_at(std::size_t axis, double x) const noexcept;
+  /// x 2^exponent, exactly unless it underflows (by less than 2^-1073) or overflows.
+  [[nodiscard]] double scaled(double x) const noexcept { return x * unit[0] * unit[1]; }
+  /// Finest cells on an axis.
+  [[nodiscard]] std::uint32_t resolution(std::size_t axis) const noexcept { return cells[axis] * division; }
+  /// Counts in cells that are 1/factor as many, a power of two.
+  void coarsen(std::uint32_t factor) noexcept;
+  /// In finest cells.
+  [[nodiscard]] float padding(std::size_t axis) const noexcept {
+    return padding_share * static_cast<float>(resolution(axis));
+  }
+  /// X of a scaled coordinate. Three roundings of doubles.
+  [[nodiscard]] double place(std::size_t axis, double scaled_coordinate) const noexcept {
+    return (scaled_coordinate - origin[axis]) * scale[axis] + double{margin[axis]};
+  }
 };
 
-/// A uniform grid over a mesh's box. Each cell lists the triangles that meet the cell's box grown by
-/// `GridFrame::padding`.
+/// What a cell holds, in 32 bits. An empty cell has a nibble for each octant of directions: how many cells a path of
+/// that octant may cross at once on every axis, this one included, since all of them are empty. The first nibble of any
+/// other cell is 0.
+class CellWord {
+ public:
+  CellWord() = default;
+  explicit CellWord(std::uint32_t bits) : bits_(bits) {}
+
+  static constexpr std::uint32_t most_granules = 31;  ///< that the word itself can count
+  static constexpr std::uint32_t most_offset = (std::uint32_t{1} << 23) - 1;
+  static constexpr std::uint32_t farthest = 15;         ///< a nibble's
+  static constexpr std::uint32_t divided_bits = 0x1ff;  ///< all 0 in the word of a divided cell
+
+  static CellWord listing(std::uint32_t granules, std::uint32_t offset) {
+    return CellWord(offset << 9 | granules << 4);
+  }
+  static CellWord divided(std::uint32_t brick) { return CellWord(brick << 9); }
+
+  [[nodiscard]] std::uint32_t bits() const { return bits_; }
+  [[nodiscard]] bool is_empty() const { return (bits_ & 15) != 0; }
+  [[nodiscard]] bool is_divided() const { return (bits_ & divided_bits) == 0; }
+  /// Granules of entries; `most_granules` where the entry before the first one tells.
+  [[nodiscard]] std::uint32_t granules() const { return bits_ >> 4 & 31; }
+  /// Of the first entry, in granules; of a divided cell, its brick.
+  [[nodiscard]] std::uint32_t offset() const { return bits_ >> 9; }
+  [[nodiscard]] std::uint32_t distance(std::uint32_t octant) const { return bits_ >> 4 * octant & 15; }
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+/// What a build needs besides the grid. Given to the next build, its memory is used again.
+class GridScratch {
+ public:
+  [[nodiscard]] std::size_t memory_bytes() const noexcept;
+
+ private:
+  friend class GridBuild;
+  using Point = std::array<float, 3>;
+
+  std::vector<Point> points_;                    ///< the vertices in finest cells
+  std::vector<std::array<Point, 3>> triangles_;  ///< and the triangles' corners
+  std::vector<std::uint32_t> met_;               ///< top cells that the triangles meet, of all of them in turn
+  std::vector<std::uint32_t> met_count_;         ///< of each triangle
+  std::vector<std::uint32_t> offsets_;           ///< where each top cell's list begins, and one more for the end
+  std::vector<std::uint32_t> next_;              ///< where each top cell's next triangle goes
+  std::vector<std::uint32_t> listed_;            ///< the top cells' lists
+  std::vector<std::uint32_t> words_;             ///< the top cells' words
+  std::vector<std::uint8_t> distances_;          ///< through empty cells
+  std::array<std::vector<std::uint64_t>, 2> met_in_brick_;    ///< for a brick, the cells that each triangle meets
+  std::array<std::vector<std::uint32_t>, 2> lists_in_brick_;  ///< the lists of its cells
+};
+
+/// A uniform grid over a mesh's box, in which crowded cells hold a brick of 4 × 4 × 4 cells of their own, and so on for
+/// `levels` levels. Each undivided cell lists the triangles that meet the cell's box grown by `GridFrame::padding`.
 ///
-/// Listing is conservative and as tight as clipping each triangle to the cell: it never misses one that meets the grown
-/// box, and is at most rounding wider.
+/// Listing is conservative and about as tight as clipping each triangle to the cell: it never misses one that meets the
+/// grown box, and is at most rounding wider.
 class Grid {
  public:
+  static constexpr std::uint32_t brick_edge = 4;
+  static constexpr std::uint32_t brick_size = brick_edge * brick_edge * brick_edge;
+  static constexpr std::uint32_t most_levels = 2;
+
   /// No cells.
   Grid() = default;
 
-  /// Of a valid mesh (see `find_invalid`) and its box. Counting, prefix sum, scatter; time and memory linear in the
-  /// triangles, for the resolution is lowered until the lists fit their budget. May throw std::bad_alloc.
+  /// Of a valid mesh (see `find_invalid`) and its box. Time and memory are linear in the triangles, for the resolution
+  /// is lowered until the lists fit their budget. May throw std::bad_alloc.
   template <typename Scalar>
   Grid(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options);
+  /// Becomes the grid of another mesh, in the memory that it has. If that throws, the grid is good for another rebuild
+  /// only.
+  template <typename Scalar>
+  void rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
+               GridScratch& scratch);
 
   [[nodiscard]] const GridFrame& frame() const noexcept { return frame_; }
-  [[nodiscard]] const std::array<std::uint32_t, 3>& resolution() const noexcept { return frame_.resolution; }
-  [[nodiscard]] std::size_t cell_count() const noexcept { return offsets_.empty() ? 0 : offsets_.size() - 1; }
-  /// Entries of all cells' lists together.
+  /// Top cells on each axis.
+  [[nodiscard]] const std::array<std::uint32_t, 3>& resolution() const noexcept { return frame_.cells; }
+  [[nodiscard]] bool is_empty() const noexcept { return entries_.empty(); }
+  /// Levels of bricks below the top cells, 0 if none is divided.
+  [[nodiscard]] std::uint32_t levels() const noexcept { return levels_; }
+  /// Top cells, and the cells of all bricks.
+  [[nodiscard]] std::size_t cell_count() const noexcept { return top_count_ + bricks_.size(); }
+  /// Entries of all cells' lists together, repetitions included.
   [[nodiscard]] std::size_t entry_count() const noexcept { return entries_.size(); }
   [[nodiscard]] std::size_t memory_bytes() const noexcept {
-    return offsets_.capacity() * sizeof(std::uint32_t) + entries_.capacity() * sizeof(std::uint32_t);
+    return (top_.capacity() + bricks_.capacity()) * sizeof(CellWord) + entries_.capacity() * sizeof(std::uint32_t);
   }
 
-  /// x fastest, then y, then z.
-  [[nodiscard]] std::size_t cell_index(const std::array<std::uint32_t, 3>& cell) const noexcept {
-    return (std::size_t{cell[2]} * frame_.resolution[1] + cell[1]) * frame_.resolution[0] + cell[0];
+  /// Words of the top cells, x fastest, then y, then z.
+  [[nodiscard]] std::span<const CellWord> top() const noexcept { return {top_.data(), top_count_}; }
+  /// Words of the bricks' cells, `brick_size` a brick in the same order.
+  [[nodiscard]] std::span<const CellWord> bricks() const noexcept { return bricks_; }
+  /// All lists, one behind the other.
+  [[nodiscard]] std::span<const std::uint32_t> entries() const noexcept { return entries_; }
+
+  /// Where a cell's list begins among the entries.
+  [[nodiscard]] std::size_t first_entry(CellWord word) const noexcept { return std::size_t{word.offset()} * granule_; }
+  /// A multiple of 4. A list whose triangles are no multiple of it repeats its last one.
+  [[nodiscard]] std::uint32_t entry_count(CellWord word) const noexcept {
+    const std::uint32_t granules = word.granules();
+    return granules < CellWord::most_granules ? granules * granule_ : entries_[first_entry(word) - 1];
   }
-  /// Ids of the triangles that a cell lists, ascending.
-  [[nodiscard]] std::span<const std::uint32_t> triangles(std::size_t cell) const noexcept {
-    return {entries_.data() + offsets_[cell], entries_.data() + offsets_[cell + 1]};
+  /// The same as the word alone tells it, no more than `CellWord::most_granules` of them.
+  [[nodiscard]] std::uint32_t listed_entries(CellWord word) const noexcept { return word.granules() * granule_; }
+  /// Ids of the triangles that a cell lists, ascending but for the repetitions.
+  [[nodiscard]] std::span<const std::uint32_t> triangles(CellWord word) const noexcept {
+    return {entries_.data() + first_entry(word), entry_count(word)};
   }
 
  private:
-  template <typename Scalar>
-  bool try_list(const TriangleMeshView<Scalar>& mesh, std::size_t entry_budget);
+  friend class GridBuild;
 
   GridFrame frame_;
-  std::vector<std::uint32_t> offsets_;  ///< where each cell's list begins, and one more for the end
+  std::uint32_t granule_ = 4;  ///< entries in which lists are measured
+  std::uint32_t levels_ = 0;
+  std::size_t top_count_ = 0;
+  std::vector<CellWord> top_;  ///< and as many more as one vector load may read beyond the last
+  std::vector<CellWord> bricks_;
   std::vector<std::uint32_t> entries_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "surehit/invalid_mesh.hpp"
 #include "surehit/triangle.hpp"
+#include "surehit/vertex_view.hpp"
 
 namespace surehit {
 
@@ -55,6 +56,9 @@ class TriangleMeshView {
                   "column-major storage with three adjacent coefficients a column");
   }
 
+  [[nodiscard]] VertexView<Scalar> vertices() const {
+    return {reinterpret_cast<const Scalar*>(vertices_), vertex_count_, vertex_stride_};
+  }
   [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
   [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }
 

@@ -6,15 +6,23 @@
 #include <vector>
 
 #include "surehit/box.hpp"
+#include "surehit/executor.hpp"
 #include "surehit/grid.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/hit_filter.hpp"
+#include "surehit/mesh_blocks.hpp"
 #include "surehit/path.hpp"
 #include "surehit/query_options.hpp"
 #include "surehit/query_statistics.hpp"
 #include "surehit/triangle_mesh_view.hpp"
+#include "surehit/vertex_view.hpp"
 
 namespace surehit {
+
+namespace detail {
+template <typename Scalar>
+struct Query;
+}
 
 /// How a collider is built. No setting changes an answer.
 struct BuildOptions {
@@ -53,6 +61,18 @@ class Collider {
   [[nodiscard]] std::optional<InvalidMesh> try_build(const TriangleMeshView<Scalar>& mesh,
                                                      const BuildOptions& options = {});
 
+#if defined(__cpp_exceptions)
+  /// Throws what `try_rebuild` returns.
+  void rebuild(const VertexView<Scalar>& vertices) {
+    if (auto invalid = try_rebuild(vertices)) throw *std::move(invalid);
+  }
+#endif
+
+  /// Moves the vertices, for a mesh that deforms each tick: the same triangles, masks and options. Takes the time of a
+  /// build, but no memory after the first two times. Says why it cannot, and keeps the state from before, if the
+  /// vertices are not as many as the mesh has or not finite; so does std::bad_alloc.
+  [[nodiscard]] std::optional<InvalidMesh> try_rebuild(const VertexView<Scalar>& vertices);
+
   /// The hit of least t; among equal exact t, of the least triangle. `statistics`, where given, are added to.
   [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Path<Scalar>& path, const QueryOptions<Scalar>& options = {},
                                                      QueryStatistics* statistics = nullptr) const noexcept;
@@ -85,12 +105,27 @@ class Collider {
   void first_hits(std::span<const Line<Scalar>> lines, std::span<Hit<Scalar>> hits,
                   const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
 
+  /// The same, spread over the executor's threads in tasks of some thousand paths.
+  void first_hits(std::span<const Segment<Scalar>> segments, std::span<Hit<Scalar>> hits, Executor executor,
+                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+  void first_hits(std::span<const Ray<Scalar>> rays, std::span<Hit<Scalar>> hits, Executor executor,
+                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+  void first_hits(std::span<const Line<Scalar>> lines, std::span<Hit<Scalar>> hits, Executor executor,
+                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+
   /// `blocked[i]` becomes 1 if path i meets anything, else 0. Lengths as in `first_hits`.
   void any_hits(std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> blocked,
                 const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
   void any_hits(std::span<const Ray<Scalar>> rays, std::span<std::uint8_t> blocked,
                 const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
   void any_hits(std::span<const Line<Scalar>> lines, std::span<std::uint8_t> blocked,
+                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+
+  void any_hits(std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> blocked, Executor executor,
+                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+  void any_hits(std::span<const Ray<Scalar>> rays, std::span<std::uint8_t> blocked, Executor executor,
+                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+  void any_hits(std::span<const Line<Scalar>> lines, std::span<std::uint8_t> blocked, Executor executor,
                 const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
 
   /// Where a point that moves along the segment may stop so that it has touched nothing: a step that ends there never
@@ -109,15 +144,23 @@ class Collider {
                                                 HitFilter<Scalar> filter,
                                                 const QueryOptions<Scalar>& options = {}) const noexcept;
 
-  [[nodiscard]] std::size_t triangle_count() const noexcept { return triangles_.size(); }
+  [[nodiscard]] std::size_t triangle_count() const noexcept { return mesh_.triangle_count(); }
   /// The corners as they were given.
-  [[nodiscard]] const Triangle<Scalar>& triangle(std::uint32_t id) const noexcept { return triangles_[id]; }
+  [[nodiscard]] Triangle<Scalar> triangle(std::uint32_t id) const noexcept { return mesh_.triangle(id); }
   [[nodiscard]] const Box<Scalar>& box() const noexcept { return box_; }
   [[nodiscard]] const Grid& grid() const noexcept { return grid_; }
+  /// Of the grid, the copied mesh and the masks, as they were allocated; once rebuilt, also of what the next rebuild
+  /// uses.
+  [[nodiscard]] std::size_t memory_bytes() const noexcept {
+    return grid_.memory_bytes() + mesh_.memory_bytes() + masks_.capacity() * sizeof(std::uint32_t) +
+           spare_.grid.memory_bytes() + spare_.mesh.memory_bytes() + spare_.scratch.memory_bytes();
+  }
 
  private:
   using Filter = const HitFilter<Scalar>*;  ///< none if null
 
+  detail::Query<Scalar> query(Filter, const QueryOptions<Scalar>&, QueryStatistics*,
+                              QueryStatistics& unread) const noexcept;
   std::optional<Hit<Scalar>> find_first(const Path<Scalar>&, Filter, const QueryOptions<Scalar>&,
                                         QueryStatistics*) const noexcept;
   bool find_any(const Path<Scalar>&, Filter, const QueryOptions<Scalar>&, QueryStatistics*) const noexcept;
@@ -126,16 +169,25 @@ class Collider {
   Vector3<Scalar> find_free_point(const Segment<Scalar>&, const Hit<Scalar>&, Filter,
                                   const QueryOptions<Scalar>&) const noexcept;
   template <typename AnyPath>
-  void find_each_first(std::span<const AnyPath>, std::span<Hit<Scalar>>, const QueryOptions<Scalar>&,
+  void find_each_first(std::span<const AnyPath>, std::span<Hit<Scalar>>, const Executor*, const QueryOptions<Scalar>&,
                        QueryStatistics*) const noexcept;
   template <typename AnyPath>
-  void find_each_any(std::span<const AnyPath>, std::span<std::uint8_t>, const QueryOptions<Scalar>&,
+  void find_each_any(std::span<const AnyPath>, std::span<std::uint8_t>, const Executor*, const QueryOptions<Scalar>&,
                      QueryStatistics*) const noexcept;
 
-  std::vector<Triangle<Scalar>> triangles_;
+  /// What a rebuild is made in; then it takes the place of what was.
+  struct Spare {
+    MeshBlocks<Scalar> mesh;
+    Grid grid;
+    GridScratch scratch;
+  };
+
+  MeshBlocks<Scalar> mesh_;
   std::vector<std::uint32_t> masks_;  ///< one a triangle, or none if all bits are set for all
   Box<Scalar> box_;
   Grid grid_;
+  GridOptions grid_options_;
+  Spare spare_;
 };
 
 using Colliderf = Collider<float>;

@@ -14,6 +14,18 @@ struct QueryStatistics {
   std::uint64_t exact_orders = 0;     ///< pairs of hits whose order only exact arithmetic told
   std::uint64_t exact_roundings = 0;  ///< hits of which t, u or v took exact arithmetic to round
   std::uint64_t unclipped = 0;        ///< paths too far from the grid to be clipped, which met every triangle
+
+  QueryStatistics& operator+=(const QueryStatistics& more) {
+    paths += more.paths;
+    cells += more.cells;
+    candidates += more.candidates;
+    undecided += more.undecided;
+    exact_decisions += more.exact_decisions;
+    exact_orders += more.exact_orders;
+    exact_roundings += more.exact_roundings;
+    unclipped += more.unclipped;
+    return *this;
+  }
 };
 
 }  // namespace surehit

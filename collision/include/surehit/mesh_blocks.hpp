@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "surehit/grid.hpp"
+#include "surehit/triangle_mesh_view.hpp"
+#include "surehit/vertex_view.hpp"
+
+namespace surehit {
+
+/// A collider's copy of its mesh: the vertices and indices as they were given, and for each list of the grid the
+/// triangles' corners a, b and c, coordinate by coordinate, as the kernel loads them.
+template <typename Scalar>
+class MeshBlocks {
+ public:
+  MeshBlocks() = default;
+  /// Of a valid mesh and its grid. May throw std::bad_alloc.
+  MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid);
+
+  /// The same triangles with other vertices. Memory is reused.
+  void rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid);
+
+  [[nodiscard]] std::size_t triangle_count() const noexcept { return corners_.size(); }
+  [[nodiscard]] Triangle<Scalar> triangle(std::uint32_t id) const noexcept {
+    const auto& [a, b, c] = corners_[id];
+    return {vertices_[a], vertices_[b], vertices_[c]};
+  }
+  /// The triangle at `index` of a list's block.
+  [[nodiscard]] static Triangle<Scalar> triangle(const Scalar* block, std::size_t count, std::size_t index) noexcept {
+    const auto at = [&](std::size_t k) { return block[k * count + index]; };
+    return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, {at(6), at(7), at(8)}};
+  }
+  /// Of the mesh as it was given, in the memory of this copy.
+  [[nodiscard]] TriangleMeshView<Scalar> view() const noexcept;
+  /// Of the same triangles with other vertices, as many.
+  [[nodiscard]] TriangleMeshView<Scalar> view_with(const VertexView<Scalar>& vertices) const noexcept;
+  [[nodiscard]] std::size_t memory_bytes() const noexcept;
+
+  static constexpr std::size_t coordinates = 9;
+  /// Of a list that begins at `first_entry` of the grid and has `count` entries: coordinate k of triangle i is at
+  /// k count + i. A vector load may read beyond the last.
+  [[nodiscard]] const Scalar* block(std::size_t first_entry) const noexcept {
+    return blocks_.data() + coordinates * first_entry;
+  }
+  /// The greatest component of the list's edges b - a and c - a; infinite where coordinates are too large for the
+  /// kernel.
+  [[nodiscard]] Scalar edge_size(std::size_t first_entry) const noexcept { return edge_sizes_[first_entry / 4]; }
+
+ private:
+  void fill_blocks(const Grid& grid);
+
+  std::vector<Vector3<Scalar>> vertices_;
+  std::vector<std::array<std::uint32_t, 3>> corners_;
+  std::vector<Scalar> blocks_;
+  std::vector<Scalar> edge_sizes_;
+};
+
+}  // namespace surehit

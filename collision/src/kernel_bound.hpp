@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "path_range.hpp"
+
+namespace surehit::detail {
+
+// The bound of Möller-Trumbore in working precision. u is the unit roundoff; d, e, f and s are the largest components,
+// as computed, of D, E1, E2 and S.
+//
+// det = E1·(D × E2) is a sum of six products of three factors. Each product passes through at most 8 roundings: three
+// differences, the inner product and the difference in the cross product, the outer product and two sums (fewer where a
+// multiplication is fused with the sum; a ray's D is not rounded at all). So the computed det is off by at most
+// gamma_8 · 6 |D||E1||E2| <= 48 u d e f up to factors 1 + O(u) (Higham, "Accuracy and Stability", lemma 3.1), and
+// likewise T = E2·(S × E1) with f s e, U = S·(D × E2) with s d f, V = D·(S × E1) with d s e. No |det| exceeds 6 d e f.
+//
+// What is combined from them adds its own roundings, each at most u times the operands' sizes, 6 d e f and so on:
+//   W = det - U - V                48 u + 2 · 6 u of each
+//   t_weight T + det_weight det    48 u + 2 · 6 u of each, and T is not rounded when it is multiplied by 1, 0 or -1
+// so that 60 u of each product of sizes bounds them all. The bound is itself computed with at most 8 roundings in any
+// of its terms, and holds sizes that are off by u each: 66 leaves a tenth for that, where 11 u would do.
+//
+// Underflow: a product may lose half the least denormal, eta / 2. In det: eta in each component of the cross product,
+// times e, three times over, and 3 eta / 2 in the dot product; in first det: |first| times that and eta / 2; in the
+// bound: f eta / 2 and twice eta / 2 for each size product, times |first|. All are below 12 eta (1 + largest) (1 +
+// |first|), far less than the least normal number times (1 + largest) as long as |first| and |last| stay below
+// `largest_limit`.
+//
+// Overflow: with every size up to `largest_size`, the largest number formed is under 6 · 2 · largest_size^3 ·
+// largest_limit.
+template <typename Scalar>
+struct KernelBound {
+  static constexpr Scalar relative = 66 * (std::numeric_limits<Scalar>::epsilon() / 2);
+  static constexpr Scalar underflow = std::numeric_limits<Scalar>::min();
+  static constexpr Scalar largest_size = std::is_same_v<Scalar, float> ? Scalar(0x1p34) : Scalar(0x1p300);
+  static constexpr Scalar largest_limit = Scalar(0x1p16);
+};
+static_assert(12 * 0x1p34 * 0x1p34 * 0x1p34 * 0x1p16 < double{std::numeric_limits<float>::max()});
+static_assert(12 * (1 + 0x1p16) * 0x1p-149 < double{std::numeric_limits<float>::min()});
+
+/// What a range asks of a pair: that t_weight T + det_weight det be at least zero once det's sign is taken out, for its
+/// lower end (T - first det) and for its upper one (last det - T). An end at infinity asks nothing: of det itself.
+template <typename Scalar>
+struct RangeWeights {
+  Scalar t_first = 0;
+  Scalar det_first = 1;
+  Scalar t_last = 0;
+  Scalar det_last = 1;
+  Scalar t_size = 0;    ///< the greater of the two, by size
+  Scalar det_size = 1;  //
+  bool decides = true;  ///< whether nothing else is left to decide
+
+  explicit RangeWeights(const PathRange<Scalar>& range) {
+    const auto counts = [&](Scalar limit) {
+      const bool small = std::fabs(limit) <= KernelBound<Scalar>::largest_limit;
+      decides &= small || std::isinf(limit);
+      return small;
+    };
+    if (counts(range.first)) {
+      t_first = t_size = 1;
+      det_first = -range.first;
+    }
+    if (counts(range.last)) {
+      t_last = -1;
+      t_size = 1;
+      det_last = range.last;
+    }
+    det_size = std::max(std::fabs(det_first), std::fabs(det_last));
+  }
+};
+
+}  // namespace surehit::detail

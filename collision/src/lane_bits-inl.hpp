@@ -1,0 +1,35 @@
+// Masks as bits, for the instruction set that Highway compiles this for.
+
+#if defined(SUREHIT_LANE_BITS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SUREHIT_LANE_BITS_INL
+#undef SUREHIT_LANE_BITS_INL
+#else
+#define SUREHIT_LANE_BITS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace surehit::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Bit i is lane i.
+template <typename D>
+HWY_INLINE std::uint64_t bits_of(D d, hn::Mask<D> mask) {
+  std::uint64_t bits = 0;
+  hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
+  return bits;
+}
+
+template <typename D>
+HWY_INLINE hn::Mask<D> mask_of(D d, std::uint64_t bits) {
+  return hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&bits));
+}
+
+}  // namespace surehit::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

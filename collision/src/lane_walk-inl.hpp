@@ -1,0 +1,267 @@
+// Many paths side by side in a grid, for the instruction set that Highway compiles this for.
+
+#if defined(SUREHIT_LANE_WALK_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SUREHIT_LANE_WALK_INL
+#undef SUREHIT_LANE_WALK_INL
+#else
+#define SUREHIT_LANE_WALK_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "lane_bits-inl.hpp"
+#include "surehit/grid_traversal.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace surehit::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::ScalableTag<float>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using BitsTag = hn::RebindToUnsigned<FloatTag>;
+using Floats = hn::Vec<FloatTag>;
+using Ints = hn::Vec<IntTag>;
+using Words = hn::Vec<BitsTag>;
+
+/// As many as the widest instruction set walks at once.
+constexpr std::size_t most_lanes = 16;
+
+/// A number for each lane. In memory: a step loads what it needs, and a lane is filled anew by a scalar store.
+using LaneFloats = std::array<float, most_lanes>;
+
+/// Paths as `GridTraversal` walks them, one in each lane; what that says of a single one holds for each.
+struct alignas(most_lanes * sizeof(float)) WalkingPaths {
+  std::array<LaneFloats, 3> start;
+  std::array<LaneFloats, 3> rate;
+  std::array<LaneFloats, 3> inverse_rate;
+  std::array<LaneFloats, 3> finest;  ///< the cell in which the walk stands
+  std::array<LaneFloats, 3> pitch;   ///< of top cells, as the path is mirrored
+  LaneFloats first_cell;             ///< index of the top cell at the origin, as the path is mirrored
+  LaneFloats enters;                 ///< t at which the walk begins, where tau is 0
+  LaneFloats end;
+  std::array<std::uint32_t, most_lanes> octant;
+
+  /// What the path meets beyond parameter t is of no interest any more.
+  void shorten(std::size_t lane, double t) {
+    const double entered = enters[lane];
+    const double tau = t - entered;
+    const double rounding = (std::fabs(t) + std::fabs(entered)) * 0x1p-50 + std::fabs(tau) * 0x1p-22 + 0x1p-140;
+    end[lane] = std::min(end[lane], static_cast<float>(tau + rounding));
+  }
+
+  void copy_lane(std::size_t to, const WalkingPaths& from, std::size_t lane) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      start[axis][to] = from.start[axis][lane];
+      rate[axis][to] = from.rate[axis][lane];
+      inverse_rate[axis][to] = from.inverse_rate[axis][lane];
+      finest[axis][to] = from.finest[axis][lane];
+      pitch[axis][to] = from.pitch[axis][lane];
+    }
+    first_cell[to] = from.first_cell[lane];
+    enters[to] = from.enters[lane];
+    end[to] = from.end[lane];
+    octant[to] = from.octant[lane];
+  }
+};
+
+/// What places and walks the lanes of one grid, whose frame must be one of floats.
+class LaneWalk {
+ public:
+  explicit LaneWalk(const Grid& grid) : grid_(grid) {
+    const GridFrame& frame = grid.frame();
+    float pitch = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      stop_[axis] = static_cast<float>(frame.resolution(axis));
+      pitch_[axis] = pitch;
+      pitch *= static_cast<float>(frame.cells[axis]);
+    }
+  }
+
+  /// Lanes that take part, a bit for each.
+  struct Placed {
+    std::uint32_t inside;  ///< they walk
+    std::uint32_t apart;   ///< their paths must be placed by `PlacedPath`
+  };
+
+  /// Places paths of six floats each, start and end or direction, of which all lanes' can be read and `count` are
+  /// there. The bound is derived in grid_traversal.cpp: starts within one width of the grid, in float.
+  HWY_INLINE Placed place(const float* paths, bool is_segment, float first_t, float last_t, std::size_t count,
+                          WalkingPaths& placed) const {
+    const FloatTag d;
+    const BitsTag du;
+    // Each half holds starts and ends by turns.
+    Floats near_half[3];
+    Floats far_half[3];
+    hn::LoadInterleaved3(d, paths, near_half[0], near_half[1], near_half[2]);
+    hn::LoadInterleaved3(d, paths + 3 * hn::Lanes(d), far_half[0], far_half[1], far_half[2]);
+    const Floats zero = hn::Zero(d);
+    Floats enters = hn::Set(d, first_t);
+    Floats leaves = hn::Set(d, last_t);
+    Floats fastest = zero;
+    Floats first_cell = zero;
+    Words octant = hn::Zero(du);
+    Floats from[3];
+    Floats by[3];
+    auto is_near = hn::Eq(zero, zero);
+    const GridFrame& frame = grid_.frame();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Floats scale = hn::Set(d, frame.float_scale[k]);
+      const Floats stop = hn::Set(d, stop_[k]);
+      const Floats start = hn::ConcatEven(d, far_half[k], near_half[k]);
+      const Floats toward = hn::ConcatOdd(d, far_half[k], near_half[k]);
+      const Floats move = hn::Mul(is_segment ? hn::Sub(toward, start) : toward, scale);
+      const Floats place =
+          hn::MulAdd(hn::Sub(start, hn::Set(d, frame.float_low[k])), scale, hn::Set(d, frame.margin[k]));
+      is_near = hn::And(is_near, hn::And(hn::Ge(place, hn::Neg(stop)), hn::Le(place, hn::Add(stop, stop))));
+      const auto falls = hn::Lt(move, zero);
+      from[k] = hn::IfThenElse(falls, hn::Sub(stop, place), place);
+      const Floats speed = hn::Abs(move);
+      is_near = hn::And(is_near, hn::Le(speed, hn::Set(d, PlacedPath::fast)));
+      fastest = hn::Max(fastest, speed);
+      // A path that stands still on the axis never crosses a plane.
+      const auto stands = hn::Lt(speed, hn::Set(d, PlacedPath::least_rate));
+      by[k] = hn::IfThenElse(stands, zero, speed);
+      const Floats inverse =
+          hn::IfThenElse(stands, hn::Set(d, PlacedPath::greatest_inverse), hn::Div(hn::Set(d, 1.0F), speed));
+      enters = hn::Max(enters, hn::Mul(hn::Neg(from[k]), inverse));
+      leaves = hn::Min(leaves, hn::Mul(hn::Sub(stop, from[k]), inverse));
+      const Floats pitch = hn::Set(d, pitch_[k]);
+      const Floats turned = hn::Set(d, pitch_[k] * static_cast<float>(frame.cells[k] - 1));
+      hn::Store(hn::IfThenElse(falls, hn::Neg(pitch), pitch), d, placed.pitch[k].data());
+      hn::Store(inverse, d, placed.inverse_rate[k].data());
+      hn::Store(by[k], d, placed.rate[k].data());
+      first_cell = hn::IfThenElse(falls, hn::Add(first_cell, turned), first_cell);
+      octant = hn::Or(octant, hn::IfThenElseZero(hn::RebindMask(du, falls), hn::Set(du, 1U << k)));
+    }
+    auto is_plain = is_near;
+    if (!is_segment) is_plain = hn::And(is_plain, hn::Ge(fastest, hn::Set(d, PlacedPath::slow)));
+    const auto taken = hn::FirstN(d, count);
+    const auto inside = hn::And(hn::And(is_plain, taken), hn::Le(enters, leaves));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats last = hn::Set(d, stop_[axis] * (1 - 0x1p-24F));
+      const Floats entered = hn::Min(hn::Max(hn::MulAdd(enters, by[axis], from[axis]), zero), last);
+      hn::Store(entered, d, placed.start[axis].data());
+      hn::Store(hn::Floor(entered), d, placed.finest[axis].data());
+    }
+    const Floats last = hn::Set(d, last_t);
+    const Floats rounding = hn::MulAdd(hn::Add(hn::Abs(last), hn::Abs(enters)), hn::Set(d, 0x1p-22F),
+                                       hn::Set(d, std::numeric_limits<float>::min()));
+    hn::Store(hn::Add(hn::Sub(last, enters), rounding), d, placed.end.data());
+    hn::Store(enters, d, placed.enters.data());
+    hn::Store(first_cell, d, placed.first_cell.data());
+    hn::Store(octant, du, placed.octant.data());
+    return {static_cast<std::uint32_t>(bits_of(d, inside)),
+            static_cast<std::uint32_t>(bits_of(d, hn::AndNot(is_plain, taken)))};
+  }
+
+  /// What the cells hold in which the walking lanes stand, undivided ones, and these cells' low corners and edges.
+  struct Cells {
+    Words word;
+    Floats low[3];
+    Floats size;
+  };
+  template <bool has_levels>
+  HWY_INLINE Cells look(const WalkingPaths& paths, std::uint32_t walking) const {
+    const FloatTag d;
+    const IntTag di;
+    const BitsTag du;
+    Cells cells;
+    const std::uint32_t levels = grid_.levels();
+    Ints finest[3];
+    Floats index = hn::Load(d, paths.first_cell.data());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      cells.low[axis] = hn::Load(d, paths.finest[axis].data());
+      Floats top = cells.low[axis];
+      if constexpr (has_levels) {
+        finest[axis] = hn::ConvertTo(di, cells.low[axis]);
+        top = hn::ConvertTo(d, hn::ShiftRightSame(finest[axis], static_cast<int>(2 * levels)));
+      }
+      index = hn::MulAdd(top, hn::Load(d, paths.pitch[axis].data()), index);
+    }
+    // Idle lanes stand where they ended, or at the origin: in the grid.
+    const auto* top = reinterpret_cast<const std::uint32_t*>(grid_.top().data());
+    cells.word = hn::GatherIndex(du, top, hn::ConvertTo(di, index));
+    cells.size = hn::Set(d, static_cast<float>(grid_.frame().division));
+    if constexpr (has_levels) {
+      const auto walks = mask_of(du, walking);
+      const Words octant = hn::Load(du, paths.octant.data());
+      for (std::uint32_t level = levels; level-- > 0;) {
+        const auto divided =
+            hn::And(walks, hn::Eq(hn::And(cells.word, hn::Set(du, CellWord::divided_bits)), hn::Zero(du)));
+        if (hn::AllFalse(du, divided)) break;
+        Words cell = hn::ShiftLeft<6>(hn::ShiftRight<9>(cells.word));
+        for (int axis = 0; axis < 3; ++axis) {
+          const Words place = hn::BitCast(du, hn::ShiftRightSame(finest[axis], static_cast<int>(2 * level)));
+          const Words turned = hn::Sub(hn::Zero(du), hn::And(hn::ShiftRightSame(octant, axis), hn::Set(du, 1U)));
+          cell = hn::Add(cell, hn::ShiftLeftSame(hn::And(hn::Xor(place, turned), hn::Set(du, 3U)), 2 * axis));
+        }
+        const auto* bricks = reinterpret_cast<const std::uint32_t*>(grid_.bricks().data());
+        const Words inner = hn::GatherIndex(du, bricks, hn::BitCast(di, hn::IfThenElseZero(divided, cell)));
+        cells.word = hn::IfThenElse(divided, inner, cells.word);
+        cells.size =
+            hn::IfThenElse(hn::RebindMask(d, divided), hn::Set(d, static_cast<float>(1U << 2 * level)), cells.size);
+      }
+      const Ints within = hn::Sub(hn::ConvertTo(di, cells.size), hn::Set(di, 1));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        cells.low[axis] = hn::ConvertTo(d, hn::AndNot(within, finest[axis]));
+      }
+    }
+    return cells;
+  }
+
+  /// Steps the walking lanes beyond their cells, or beyond the cubes of empty cells that begin with them. Returns those
+  /// that still walk.
+  HWY_INLINE std::uint32_t advance(const Cells& cells, std::uint32_t walking, WalkingPaths& paths) const {
+    const FloatTag d;
+    const BitsTag du;
+    const Words nibble = hn::Set(du, 15U);
+    const Words shift = hn::ShiftLeft<2>(hn::Load(du, paths.octant.data()));
+    const auto is_empty = hn::Ne(hn::And(cells.word, nibble), hn::Zero(du));
+    const Words distance = hn::IfThenElse(is_empty, hn::And(hn::Shr(cells.word, shift), nibble), hn::Set(du, 1U));
+    const Floats leap = hn::Mul(hn::ConvertTo(d, hn::BitCast(IntTag(), distance)), cells.size);
+    Floats plane[3];
+    Floats crossing[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      plane[axis] = hn::Add(cells.low[axis], leap);
+      crossing[axis] = hn::Mul(hn::Sub(plane[axis], hn::Load(d, paths.start[axis].data())),
+                               hn::Load(d, paths.inverse_rate[axis].data()));
+    }
+    const Floats tau = hn::Min(hn::Min(crossing[0], crossing[1]), crossing[2]);
+    auto inside = hn::Lt(tau, hn::Load(d, paths.end.data()));
+    const auto walks = mask_of(d, walking);
+    Floats finest[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats place =
+          hn::Floor(hn::MulAdd(tau, hn::Load(d, paths.rate[axis].data()), hn::Load(d, paths.start[axis].data())));
+      const Floats least = hn::Load(d, paths.finest[axis].data());
+      const Floats cell = hn::Min(hn::Max(place, least), hn::Sub(plane[axis], hn::Set(d, 1.0F)));
+      finest[axis] = hn::IfThenElse(hn::Eq(crossing[axis], tau), plane[axis], cell);
+      inside = hn::And(inside, hn::Lt(finest[axis], hn::Set(d, stop_[axis])));
+    }
+    inside = hn::And(inside, walks);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats least = hn::Load(d, paths.finest[axis].data());
+      hn::Store(hn::IfThenElse(inside, finest[axis], least), d, paths.finest[axis].data());
+    }
+    return static_cast<std::uint32_t>(bits_of(d, inside));
+  }
+
+ private:
+  const Grid& grid_;
+  std::array<float, 3> stop_;
+  std::array<float, 3> pitch_;
+};
+
+}  // namespace surehit::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,83 @@
+#include "surehit/mesh_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kernel_bound.hpp"
+
+namespace surehit {
+namespace {
+
+/// What the widest vector load may read beyond the last triangle.
+constexpr std::size_t slack = 64;
+
+}  // namespace
+
+template <typename Scalar>
+MeshBlocks<Scalar>::MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid) {
+  rebuild(mesh, grid);
+}
+
+template <typename Scalar>
+void MeshBlocks<Scalar>::rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid) {
+  vertices_.resize(mesh.vertex_count());
+  for (std::size_t i = 0; i < vertices_.size(); ++i) vertices_[i] = mesh.vertex(i);
+  corners_.resize(mesh.triangle_count());
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    corners_[i] = {mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
+  }
+  fill_blocks(grid);
+}
+
+template <typename Scalar>
+void MeshBlocks<Scalar>::fill_blocks(const Grid& grid) {
+  blocks_.resize(coordinates * grid.entries().size() + slack);
+  edge_sizes_.resize(grid.entries().size() / 4);
+  Scalar largest = 0;
+  for (const Vector3<Scalar>& vertex : vertices_) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  const bool too_large = !(largest <= detail::KernelBound<Scalar>::largest_size / 2);
+  const auto fill = [&](CellWord word) {
+    if (word.is_empty() || word.is_divided()) return;
+    const std::span<const std::uint32_t> ids = grid.triangles(word);
+    const std::size_t first = grid.first_entry(word);
+    Scalar* block = blocks_.data() + coordinates * first;
+    Scalar longest = 0;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const auto& [a, b, c] = corners_[ids[i]];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<Eigen::Index>(axis);
+        const Scalar origin = vertices_[a][k];
+        block[axis * ids.size() + i] = origin;
+        block[(3 + axis) * ids.size() + i] = vertices_[b][k];
+        block[(6 + axis) * ids.size() + i] = vertices_[c][k];
+        longest = std::max({longest, std::fabs(vertices_[b][k] - origin), std::fabs(vertices_[c][k] - origin)});
+      }
+    }
+    edge_sizes_[first / 4] = too_large ? std::numeric_limits<Scalar>::infinity() : longest;
+  };
+  std::for_each(grid.top().begin(), grid.top().end(), fill);
+  std::for_each(grid.bricks().begin(), grid.bricks().end(), fill);
+}
+
+template <typename Scalar>
+TriangleMeshView<Scalar> MeshBlocks<Scalar>::view() const noexcept {
+  return view_with(std::span<const Vector3<Scalar>>(vertices_));
+}
+
+template <typename Scalar>
+TriangleMeshView<Scalar> MeshBlocks<Scalar>::view_with(const VertexView<Scalar>& vertices) const noexcept {
+  return {vertices.data, vertices.count, corners_.empty() ? nullptr : corners_.front().data(), corners_.size(),
+          vertices.stride};
+}
+
+template <typename Scalar>
+std::size_t MeshBlocks<Scalar>::memory_bytes() const noexcept {
+  return vertices_.capacity() * sizeof(Vector3<Scalar>) + corners_.capacity() * sizeof(corners_.front()) +
+         (blocks_.capacity() + edge_sizes_.capacity()) * sizeof(Scalar);
+}
+
+template class MeshBlocks<float>;
+template class MeshBlocks<double>;
+
+}  // namespace surehit

@@ -1,0 +1,79 @@
+#include "query.hpp"
+
+// Compiled once for each instruction set; the best one is chosen when the first query runs.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "query.cpp"
+#include <hwy/foreach_target.h>
+// Behind foreach_target.h.
+#include "batch-inl.hpp"
+#include "query_walk-inl.hpp"
+
+// Highway exports plain functions, so each kind of query has a name for each Scalar and path.
+#define SUREHIT_FOR_SCALARS(do) \
+  do (float)do(double)
+#define SUREHIT_FOR_PATHS(do) \
+  do (Segment) do(Ray) do(Line)
+
+HWY_BEFORE_NAMESPACE();
+namespace surehit::detail::HWY_NAMESPACE {
+
+#define SUREHIT_DEFINE(Scalar)                                                                              \
+  std::optional<Hit<Scalar>> first_##Scalar(const Query<Scalar>& query, const Path<Scalar>& path) {         \
+    return find_first(query, path);                                                                         \
+  }                                                                                                         \
+  bool any_##Scalar(const Query<Scalar>& query, const Path<Scalar>& path) { return find_any(query, path); } \
+  void all_##Scalar(const Query<Scalar>& query, const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits) { \
+    find_all(query, path, hits);                                                                            \
+  }
+SUREHIT_FOR_SCALARS(SUREHIT_DEFINE)
+#undef SUREHIT_DEFINE
+
+#define SUREHIT_DEFINE(AnyPath)                                                                                      \
+  void each_first_##AnyPath(const Query<float>& query, std::span<const AnyPath<float>> paths, Hit<float>* hits) {    \
+    find_each_first(query, paths, {hits, paths.size()});                                                             \
+  }                                                                                                                  \
+  void each_any_##AnyPath(const Query<float>& query, std::span<const AnyPath<float>> paths, std::uint8_t* blocked) { \
+    find_each_any(query, paths, {blocked, paths.size()});                                                            \
+  }
+SUREHIT_FOR_PATHS(SUREHIT_DEFINE)
+#undef SUREHIT_DEFINE
+
+}  // namespace surehit::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace surehit::detail {
+
+#define SUREHIT_EXPORT(Scalar)                                                                          \
+  HWY_EXPORT(first_##Scalar);                                                                           \
+  HWY_EXPORT(any_##Scalar);                                                                             \
+  HWY_EXPORT(all_##Scalar);                                                                             \
+  template <>                                                                                           \
+  std::optional<Hit<Scalar>> first_hit(const Query<Scalar>& query, const Path<Scalar>& path) noexcept { \
+    return HWY_DYNAMIC_DISPATCH(first_##Scalar)(query, path);                                           \
+  }                                                                                                     \
+  template <>                                                                                           \
+  bool any_hit(const Query<Scalar>& query, const Path<Scalar>& path) noexcept {                         \
+    return HWY_DYNAMIC_DISPATCH(any_##Scalar)(query, path);                                             \
+  }                                                                                                     \
+  template <>                                                                                           \
+  void all_hits(const Query<Scalar>& query, const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits) { \
+    HWY_DYNAMIC_DISPATCH(all_##Scalar)(query, path, hits);                                              \
+  }
+SUREHIT_FOR_SCALARS(SUREHIT_EXPORT)
+#undef SUREHIT_EXPORT
+
+#define SUREHIT_EXPORT(AnyPath)                                                                                     \
+  HWY_EXPORT(each_first_##AnyPath);                                                                                 \
+  HWY_EXPORT(each_any_##AnyPath);                                                                                   \
+  void first_hits(const Query<float>& query, std::span<const AnyPath<float>> paths, Hit<float>* hits) noexcept {    \
+    HWY_DYNAMIC_DISPATCH(each_first_##AnyPath)(query, paths, hits);                                                 \
+  }                                                                                                                 \
+  void any_hits(const Query<float>& query, std::span<const AnyPath<float>> paths, std::uint8_t* blocked) noexcept { \
+    HWY_DYNAMIC_DISPATCH(each_any_##AnyPath)(query, paths, blocked);                                                \
+  }
+SUREHIT_FOR_PATHS(SUREHIT_EXPORT)
+#undef SUREHIT_EXPORT
+
+}  // namespace surehit::detail
+#endif

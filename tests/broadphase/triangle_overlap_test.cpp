@@ -1,0 +1,211 @@
+#include "triangle_overlap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+
+#include "support/case_count.hpp"
+#include "support/exact_cells.hpp"
+#include "support/listing_slack.hpp"
+#include "support/neighbour.hpp"
+#include "support/random.hpp"
+
+namespace surehit::test {
+namespace {
+
+using Corners = std::array<detail::CellPoint, 3>;
+
+/// Triangles and boxes in a grid of `resolution_` finest cells on each axis.
+class TriangleOverlapIn : public testing::TestWithParam<std::uint32_t> {
+ protected:
+  void expect_right(const Corners& corners, const detail::CellPoint& low, const detail::CellPoint& high,
+                    std::size_t flat_axis = detail::TriangleOverlap::no_axis) {
+    ExactPolygon polygon;
+    for (const auto& corner : corners) polygon.push_back({corner[0], corner[1], corner[2]});
+    const CellBox box = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+    const double size = resolution_;
+    const double least = padding_ - 8 * 0x1p-24 * size;
+    const double most = padding_ + listing_slack(polygon, size);
+    for (std::size_t axis = 0; axis < 3; ++axis) {  // else it may not be asked
+      const auto [lowest, highest] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
+      if (lowest > high[axis] + padding_ || highest < low[axis] - padding_) return;
+    }
+    const bool meets = detail::TriangleOverlap(corners, {padding_, padding_, padding_}, flat_axis).meets(low, high);
+    std::ostringstream text;
+    text << std::hexfloat;
+    for (const auto& corner : corners) text << "{" << corner[0] << ", " << corner[1] << ", " << corner[2] << "} ";
+    text << "and the box from {" << low[0] << ", " << low[1] << ", " << low[2] << "} to {" << high[0] << ", " << high[1]
+         << ", " << high[2] << "} among " << resolution_;
+    if (meets) {
+      EXPECT_TRUE(meets_box(polygon, box.grown({most, most, most}))) << "too far off: " << text.str();
+    } else {
+      EXPECT_FALSE(meets_box(polygon, box.grown({least, least, least}))) << "lost: " << text.str();
+    }
+    ++(meets ? met_ : missed_);
+  }
+
+  /// Boxes of cells of any size, where the triangle is or beside it.
+  void expect_right(const Corners& corners) {
+    for (int i = 0; i < 4; ++i) {
+      const auto longest = static_cast<std::uint64_t>(std::bit_width(resolution_));
+      const std::uint32_t size = std::uint32_t{1} << random_.below(longest);
+      detail::CellPoint low;
+      detail::CellPoint high;
+      const std::array<float, 3> weight = {random_.unit<float>(), random_.unit<float>(), random_.unit<float>()};
+      const float sum = weight[0] + weight[1] + weight[2];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        float inside = 0;
+        for (std::size_t k = 0; k < 3; ++k) inside += corners[k][axis] * weight[k] / std::max(sum, 0.1F);
+        const double beside = static_cast<double>(random_.between(-2, 1)) * 0.5 * size;
+        const double cell = std::floor((double{inside} + beside) / size);
+        low[axis] = static_cast<float>(std::clamp(cell, 0.0, std::floor((resolution_ - 1.0) / size)) * size);
+        high[axis] = low[axis] + static_cast<float>(size);
+      }
+      expect_right(corners, low, high);
+    }
+  }
+
+  float on_axis() {
+    const auto plane = static_cast<float>(random_.below(resolution_ + 1));
+    const auto clamped = [&](float x) { return std::clamp(x, 0.0F, static_cast<float>(resolution_)); };
+    switch (random_.below(6)) {
+      case 0:
+        return plane;
+      case 1:  // where the padding begins and ends, and just beyond
+        return clamped(plane + static_cast<float>(random_.between(-1, 1)) * padding_ *
+                                   (1 + random_.symmetric<float>() * 0x1p-6F));
+      case 2:
+        return clamped(neighbour(plane, static_cast<int>(random_.between(-2, 2))));
+      default:
+        return static_cast<float>(resolution_) * random_.unit<float>();
+    }
+  }
+  detail::CellPoint point() { return {on_axis(), on_axis(), on_axis()}; }
+
+  detail::CellPoint near(const detail::CellPoint& other, float size) {
+    detail::CellPoint drawn;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      drawn[axis] = std::clamp(other[axis] + size * random_.symmetric<float>(), 0.0F, static_cast<float>(resolution_));
+    }
+    return drawn;
+  }
+
+  void TearDown() override {
+    EXPECT_GT(met_, 0U);
+    EXPECT_GT(missed_, 0U);
+  }
+
+  const std::uint32_t resolution_ = GetParam();
+  const float padding_ = GridFrame::padding_share * static_cast<float>(resolution_);
+  Random random_{20240229};
+  std::size_t met_ = 0;
+  std::size_t missed_ = 0;
+};
+
+TEST_P(TriangleOverlapIn, BoxesOfTrianglesOfAllSizes) {
+  for (std::size_t i = 0; i < case_count(3000); ++i) {
+    const float size = std::ldexp(static_cast<float>(resolution_), -static_cast<int>(random_.below(24)));
+    const detail::CellPoint a = point();
+    expect_right({a, near(a, size), near(a, size)});
+  }
+}
+
+TEST_P(TriangleOverlapIn, BoxesOfTrianglesWithCornersOnPlanesAndWherePaddingEnds) {
+  for (std::size_t i = 0; i < case_count(3000); ++i) expect_right({point(), point(), point()});
+}
+
+TEST_P(TriangleOverlapIn, BoxesOfTrianglesInCellPlanes) {
+  for (std::size_t i = 0; i < case_count(1500); ++i) {
+    Corners corners = {point(), point(), point()};
+    const std::size_t axis = random_.below(3);
+    corners[1][axis] = corners[2][axis] = corners[0][axis];
+    expect_right(corners);
+  }
+}
+
+TEST_P(TriangleOverlapIn, BoxesOfSliversAndDegenerateTriangles) {
+  for (std::size_t i = 0; i < case_count(1500); ++i) {
+    const detail::CellPoint a = point();
+    const detail::CellPoint b = point();
+    detail::CellPoint between;
+    const float weight = random_.unit<float>();
+    for (std::size_t axis = 0; axis < 3; ++axis) between[axis] = a[axis] + weight * (b[axis] - a[axis]);
+    expect_right({a, b, between});
+    expect_right({a, b, near(between, std::ldexp(static_cast<float>(resolution_), -10))});
+    expect_right({a, b, a});
+    expect_right({a, a, a});
+  }
+}
+
+/// Where the box spans the triangle on an axis, that is said to make the question easier.
+TEST_P(TriangleOverlapIn, BoxesThatSpanItOnAnAxis) {
+  for (std::size_t i = 0; i < case_count(6000); ++i) {
+    const float reach = std::ldexp(static_cast<float>(resolution_), -static_cast<int>(random_.below(8)));
+    const detail::CellPoint a = point();
+    const Corners corners = {a, near(a, reach), random_.one_in(8) ? a : near(a, reach)};
+    const detail::CellPoint centre = near(a, reach);
+    const float size = reach * random_.unit<float>();
+    const std::size_t axis = random_.below(3);
+    detail::CellPoint low = centre;
+    detail::CellPoint high = centre;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [lowest, highest] = std::minmax({corners[0][k], corners[1][k], corners[2][k]});
+      low[k] = k == axis ? lowest : std::max(0.0F, centre[k] - size);
+      high[k] = k == axis ? highest : std::min(static_cast<float>(resolution_), centre[k] + size);
+    }
+    expect_right(corners, low, high, axis);
+  }
+}
+
+/// A triangle is moved towards a box until it meets it, to the last place: along an axis, and along its own normal.
+TEST_P(TriangleOverlapIn, BoxesThatItJustTouches) {
+  const auto middle = static_cast<float>(resolution_ / 2);
+  const detail::CellPoint low = {middle, middle, middle};
+  const detail::CellPoint high = {middle + 1, middle + 1, middle + 1};
+  for (std::size_t i = 0; i < case_count(1500); ++i) {
+    const detail::CellPoint centre = near({middle + 0.5F, middle + 0.5F, middle + 0.5F}, 1);
+    Corners corners = {near(centre, 3), near(centre, 3), near(centre, 3)};
+    const std::size_t axis = random_.below(3);
+    for (int step = 0; step < 30; ++step) {
+      expect_right(corners, low, high);
+      const float move = std::ldexp(random_.symmetric<float>(), -static_cast<int>(random_.below(16)));
+      for (auto& corner : corners) {
+        corner[axis] = std::clamp(corner[axis] + move, 0.0F, static_cast<float>(resolution_));
+      }
+    }
+  }
+}
+
+/// Across the edge of a box in every direction, at a distance of about the padding.
+TEST_P(TriangleOverlapIn, BoxesWhoseEdgesItPassesAtThePadding) {
+  const auto middle = static_cast<float>(resolution_ / 2);
+  const detail::CellPoint low = {middle, middle, middle};
+  const detail::CellPoint high = {middle + 1, middle + 1, middle + 1};
+  const auto reach = static_cast<float>(resolution_) / 4;
+  for (std::size_t i = 0; i < case_count(6000); ++i) {
+    // A line through a point just off the box's upper edge that runs along `k`, tangent to it.
+    const std::size_t k = random_.below(3);
+    const std::size_t l = (k + 1) % 3;
+    const std::size_t m = (k + 2) % 3;
+    const float off = padding_ * (1 + random_.symmetric<float>());
+    const float slope = 0.1F + random_.unit<float>();
+    Corners corners;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const float along = reach * random_.symmetric<float>();
+      corners[corner][k] = middle + reach * random_.symmetric<float>();
+      corners[corner][l] = high[l] + off + along / (1 + slope);
+      corners[corner][m] = high[m] + off - along * slope / (1 + slope);
+    }
+    expect_right(corners, low, high);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Resolutions, TriangleOverlapIn, testing::Values(7, 100, 2048, 32768),
+                         [](const auto& resolution) { return std::to_string(resolution.param); });
+
+}  // namespace
+}  // namespace surehit::test

@@ -1,0 +1,274 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "contact_oracle.hpp"
+#include "family_cases.hpp"
+#include "kernel_list.hpp"
+#include "support/case_count.hpp"
+#include "support/instruction_sets.hpp"
+#include "support/neighbour.hpp"
+#include "support/pair_families.hpp"
+#include "support/pair_text.hpp"
+#include "support/scalars.hpp"
+
+namespace surehit::test {
+namespace {
+
+using detail::PathRange;
+using detail::Verdict;
+
+/// On every instruction set that the machine has: what one calls certain is true, so that no two can disagree.
+template <typename Scalar>
+void expect_never_wrong(const Path<Scalar>& path, const std::vector<Triangle<Scalar>>& triangles,
+                        const KernelList<Scalar>& list, std::size_t i, QueryOptions<Scalar> options) {
+  keep_limits_alone(options);
+  const PathRange<Scalar> range(path, options);
+  if (range.is_empty()) return;
+  std::optional<bool> truth;
+  for (const std::int64_t target : instruction_sets()) {
+    const ForcedInstructionSet forced(target);
+    const Verdict verdict = list.verdict(path, range, i);
+    if (verdict == Verdict::undecided) continue;
+    if (!truth) truth = exact_contact(path, triangles[i], options).has_value();
+    EXPECT_EQ(verdict == Verdict::hit, *truth)
+        << name_of_instruction_set(target) << ": " << hex_text(path) << hex_text(triangles[i]) << hex_text(options)
+        << ", triangle " << i << " of " << triangles.size();
+  }
+}
+
+template <typename Scalar>
+void expect_never_wrong(const Path<Scalar>& path, const Triangle<Scalar>& triangle, QueryOptions<Scalar> options) {
+  expect_never_wrong(path, {triangle}, KernelList<Scalar>(triangle), 0, options);
+}
+
+class BlockKernelOnFamily : public testing::TestWithParam<PairFamily> {
+ protected:
+  template <typename Scalar>
+  void check_alone() {
+    visit_family<Scalar>(GetParam(), 21, 3'000,
+                         [](const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                            const QueryOptions<Scalar>& options) { expect_never_wrong(path, triangle, options); });
+  }
+
+  /// Lists of 1 to 35 triangles, each path against its own triangle and another one.
+  template <typename Scalar>
+  void check_in_lists() {
+    Random random(31);
+    for (std::size_t i = case_count(150); i > 0 && !HasFailure(); --i) {
+      std::vector<Segment<Scalar>> segments(1 + random.below(35));
+      std::vector<Triangle<Scalar>> triangles(segments.size());
+      for (std::size_t k = 0; k < segments.size(); ++k) {
+        const auto pair = draw_pair<Scalar>(GetParam(), random);
+        segments[k] = pair.segment;
+        triangles[k] = pair.triangle;
+      }
+      const KernelList<Scalar> list(triangles);
+      for (std::size_t k = 0; k < segments.size(); ++k) {
+        const auto kind = static_cast<PathKind>(random.below(3));
+        const Path<Scalar> path = path_along(segments[k], kind);
+        expect_never_wrong(path, triangles, list, k, {});
+        expect_never_wrong(path, triangles, list, random.below(triangles.size()),
+                           draw_options(random, random.unit<Scalar>()));
+      }
+    }
+  }
+};
+
+TEST_P(BlockKernelOnFamily, is_never_wrong_for_float) { check_alone<float>(); }
+TEST_P(BlockKernelOnFamily, is_never_wrong_for_double) { check_alone<double>(); }
+TEST_P(BlockKernelOnFamily, is_never_wrong_in_lists_of_float) { check_in_lists<float>(); }
+TEST_P(BlockKernelOnFamily, is_never_wrong_in_lists_of_double) { check_in_lists<double>(); }
+
+INSTANTIATE_TEST_SUITE_P(Families, BlockKernelOnFamily, testing::ValuesIn(all_pair_families),
+                         [](const auto& family) { return name_of(family.param); });
+
+template <typename Scalar>
+Pair<Scalar> pair_of(const std::array<Scalar, 15>& x) {
+  return {{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}}, {{x[6], x[7], x[8]}, {x[9], x[10], x[11]}, {x[12], x[13], x[14]}}};
+}
+
+template <typename Scalar>
+class BlockKernel : public testing::Test {
+ protected:
+  static Verdict verdict(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                         const QueryOptions<Scalar>& options = {}) {
+    return KernelList<Scalar>(triangle).verdict(path, PathRange<Scalar>(path, options), 0);
+  }
+
+  template <typename Check>
+  static void on_every_instruction_set(const Check& check) {
+    ASSERT_FALSE(instruction_sets().empty());
+    for (const std::int64_t target : instruction_sets()) {
+      const ForcedInstructionSet forced(target);
+      SCOPED_TRACE(name_of_instruction_set(target));
+      check();
+    }
+  }
+
+  /// Powers of two around `exponent`, small multiples of which often cancel exactly.
+  static Pair<Scalar> draw_near(Random& random, int exponent) {
+    std::array<Scalar, 15> x;
+    for (Scalar& coordinate : x) {
+      coordinate = std::ldexp(static_cast<Scalar>(random.between(-3, 3)), exponent + static_cast<int>(random.below(3)));
+      if (random.one_in(4)) coordinate = neighbour(coordinate, static_cast<int>(random.between(-2, 2)));
+    }
+    return pair_of(x);
+  }
+};
+TYPED_TEST_SUITE(BlockKernel, Scalars, ScalarNames);
+
+/// Else the other tests would look at one alone.
+TYPED_TEST(BlockKernel, runs_on_the_instruction_set_that_is_forced) {
+  std::vector<std::size_t> lanes;
+  this->on_every_instruction_set([&] { lanes.push_back(kernel_lanes<TypeParam>()); });
+  EXPECT_TRUE(std::is_sorted(lanes.rbegin(), lanes.rend())) << "the best first";
+  for (const std::size_t count : lanes) EXPECT_LE(count, 64 / sizeof(TypeParam));
+  this->RecordProperty("instruction_sets", std::to_string(lanes.size()));
+}
+
+TYPED_TEST(BlockKernel, is_never_wrong_on_any_bit_patterns) {
+  Random random(22);
+  for (std::size_t i = case_count(20'000); i > 0 && !this->HasFailure(); --i) {
+    std::array<TypeParam, 15> x;
+    for (TypeParam& coordinate : x) coordinate = random.any_finite<TypeParam>();
+    const auto [segment, triangle] = pair_of(x);
+    expect_never_wrong<TypeParam>(segment, triangle, {});
+  }
+}
+
+TYPED_TEST(BlockKernel, is_never_wrong_at_sizes_at_which_products_overflow_or_underflow) {
+  using Limits = std::numeric_limits<TypeParam>;
+  Random random(23);
+  const int largest_size = Limits::max_exponent == 128 ? 34 : 300;
+  for (const int exponent :
+       {Limits::min_exponent - Limits::digits + 2, Limits::min_exponent / 3, Limits::min_exponent / 2, largest_size - 4,
+        largest_size - 2, Limits::max_exponent / 3, Limits::max_exponent - 6}) {
+    for (std::size_t i = case_count(8'000); i > 0 && !this->HasFailure(); --i) {
+      const auto [segment, triangle] = this->draw_near(random, exponent);
+      expect_never_wrong<TypeParam>(segment, triangle, {});
+      expect_never_wrong(path_along(segment, PathKind::ray), triangle, draw_options(random, random.unit<TypeParam>()));
+    }
+  }
+}
+
+TYPED_TEST(BlockKernel, decides_nearly_every_random_pair) {
+  this->on_every_instruction_set([&] {
+    Random random(24);
+    const std::size_t pairs = case_count(20'000);
+    std::size_t undecided = 0;
+    for (std::size_t i = 0; i < pairs; ++i) {
+      std::array<TypeParam, 15> x;
+      for (TypeParam& coordinate : x) coordinate = random.symmetric<TypeParam>();
+      const auto [segment, triangle] = pair_of(x);
+      undecided += this->verdict(segment, triangle) == Verdict::undecided;
+    }
+    EXPECT_LE(undecided, pairs / 100);
+  });
+}
+
+TYPED_TEST(BlockKernel, leaves_huge_coordinates_undecided) {
+  const TypeParam huge = std::numeric_limits<TypeParam>::max();
+  const Triangle<TypeParam> unit{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  this->on_every_instruction_set([&] {
+    for (const TypeParam x : {huge, -huge}) {
+      const Segment<TypeParam> segment{{0, 0, -1}, {0, 0, 1}};
+      EXPECT_EQ(this->verdict(segment, {{-1, -1, 0}, {x, -1, 0}, {0, 1, 0}}), Verdict::undecided);
+      EXPECT_EQ(this->verdict(segment, {{-1, -1, x}, {1, -1, x}, {0, 1, x}}), Verdict::undecided);
+      EXPECT_EQ(this->verdict(Segment<TypeParam>{{0, 0, -1}, {0, x, 1}}, unit), Verdict::undecided);
+      EXPECT_EQ(this->verdict(Ray<TypeParam>{{0, x, -1}, {0, 0, 1}}, unit), Verdict::undecided);
+      EXPECT_EQ(this->verdict(Ray<TypeParam>{{0, 0, -1}, {0, 0, x}}, unit), Verdict::undecided);
+    }
+  });
+}
+
+/// The list's longest edge is every triangle's.
+TYPED_TEST(BlockKernel, leaves_a_list_undecided_if_one_of_its_triangles_is_huge) {
+  const TypeParam huge = std::numeric_limits<TypeParam>::max();
+  const Triangle<TypeParam> unit{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  const std::vector<Triangle<TypeParam>> triangles = {unit, {{0, 0, 0}, {huge, 0, 0}, {0, huge, 0}}};
+  const Path<TypeParam> path = Segment<TypeParam>{{0, 0, -1}, {0, TypeParam{0.1F}, 1}};
+  this->on_every_instruction_set([&] {
+    EXPECT_EQ(KernelList<TypeParam>(unit).verdict(path, PathRange<TypeParam>(path, {}), 0), Verdict::hit);
+    EXPECT_EQ(KernelList<TypeParam>(triangles).verdict(path, PathRange<TypeParam>(path, {}), 0), Verdict::undecided);
+  });
+}
+
+TYPED_TEST(BlockKernel, leaves_a_limit_too_large_for_the_bound_open) {
+  const Ray<TypeParam> ray{{0, 0, -1}, {0, 0, 1}};
+  const Triangle<TypeParam> triangle{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  this->on_every_instruction_set([&] {
+    EXPECT_EQ(this->verdict(ray, triangle, {.max_t = 4}), Verdict::hit);
+    EXPECT_EQ(this->verdict(ray, triangle, {.max_t = TypeParam{0.5F}}), Verdict::miss);
+    EXPECT_EQ(this->verdict(ray, triangle, {.max_t = TypeParam{1e9}}), Verdict::undecided);
+    EXPECT_EQ(this->verdict(ray, triangle, {.min_t = 4}), Verdict::miss);
+    EXPECT_EQ(this->verdict(ray, triangle, {.min_t = TypeParam{1e9}}), Verdict::undecided);
+  });
+}
+
+TYPED_TEST(BlockKernel, leaves_an_edge_undecided_and_not_what_is_clear_of_it) {
+  const Triangle<TypeParam> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const auto at = [&](TypeParam y) {
+    return this->verdict(Segment<TypeParam>{{TypeParam{0.25}, y, -1}, {TypeParam{0.25}, y, 1}}, triangle);
+  };
+  const TypeParam clear = 1000 * std::numeric_limits<TypeParam>::epsilon();
+  this->on_every_instruction_set([&] {
+    EXPECT_EQ(at(0), Verdict::undecided);
+    EXPECT_EQ(at(clear), Verdict::hit);
+    EXPECT_EQ(at(-clear), Verdict::miss);
+  });
+}
+
+/// A list ends anywhere among the lanes; what lies behind it is none of its triangles.
+TYPED_TEST(BlockKernel, tells_nothing_of_lanes_beyond_the_count) {
+  std::vector<Triangle<TypeParam>> triangles(64, {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}});
+  const KernelList<TypeParam> list(triangles);
+  const Path<TypeParam> hit = Segment<TypeParam>{{0, 0, -1}, {0, TypeParam{0.1F}, 1}};
+  const Path<TypeParam> touch = Segment<TypeParam>{{0, -1, -1}, {0, -1, 1}};
+  const Path<TypeParam> miss = Segment<TypeParam>{{5, 0, -1}, {5, 0, 1}};
+  this->on_every_instruction_set([&] {
+    for (std::size_t count = 0; count <= kernel_lanes<TypeParam>(); ++count) {
+      const std::uint64_t all = (std::uint64_t{1} << count) - 1;
+      const KernelVerdicts hits = list.verdicts_from(hit, PathRange<TypeParam>(hit, {}), 0, count);
+      EXPECT_EQ(hits.possible, all);
+      EXPECT_EQ(hits.certain, all);
+      const KernelVerdicts touches = list.verdicts_from(touch, PathRange<TypeParam>(touch, {}), 0, count);
+      EXPECT_EQ(touches.possible, all);
+      EXPECT_EQ(touches.certain, 0U);
+      const KernelVerdicts misses = list.verdicts_from(miss, PathRange<TypeParam>(miss, {}), 0, count);
+      EXPECT_EQ(misses.possible, 0U);
+      EXPECT_EQ(misses.certain, 0U);
+    }
+  });
+}
+
+/// Each lane has the verdict of its own triangle, whatever the others hold.
+TYPED_TEST(BlockKernel, keeps_lanes_apart) {
+  const Triangle<TypeParam> hit{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  const Triangle<TypeParam> miss{{4, -1, 0}, {6, -1, 0}, {5, 1, 0}};
+  const Triangle<TypeParam> touch{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
+  const Path<TypeParam> path = Segment<TypeParam>{{0, 0, -1}, {0, 0, 1}};
+  Random random(27);
+  this->on_every_instruction_set([&] {
+    for (std::size_t i = 0; i < 200; ++i) {
+      std::vector<Triangle<TypeParam>> triangles(1 + random.below(40));
+      std::vector<Verdict> expected(triangles.size());
+      for (std::size_t k = 0; k < triangles.size(); ++k) {
+        expected[k] = static_cast<Verdict>(random.below(3));
+        triangles[k] = expected[k] == Verdict::miss ? miss : expected[k] == Verdict::hit ? hit : touch;
+      }
+      const KernelList<TypeParam> list(triangles);
+      for (std::size_t k = 0; k < triangles.size(); ++k) {
+        EXPECT_EQ(list.verdict(path, PathRange<TypeParam>(path, {}), k), expected[k]);
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace surehit::test

@@ -1,0 +1,250 @@
+#include "surehit/executor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cfenv>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+#include "executor_answers.hpp"
+#include "support/floating_point_mode.hpp"
+#include "support/scalars.hpp"
+
+namespace surehit::test {
+namespace {
+
+void forwards(std::size_t count, const Executor::Task& task) {
+  for (std::size_t i = 0; i < count; ++i) task(i);
+}
+
+void backwards(std::size_t count, const Executor::Task& task) {
+  for (std::size_t i = count; i-- > 0;) task(i);
+}
+
+/// As many threads for each batch, all in one floating-point mode, that take tasks as they come.
+class NewThreads {
+ public:
+  explicit NewThreads(std::size_t count, const FloatingPointMode& mode = {"to_nearest"}) : count_(count), mode_(mode) {}
+
+  void operator()(std::size_t task_count, const Executor::Task& task) {
+    std::atomic<std::size_t> next = 0;
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < count_; ++i) {
+      threads.emplace_back([&] {
+        const FloatingPointModeScope scope(mode_);
+        const std::uint64_t before = control_word();
+        for (std::size_t index = next++; index < task_count; index = next++) task(index);
+        if (control_word() != before) keeps_modes_ = false;
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    tasks_ += task_count;
+  }
+
+  [[nodiscard]] bool keeps_modes() const { return keeps_modes_; }
+  [[nodiscard]] std::size_t tasks() const { return tasks_; }
+
+ private:
+  std::size_t count_;
+  FloatingPointMode mode_;
+  std::atomic<bool> keeps_modes_ = true;
+  std::size_t tasks_ = 0;
+};
+
+void expect_runs_each_once(Executor executor) {
+  for (const std::size_t count : {0U, 1U, 2U, 100U}) {
+    std::vector<std::atomic<int>> calls(count + 1);
+    executor.run(count, [&](std::size_t index) { ++calls.at(index); });
+    for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(calls[i], 1) << i << " of " << count;
+    EXPECT_EQ(calls[count], 0);
+  }
+}
+
+TEST(Executor, of_lambdas_runs_each_index_once) {
+  std::size_t runs = 0;
+  const auto counting = [&runs](std::size_t count, const Executor::Task& task) {
+    ++runs;
+    backwards(count, task);
+  };
+  expect_runs_each_once(counting);
+  EXPECT_EQ(runs, 4U);
+  expect_runs_each_once([](std::size_t count, const auto& task) { forwards(count, task); });
+  int calls_that_change_it = 0;
+  expect_runs_each_once([calls_that_change_it](std::size_t count, const Executor::Task& task) mutable {
+    ++calls_that_change_it;
+    forwards(count, task);
+  });
+}
+
+TEST(Executor, of_objects_runs_each_index_once) {
+  NewThreads threads(3);
+  expect_runs_each_once(threads);
+  EXPECT_EQ(threads.tasks(), 103U);
+  expect_runs_each_once(NewThreads(2));
+  const std::function<void(std::size_t, const Executor::Task&)> function = backwards;
+  expect_runs_each_once(function);
+}
+
+TEST(Executor, of_function_pointers_runs_each_index_once) {
+  void (*const pointer)(std::size_t, const Executor::Task&) = forwards;
+  expect_runs_each_once(pointer);
+  expect_runs_each_once(&backwards);
+}
+
+TEST(Executor, copies_refer_to_the_same_callable) {
+  std::size_t runs = 0;
+  const auto counting = [&runs](std::size_t, const Executor::Task&) { ++runs; };
+  const Executor executor = counting;
+  Executor copy = executor;
+  copy.run(1, [](std::size_t) {});
+  copy = Executor(executor);
+  copy.run(1, [](std::size_t) {});
+  EXPECT_EQ(runs, 2U);
+}
+
+TEST(Executor, is_of_nothing_but_what_takes_tasks) {
+  EXPECT_TRUE((std::is_convertible_v<NewThreads&, Executor>));
+  EXPECT_FALSE((std::is_convertible_v<int, Executor>));
+  EXPECT_FALSE((std::is_convertible_v<void (*)(std::size_t), Executor>));
+  EXPECT_FALSE((std::is_default_constructible_v<Executor>));
+  EXPECT_TRUE((std::is_nothrow_constructible_v<Executor, NewThreads&>));
+  EXPECT_TRUE((std::is_trivially_copyable_v<Executor>));
+}
+
+template <typename Scalar>
+class BatchOnExecutor : public testing::Test {
+ protected:
+  static constexpr std::size_t most_paths = 20000;
+
+  static const ManyPaths<Scalar>& many() {
+    static const ManyPaths<Scalar> paths = ManyPaths<Scalar>::scattered(most_paths);
+    return paths;
+  }
+};
+TYPED_TEST_SUITE(BatchOnExecutor, Scalars, ScalarNames);
+
+TYPED_TEST(BatchOnExecutor, of_any_size_answers_as_without) {
+  for (const std::size_t count : {0U, 1U, 4095U, 4096U, 4097U, 20000U}) {
+    SCOPED_TRACE(count);
+    expect_same_with_executor(this->many(), count, &forwards);
+    expect_same_with_executor(this->many(), count, &backwards);
+    expect_same_with_executor(this->many(), count, NewThreads(3));
+  }
+}
+
+TYPED_TEST(BatchOnExecutor, of_any_threads_answers_as_without) {
+  for (const std::size_t count : {1U, 2U, 4U}) expect_same_with_executor(this->many(), 20000, NewThreads(count));
+}
+
+TYPED_TEST(BatchOnExecutor, with_options_answers_as_without) {
+  for (const auto& options :
+       {QueryOptions<TypeParam>{.min_t = TypeParam{0.25}, .max_t = TypeParam{0.75}, .culling = Culling::back},
+        QueryOptions<TypeParam>{.ignored_triangle = 7, .ignore_start_contact = true, .ignore_end_contact = true},
+        QueryOptions<TypeParam>{.mask = 0}}) {
+    expect_same_with_executor(this->many(), 9000, NewThreads(2), options);
+    expect_same_with_executor(this->many(), 9000, &backwards, options);
+  }
+}
+
+TYPED_TEST(BatchOnExecutor, gives_threads_something_to_share) {
+  std::size_t tasks = 0;
+  const auto counting = [&](std::size_t count, const Executor::Task& task) {
+    tasks = count;
+    forwards(count, task);
+  };
+  const auto& many = this->many();
+  std::vector<std::uint8_t> blocked(many.segments.size());
+  const std::span<const Segment<TypeParam>> segments(many.segments);
+  many.collider.any_hits(segments, std::span(blocked), counting);
+  EXPECT_GE(tasks, 4U);
+  EXPECT_LE(tasks, 20U);
+  many.collider.any_hits(segments.first(1000), std::span(blocked), counting);
+  EXPECT_EQ(tasks, 1U);
+}
+
+TYPED_TEST(BatchOnExecutor, of_unequal_lengths_leaves_alone_what_is_beyond_the_shorter) {
+  const Hit<TypeParam> untouched{1, 1, 1, 7777, Side::front};
+  const auto& many = this->many();
+  const std::span<const Line<TypeParam>> lines(many.lines);
+  for (const std::size_t count : {4000U, 4096U, 5000U}) {
+    std::vector<Hit<TypeParam>> hits(9000, untouched);
+    std::vector<std::uint8_t> blocked(9000, 77);
+    QueryStatistics statistics;
+    many.collider.first_hits(lines.first(count), std::span(hits), &backwards, {}, &statistics);
+    many.collider.any_hits(lines.first(count), std::span(blocked), &backwards, {}, &statistics);
+    EXPECT_EQ(statistics.paths, 2 * count);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      ASSERT_EQ(hits[i] == untouched, i >= count) << i;
+      ASSERT_EQ(blocked[i] == 77, i >= count) << i;
+    }
+    std::fill(hits.begin(), hits.end(), untouched);
+    std::fill(blocked.begin(), blocked.end(), std::uint8_t{77});
+    many.collider.first_hits(lines, std::span(hits).first(count), &backwards);
+    many.collider.any_hits(lines, std::span(blocked).first(count), &backwards);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      ASSERT_EQ(hits[i] == untouched, i >= count) << i;
+      ASSERT_EQ(blocked[i] == 77, i >= count) << i;
+    }
+  }
+}
+
+TYPED_TEST(BatchOnExecutor, adds_to_the_statistics_that_it_is_given) {
+  const auto& many = this->many();
+  const std::span<const Ray<TypeParam>> rays(many.rays);
+  const BatchAnswers<TypeParam> expected(many.collider, rays, QueryOptions<TypeParam>{});
+  QueryStatistics statistics = expected.of_first;
+  std::vector<Hit<TypeParam>> hits(rays.size());
+  many.collider.first_hits(rays, std::span(hits), NewThreads(4), {}, &statistics);
+  QueryStatistics twice = expected.of_first;
+  twice += expected.of_first;
+  EXPECT_GT(twice.candidates, 0U);
+  expect_same(statistics, twice);
+}
+
+TYPED_TEST(BatchOnExecutor, needs_no_statistics) {
+  const auto& many = this->many();
+  const std::span<const Segment<TypeParam>> segments(many.segments);
+  const BatchAnswers<TypeParam> expected(many.collider, segments, QueryOptions<TypeParam>{});
+  std::vector<Hit<TypeParam>> hits(segments.size());
+  std::vector<std::uint8_t> blocked(segments.size());
+  many.collider.first_hits(segments, std::span(hits), NewThreads(2));
+  many.collider.any_hits(segments, std::span(blocked), NewThreads(2));
+  expect_same<TypeParam>(hits, expected.hits);
+  EXPECT_EQ(blocked, expected.blocked);
+}
+
+TYPED_TEST(BatchOnExecutor, answers_the_same_in_any_floating_point_mode_of_its_threads) {
+  Random random(89);
+  const auto mesh = scattered_triangles<TypeParam>(40, TypeParam{0.5}, random);
+  const TypeParam tiny = 1000 * std::numeric_limits<TypeParam>::denorm_min();
+  for (const TypeParam factor : {TypeParam{1}, tiny}) {
+    const ManyPaths<TypeParam> many(placed<TypeParam>(mesh, factor, {0, 0, 0}), 9000);
+    for (const FloatingPointMode& mode :
+         {FloatingPointMode{"flush", FE_TONEAREST, true}, FloatingPointMode{"upward", FE_UPWARD, false},
+          FloatingPointMode{"downward_and_flush", FE_DOWNWARD, true}}) {
+      SCOPED_TRACE(mode.name);
+      NewThreads threads(2, mode);
+      expect_same_with_executor(many, 9000, threads);
+      EXPECT_TRUE(threads.keeps_modes());
+    }
+  }
+}
+
+TYPED_TEST(BatchOnExecutor, never_throws) {
+  const Collider<TypeParam>& collider = this->many().collider;
+  static_assert(noexcept(collider.first_hits(std::declval<std::span<const Segment<TypeParam>>>(),
+                                             std::declval<std::span<Hit<TypeParam>>>(), std::declval<Executor>())));
+  static_assert(noexcept(collider.any_hits(std::declval<std::span<const Line<TypeParam>>>(),
+                                           std::declval<std::span<std::uint8_t>>(), std::declval<Executor>())));
+  SUCCEED();
+}
+
+}  // namespace
+}  // namespace surehit::test

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "kernel_on_targets.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "surehit/grid.hpp"
+#include "surehit/mesh_blocks.hpp"
+#include "verdict.hpp"
+
+namespace surehit::test {
+
+/// Triangles in one list, as the kernel meets them in a collider.
+template <typename Scalar>
+class KernelList {
+ public:
+  explicit KernelList(std::span<const Triangle<Scalar>> triangles) : count_(triangles.size()) {
+    GeneratedMesh<Scalar> mesh;
+    for (const Triangle<Scalar>& triangle : triangles) mesh.add(triangle);
+    grid_ = Grid(mesh.view(), box_of(mesh.view()), {.resolution = {1, 1, 1}, .crowded = 0});
+    blocks_ = MeshBlocks<Scalar>(mesh.view(), grid_);
+    first_ = grid_.first_entry(grid_.top()[0]);
+    pitch_ = grid_.entry_count(grid_.top()[0]);
+  }
+  explicit KernelList(const Triangle<Scalar>& triangle) : KernelList(std::span(&triangle, 1)) {}
+
+  [[nodiscard]] std::size_t size() const { return count_; }
+
+  /// Of triangle i, the first of the lanes or a later one; the range is not empty.
+  [[nodiscard]] detail::Verdict verdict(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
+                                        std::size_t i) const {
+    const std::size_t lanes = kernel_lanes<Scalar>();
+    const std::size_t from = i / lanes * lanes;
+    const KernelVerdicts verdicts = verdicts_from(path, range, from, std::min(count_ - from, lanes));
+    if ((verdicts.possible >> (i - from) & 1) == 0) return detail::Verdict::miss;
+    return (verdicts.certain >> (i - from) & 1) != 0 ? detail::Verdict::hit : detail::Verdict::undecided;
+  }
+
+  [[nodiscard]] KernelVerdicts verdicts_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
+                                             std::size_t from, std::size_t count) const {
+    return classify(detail::KernelPath<Scalar>(path, detail::RangeWeights<Scalar>(range)), blocks_.block(first_) + from,
+                    pitch_, count, blocks_.edge_size(first_));
+  }
+
+ private:
+  std::size_t count_;
+  Grid grid_;
+  MeshBlocks<Scalar> blocks_;
+  std::size_t first_;
+  std::size_t pitch_;
+};
+
+}  // namespace surehit::test
