@@ -76,7 +76,7 @@ run_tests() {
 }
 
 stage "Packages"
-step .ci/install_packages.sh library examples tests || finish
+step .ci/install_packages.sh library examples tests benchmarks || finish
 
 if $quick; then export SUREHIT_TEST_PERCENT=10; fi
 stage "GCC, Release: building"

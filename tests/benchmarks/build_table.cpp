@@ -1,0 +1,48 @@
+#include "build_race.hpp"
+#include "tables.hpp"
+
+namespace surehit::benchmark {
+
+void measure_builds(const Request& request, Report& report) {
+  const std::vector<Entrant> entrants = one_a_library(request.entrants);
+  std::vector<std::string> time_header = {"mesh", "triangles", "surehit ms"};
+  std::vector<std::string> memory_header = {"mesh", "triangles", "surehit MB"};
+  for (const Entrant& entrant : entrants) {
+    if (entrant.is_ours()) continue;
+    time_header.push_back(entrant.library);
+    memory_header.push_back(entrant.library);
+  }
+  MarkdownTable times(time_header, 1);
+  MarkdownTable memory(memory_header, 1);
+  for (const Scene& scene : request.scenes) {
+    const Place place{"build", scene.name, scene.mesh.triangles.size()};
+    const std::vector<BuildResult> results = race_builds(entrants, scene.mesh.view(), request.rounds);
+    const BuildResult& ours = results.front();
+    std::vector<std::string> time_cells = {place.mesh, std::to_string(place.triangles)};
+    std::vector<std::string> memory_cells = time_cells;
+    for (const BuildResult& result : results) {
+      const std::string& library = result.entrant->library;
+      const Summary time = summary_of(result.nanoseconds);
+      const auto bytes = static_cast<double>(result.memory_bytes);
+      report.keep(place, library, "build ns", time);
+      report.keep(place, library, "bytes", {bytes, bytes, bytes});
+      if (result.entrant->is_ours()) {
+        time_cells.push_back(short_number(time.median / 1e6));
+        memory_cells.push_back(short_number(bytes / 1e6));
+        continue;
+      }
+      const Summary time_ratio = summary_of(ratio(result.nanoseconds, ours.nanoseconds));
+      const double memory_ratio = bytes / static_cast<double>(ours.memory_bytes);
+      report.keep(place, library, "build over surehit", time_ratio);
+      report.keep(place, library, "bytes over surehit", {memory_ratio, memory_ratio, memory_ratio});
+      time_cells.push_back(short_number(time_ratio.median));
+      memory_cells.push_back(short_number(memory_ratio));
+    }
+    times.add_row(std::move(time_cells));
+    memory.add_row(std::move(memory_cells));
+  }
+  report.show("build: time of surehit, and how many times as long the others take", times);
+  report.show("build: memory of surehit, and how many times as much the others take", memory);
+}
+
+}  // namespace surehit::benchmark

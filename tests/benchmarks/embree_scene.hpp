@@ -1,0 +1,54 @@
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <atomic>
+#include <cstddef>
+#include <surehit/triangle_mesh_view.hpp>
+
+namespace surehit::benchmark {
+
+/// Flush-to-zero and denormals-are-zero for as long as it lives: Embree's manual asks for both wherever it is called.
+class FlushedDenormals {
+ public:
+  FlushedDenormals();
+  ~FlushedDenormals();
+  FlushedDenormals(const FlushedDenormals&) = delete;
+  FlushedDenormals& operator=(const FlushedDenormals&) = delete;
+
+ private:
+  unsigned control_;
+};
+
+struct EmbreeMode {
+  bool robust;
+  RTCBuildQuality quality;
+};
+
+/// One mesh on a device of its own, which works on the calling thread alone and counts its bytes.
+class EmbreeScene {
+ public:
+  explicit EmbreeScene(EmbreeMode mode);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  void build(const TriangleMeshViewf& mesh);
+  void rebuild(const TriangleMeshViewf& mesh);
+
+  [[nodiscard]] RTCScene handle() const { return scene_; }
+  [[nodiscard]] std::size_t memory_bytes() const { return static_cast<std::size_t>(bytes_.load()); }
+
+ private:
+  void copy_vertices(const TriangleMeshViewf& mesh);
+  void throw_on_error() const;
+
+  EmbreeMode mode_;
+  std::atomic<std::ptrdiff_t> bytes_ = 0;
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+  RTCGeometry geometry_ = nullptr;  ///< owned by the scene
+  float* vertices_ = nullptr;       ///< owned by the geometry
+};
+
+}  // namespace surehit::benchmark

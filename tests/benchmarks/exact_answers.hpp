@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <surehit/path.hpp>
+#include <surehit/triangle_mesh_view.hpp>
+#include <vector>
+
+namespace surehit::benchmark {
+
+/// Who says what is right.
+[[nodiscard]] std::string exact_judge();
+
+/// Whether each path meets anything, by exact arithmetic; of the first paths only where the judge is slow.
+[[nodiscard]] std::vector<std::uint8_t> exact_answers(const TriangleMeshViewf& mesh, std::span<const Segmentf> paths);
+
+}  // namespace surehit::benchmark

@@ -1,0 +1,164 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "command_line/output_file.hpp"
+#include "command_line/program.hpp"
+#include "core_pin.hpp"
+#include "mesh_io/input_error.hpp"
+#include "ratio_chart.hpp"
+#include "tables.hpp"
+
+namespace surehit::benchmark {
+namespace {
+
+struct TableKind {
+  std::string name;
+  void (*measure)(const Request&, Report&);
+  bool is_pinned = true;
+};
+
+const std::vector<TableKind>& all_tables() {
+  static const std::vector<TableKind> tables = {{"queries", measure_queries},
+                                                {"build", measure_builds},
+                                                {"size", measure_sizes},
+                                                {"tick", measure_ticks},
+                                                {"threads", measure_threads, false}};
+  return tables;
+}
+
+/// The command line, before meshes and names become what they stand for.
+struct Words {
+  std::vector<std::string> tables;
+  std::vector<std::string> meshes;
+  std::vector<std::string> sets;
+  std::vector<std::string> contenders;
+  std::string folder;
+  std::string up = "y";
+  std::string csv_path;
+  std::string chart_path;
+  bool quick = false;
+  Request request;
+};
+
+std::vector<std::string> table_names() {
+  std::vector<std::string> names;
+  for (const TableKind& table : all_tables()) names.push_back(table.name);
+  return names;
+}
+
+std::vector<std::string> set_names() {
+  std::vector<std::string> names;
+  for (const PathSet set : all_path_sets) names.push_back(name_of(set));
+  return names;
+}
+
+void describe(CLI::App& app, Words& words, Request& request) {
+  app.add_option("--meshes", words.folder, "Measure every mesh of a folder too")->type_name("FOLDER");
+  app.add_option("--up", words.up, "The upward axis of the folder's meshes")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
+  app.add_option("--table", words.tables, "Only these tables: queries, build, size, tick or threads")
+      ->check(CLI::IsMember(table_names()).description(""))
+      ->type_name("NAME ...");
+  app.add_option("--mesh", words.meshes, "Only these meshes; the built-in one is called level")->type_name("NAME ...");
+  app.add_option("--set", words.sets, "Only these path sets: long, short, near, sight or edge")
+      ->check(CLI::IsMember(set_names()).description(""))
+      ->type_name("NAME ...");
+  app.add_option("--contender", words.contenders, "Besides surehit only contenders whose name has one of these in it")
+      ->type_name("TEXT ...");
+  const CLI::Range some(std::size_t{1}, std::size_t{100'000'000});
+  app.add_option("--rounds", request.rounds, "Times that every contender is measured")
+      ->check(CLI::Range(some).description(""))
+      ->capture_default_str();
+  app.add_option("--paths", request.paths, "Paths in a set")
+      ->check(CLI::Range(some).description(""))
+      ->capture_default_str();
+  app.add_option("--largest", request.largest, "Triangles that table size goes up to")
+      ->check(CLI::Range(some).description(""))
+      ->capture_default_str();
+  app.add_option("--core", request.core, "The core to stay on (default: the first that there is)")
+      ->check(CLI::NonNegativeNumber.description(""));
+  app.add_flag("--quick", words.quick, "Only see that all of it runs: tiny counts, figures without meaning");
+  app.add_option("--csv", words.csv_path, "All figures")->type_name("FILE");
+  app.add_option("--chart", words.chart_path, "The ratios of table queries as a picture")->type_name("FILE.svg");
+}
+
+bool is_among(const std::string& name, const std::vector<std::string>& names) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void shrink(const CLI::App& app, Request& request) {
+  const auto set = [&](const char* option, std::size_t& value, std::size_t quick) {
+    if (app.get_option(option)->empty()) value = quick;
+  };
+  set("--rounds", request.rounds, 2);
+  set("--paths", request.paths, 64);
+  set("--largest", request.largest, 4000);
+  request.tick_paths = {64, 128};
+}
+
+void read_scenes(const Words& words, Request& request) {
+  if (is_among("level", words.meshes)) request.scenes.push_back(level_scene(words.quick ? 0.05f : 1));
+  if (!words.folder.empty()) {
+    for (Scene& scene : scenes_in(words.folder, words.up == "y" ? 1 : 2, words.meshes)) {
+      request.scenes.push_back(std::move(scene));
+    }
+  }
+  if (request.scenes.empty()) throw example::InputError("there is no mesh of that name");
+}
+
+void choose(const Words& words, Request& request) {
+  for (const PathSet set : all_path_sets) {
+    if (is_among(name_of(set), words.sets)) request.sets.push_back(set);
+  }
+  for (Entrant& entrant : all_entrants()) {
+    const auto has = [&](const std::string& text) { return entrant.name().find(text) != std::string::npos; };
+    if (entrant.is_ours() || words.contenders.empty() ||
+        std::any_of(words.contenders.begin(), words.contenders.end(), has)) {
+      request.entrants.push_back(std::move(entrant));
+    }
+  }
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  example::OutputFile file(path);
+  file.write(text);
+  file.finish();
+}
+
+void measure(const Words& words, const Request& request) {
+  Report report;
+  for (const TableKind& table : all_tables()) {
+    if (!is_among(table.name, words.tables)) continue;
+    std::optional<CorePin> pin;
+    if (table.is_pinned) pin.emplace(request.core);
+    table.measure(request, report);
+  }
+  if (!words.csv_path.empty()) write_file(words.csv_path, report.csv());
+  if (!words.chart_path.empty()) write_file(words.chart_path, ratio_chart(report.records()));
+}
+
+example::Work describe_program(CLI::App& app) {
+  const auto words = std::make_shared<Words>();
+  describe(app, *words, words->request);
+  return [&app, words] {
+    Request& request = words->request;
+    if (words->quick) shrink(app, request);
+    if (app.get_option("--core")->empty()) request.core = CorePin::allowed_cores().front();
+    choose(*words, request);
+    read_scenes(*words, request);
+    measure(*words, request);
+    return example::success;
+  };
+}
+
+}  // namespace
+}  // namespace surehit::benchmark
+
+int main(int argc, char** argv) {
+  return surehit::example::run_program("surehit_benchmark", "Measures surehit and its peers in the same run.", argc,
+                                       argv, surehit::benchmark::describe_program);
+}

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <surehit/path.hpp>
+#include <vector>
+
+namespace surehit::benchmark {
+
+/// Eight segments side by side, as packet queries take them.
+struct alignas(32) PathOctet {
+  float start[3][8];
+  float direction[3][8];
+};
+
+/// Segments in both layouts, so that no contender's time contains a change of layout.
+class PathBatch {
+ public:
+  static constexpr std::size_t octet_size = 8;
+
+  /// As many segments as fill octets.
+  explicit PathBatch(std::vector<Segmentf> segments);
+
+  [[nodiscard]] std::size_t size() const { return segments_.size(); }
+  [[nodiscard]] std::span<const Segmentf> segments() const { return segments_; }
+  [[nodiscard]] std::span<const PathOctet> octets() const { return octets_; }
+  /// One of as many equal parts, a thread's share.
+  [[nodiscard]] PathBatch part(std::size_t index, std::size_t parts) const;
+
+ private:
+  std::vector<Segmentf> segments_;
+  std::vector<PathOctet> octets_;
+};
+
+}  // namespace surehit::benchmark

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "path_batch.hpp"
+#include "scene.hpp"
+
+namespace surehit::benchmark {
+
+enum class PathSet {
+  long_paths,   ///< both ends anywhere in the box, inflated by 1.2 about its centre
+  short_paths,  ///< 1% of the diagonal long, from anywhere in the box
+  near_paths,   ///< as long, from within 0.5% of the diagonal of the surface
+  sight_paths,  ///< from the eye to points a bit above the floor
+  edge_paths,   ///< from anywhere in the inflated box at a vertex or a point of an edge, and as far beyond
+};
+
+inline constexpr std::array all_path_sets = {PathSet::long_paths, PathSet::short_paths, PathSet::near_paths,
+                                             PathSet::sight_paths, PathSet::edge_paths};
+
+[[nodiscard]] std::string name_of(PathSet set);
+
+/// In random order, the same every time for the same seed; `count` is rounded up to whole octets.
+[[nodiscard]] PathBatch draw_paths(PathSet set, const Scene& scene, std::size_t count, std::uint64_t seed = 1);
+
+/// Paths to measure with, and as many others of the same set.
+struct PathSample {
+  PathSample(PathSet set, const Scene& scene, std::size_t count)
+      : paths(draw_paths(set, scene, count, 1)), warm_up(draw_paths(set, scene, count, 2)) {}
+
+  PathBatch paths;
+  PathBatch warm_up;
+};
+
+}  // namespace surehit::benchmark

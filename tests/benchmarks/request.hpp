@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "entrants.hpp"
+#include "path_set.hpp"
+#include "scene.hpp"
+
+namespace surehit::benchmark {
+
+/// What the command line asks for.
+struct Request {
+  std::size_t rounds = 5;
+  std::size_t paths = 20'000;
+  std::size_t largest = 10'000'000;  ///< triangles
+  std::vector<std::size_t> tick_paths = {10'000, 100'000};
+  int core = 0;
+  std::vector<Scene> scenes;
+  std::vector<PathSet> sets;
+  std::vector<Entrant> entrants;
+};
+
+}  // namespace surehit::benchmark

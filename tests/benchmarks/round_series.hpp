@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+namespace surehit::benchmark {
+
+/// A figure of each round.
+using RoundSeries = std::vector<double>;
+
+struct Summary {
+  double median;
+  double least;
+  double greatest;
+};
+
+/// Of a series that is not empty.
+[[nodiscard]] Summary summary_of(RoundSeries series);
+/// Round by round.
+[[nodiscard]] RoundSeries ratio(const RoundSeries& over, const RoundSeries& under);
+
+template <typename Work>
+double nanoseconds_of(const Work& work) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  work();
+  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+}
+
+}  // namespace surehit::benchmark

@@ -1,0 +1,97 @@
+#include "scene.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <surehit/collider.hpp>
+#include <utility>
+
+#include "level/level.hpp"
+#include "mesh_io/read_mesh.hpp"
+
+namespace surehit::benchmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double eye_height = 0.03;  // of the diagonal
+
+Vector3d choose_eye(const Scene& scene) {
+  constexpr int eyes = 64;
+  constexpr int targets = 256;
+  const Colliderf collider(scene.mesh.view());
+  const SurfacePoints floor = scene.floor();
+  const double diagonal = scene.diagonal();
+  test::Random random(1);
+  Vector3d best = Vector3d::Zero();
+  int least_distance = targets;
+  for (int i = 0; i < eyes; ++i) {
+    const Vector3d eye = floor.draw(random) + scene.upward(eye_height * diagonal);
+    int seen = 0;
+    for (int j = 0; j < targets; ++j) {
+      const Vector3d target = floor.draw(random) + scene.upward(Scene::target_height * diagonal);
+      seen += collider.any_hit(Segmentf{eye.cast<float>(), target.cast<float>()}) ? 0 : 1;
+    }
+    const int distance = std::abs(seen - targets / 2);
+    if (distance < least_distance) {
+      least_distance = distance;
+      best = eye;
+    }
+  }
+  return best;
+}
+
+bool is_mesh_file(const fs::path& path) {
+  constexpr std::array endings = {".obj", ".ply", ".stl", ".off"};
+  return std::find(endings.begin(), endings.end(), path.extension()) != endings.end();
+}
+
+}  // namespace
+
+double Scene::diagonal() const {
+  const Boxf around = box();
+  return (around.high.cast<double>() - around.low.cast<double>()).norm();
+}
+
+SurfacePoints Scene::floor() const {
+  const auto looks_up = [axis = up](const Trianglef& triangle) {
+    const Vector3d a = triangle.a.cast<double>();
+    const Vector3d normal = (triangle.b.cast<double>() - a).cross(triangle.c.cast<double>() - a);
+    return normal[axis] > 0.7 * normal.norm();
+  };
+  return {mesh.view(), looks_up};
+}
+
+Vector3d Scene::upward(double length) const { return length * Vector3d::Unit(up); }
+
+Scene level_scene(float detail) {
+  example::Level level = example::build_level({detail});
+  const Vector3d eye = Vector3f(level.eye[0], level.eye[1], level.eye[2]).cast<double>();
+  return {.name = "level", .mesh = std::move(level.mesh), .up = 2, .eye = eye};
+}
+
+Scene scene_of(std::string name, example::Mesh<float> mesh, int up) {
+  Scene scene{.name = std::move(name), .mesh = std::move(mesh), .up = up};
+  scene.eye = choose_eye(scene);
+  return scene;
+}
+
+std::vector<Scene> scenes_in(const std::string& folder, int up, const std::vector<std::string>& names) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    const bool is_named = names.empty() || std::find(names.begin(), names.end(), path.stem()) != names.end();
+    if (is_named && is_mesh_file(path)) files.push_back(path);
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<Scene> scenes;
+  for (const fs::path& file : files) {
+    scenes.push_back(scene_of(file.stem().string(), example::read_mesh<float>(file.string()), up));
+  }
+  return scenes;
+}
+
+}  // namespace surehit::benchmark

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <surehit/box.hpp>
+#include <vector>
+
+#include "mesh_io/mesh.hpp"
+#include "surface_points.hpp"
+
+namespace surehit::benchmark {
+
+/// A mesh, and what paths through it are drawn from.
+struct Scene {
+  /// How far above the floor a point is looked at, as a share of the diagonal.
+  static constexpr double target_height = 0.005;
+
+  std::string name;
+  example::Mesh<float> mesh;
+  int up = 2;  ///< axis
+  Vector3d eye = {0, 0, 0};
+
+  [[nodiscard]] Boxf box() const { return box_of(mesh.view()); }
+  [[nodiscard]] double diagonal() const;
+  /// Where somebody could stand: of the triangles that look upward.
+  [[nodiscard]] SurfacePoints floor() const;
+  /// A vector of this length.
+  [[nodiscard]] Vector3d upward(double length) const;
+};
+
+/// The built-in level, eye in its great hall.
+[[nodiscard]] Scene level_scene(float detail);
+/// A mesh from elsewhere, with an eye a bit above some floor, from which about half of the floors are in sight.
+[[nodiscard]] Scene scene_of(std::string name, example::Mesh<float> mesh, int up);
+/// The meshes in the folder by name: all, or those that are named. Throws InputError.
+[[nodiscard]] std::vector<Scene> scenes_in(const std::string& folder, int up, const std::vector<std::string>& names);
+
+}  // namespace surehit::benchmark

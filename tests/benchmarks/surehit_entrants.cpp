@@ -1,0 +1,56 @@
+#include <surehit/collider.hpp>
+
+#include "entrants.hpp"
+
+namespace surehit::benchmark {
+namespace {
+
+class SurehitContender : public Contender {
+ public:
+  void build(const TriangleMeshViewf& mesh) override { collider_ = Colliderf(mesh); }
+
+  void rebuild(const TriangleMeshViewf& mesh) override { collider_.rebuild(mesh.vertices()); }
+
+  [[nodiscard]] std::size_t memory_bytes() const override { return collider_.memory_bytes(); }
+
+ protected:
+  Colliderf collider_;
+};
+
+class SurehitBatch : public SurehitContender {
+ public:
+  void first(const PathBatch& paths, std::span<Hitf> hits) const override {
+    collider_.first_hits(paths.segments(), hits);
+  }
+
+  void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
+    collider_.any_hits(paths.segments(), blocked);
+  }
+
+  void first_on_threads(const PathBatch& paths, std::span<const PathBatch>, Executor executor,
+                        std::span<Hitf> hits) const override {
+    collider_.first_hits(paths.segments(), hits, executor);
+  }
+};
+
+class SurehitSingle : public SurehitContender {
+ public:
+  void first(const PathBatch& paths, std::span<Hitf> hits) const override {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      hits[i] = collider_.first_hit(paths.segments()[i]).value_or(Hitf{});
+    }
+  }
+
+  void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
+    for (std::size_t i = 0; i < paths.size(); ++i) blocked[i] = collider_.any_hit(paths.segments()[i]) ? 1 : 0;
+  }
+};
+
+}  // namespace
+
+std::vector<Entrant> surehit_entrants() {
+  return {{Entrant::our_library, "batch", "", [] { return std::make_unique<SurehitBatch>(); }},
+          {Entrant::our_library, "single", "", [] { return std::make_unique<SurehitSingle>(); }}};
+}
+
+}  // namespace surehit::benchmark

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "report.hpp"
+#include "request.hpp"
+
+namespace surehit::benchmark {
+
+/// Time per path and its ratios, and wrong decisions, on every mesh and path set.
+void measure_queries(const Request& request, Report& report);
+/// Time and memory of a build on every mesh.
+void measure_builds(const Request& request, Report& report);
+/// Cost against the number of triangles.
+void measure_sizes(const Request& request, Report& report);
+/// A physics step: a rebuild, and short paths.
+void measure_ticks(const Request& request, Report& report);
+/// One thread and two.
+void measure_threads(const Request& request, Report& report);
+
+}  // namespace surehit::benchmark
