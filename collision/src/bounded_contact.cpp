@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernel_bound.hpp"
 
@@ -37,7 +38,9 @@ struct Determinants {
 // vanish.
 template <typename Scalar>
 BoundedContact decide(const Determinants& of, const Path<Scalar>& path, const PathRange<Scalar>& range) {
-  BoundedContact result = {Verdict::undecided, {}, of.det, of.height, of.u, of.v};
+  BoundedContact result;
+  result.u_scaled = of.u;
+  result.v_scaled = of.v;
   bool any_positive = false;
   bool any_negative = false;
   bool all_certain = true;
@@ -60,7 +63,8 @@ BoundedContact decide(const Determinants& of, const Path<Scalar>& path, const Pa
   const bool front = of.det.value > of.det.radius;
   const bool back = of.det.value < -of.det.radius;
   if (!all_certain || !(front || back)) return result;
-  const auto [lower, upper] = bounded_quotient(of.height, of.det);
+  result.by_det = BoundedQuotients(of.det);
+  const auto [lower, upper] = result.by_det.of(of.height);
   if (!std::isfinite(lower) || !std::isfinite(upper)) return result;
   const auto vanishes = [](const Bounded& x) { return x.value == 0; };
   result.verdict = Verdict::hit;
@@ -151,16 +155,26 @@ BoundedContact bounded_contact(const Path<Scalar>& path, const Triangle<Scalar>&
   return decide(of, path, range);
 }
 
-// With n, r_n and d, r_d the values and radii: |N/D - n/d| <= (r_n + |n/d| r_d) / (|d| - r_d). The computed q = n/d is
-// off by u |q| more, the sums and the quotient by a few u of themselves, and q - e and q + e by u (|q| + e), all of
-// which the factor and the term 2^-51 |q| cover. A q that underflows is off by 2^-1075 besides, which r_d / (|d| - r_d)
-// may enlarge, so it counts with |q|; 2^-1070 is for what underflows after it.
-std::array<double, 2> bounded_quotient(const Bounded& numerator, const Bounded& denominator) {
-  const double quotient = numerator.value / denominator.value;
+// With n, r_n and d, r_d the values and radii: |N/D - n/d| <= (r_n + |n/d| r_d) / (|d| - r_d). The inverse of d is off
+// by u of itself, q = n (1/d) by 2 u |q|, the sums and the other inverse by a few u of themselves, and q - e and q + e
+// by u
+// (|q| + e), all of which the factor and the term 2^-51 |q| cover. A q that underflows is off by 2^-1075 besides, which
+// r_d / (|d| - r_d) may enlarge, so it counts with |q|; 2^-1070 is for what underflows after it. The inverse itself
+// must not: beyond `largest_denominator` nothing is told.
+constexpr double largest_denominator = 0x1p1000;
+
+BoundedQuotients::BoundedQuotients(const Bounded& denominator)
+    : inverse_(1 / denominator.value),
+      radius_(denominator.radius),
+      greatest_inverse_(std::fabs(denominator.value) <= largest_denominator
+                            ? 1 / (std::fabs(denominator.value) - denominator.radius)
+                            : std::numeric_limits<double>::infinity()) {}
+
+std::array<double, 2> BoundedQuotients::of(const Bounded& numerator) const {
   if (numerator.value == 0 && numerator.radius == 0) return {0, 0};
+  const double quotient = numerator.value * inverse_;
   const double size = std::fabs(quotient);
-  const double error = (numerator.radius + (size + 0x1p-1074) * denominator.radius) /
-                       (std::fabs(denominator.value) - denominator.radius);
+  const double error = (numerator.radius + (size + 0x1p-1074) * radius_) * greatest_inverse_;
   const double bound = error * radius_growth + size * 0x1p-51 + radius_underflow;
   return {quotient - bound, quotient + bound};
 }

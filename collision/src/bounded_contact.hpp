@@ -11,12 +11,26 @@
 
 namespace surehit::detail {
 
+/// Quotients by one denominator, whose sign is certain: two divisions for all of them.
+class BoundedQuotients {
+ public:
+  BoundedQuotients() = default;
+  explicit BoundedQuotients(const Bounded& denominator);
+
+  /// [lower, upper] around numerator / denominator; not finite where that cannot be told.
+  [[nodiscard]] std::array<double, 2> of(const Bounded& numerator) const;
+
+ private:
+  double inverse_ = 0;
+  double radius_ = 0;
+  double greatest_inverse_ = 0;  ///< of what the denominator may be, by size
+};
+
 /// What doubles with error bounds say of a path and a triangle.
 struct BoundedContact {
   Verdict verdict = Verdict::undecided;
-  Contact contact;  ///< of a hit
-  Bounded det;      ///< of a hit, as are the rest: t = height / det, u = u_scaled / det, v = v_scaled / det
-  Bounded height;
+  Contact contact;          ///< of a hit
+  BoundedQuotients by_det;  ///< of a hit, as are the rest: t = height / det, u = u_scaled / det, v = v_scaled / det
   Bounded u_scaled;
   Bounded v_scaled;
 };
@@ -32,8 +46,5 @@ template <typename Scalar>
 template <typename Scalar>
 [[nodiscard]] BoundedContact bounded_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
                                              const PathRange<Scalar>& range);
-
-/// [lower, upper] around numerator / denominator, whose denominator has a certain sign.
-[[nodiscard]] std::array<double, 2> bounded_quotient(const Bounded& numerator, const Bounded& denominator);
 
 }  // namespace surehit::detail

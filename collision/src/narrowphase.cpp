@@ -18,18 +18,20 @@ bool share_axis_plane(const Triangle<Scalar>& x, const Triangle<Scalar>& y) {
   return false;
 }
 
-/// Rounds a quotient if all that its bounds allow rounds to the same number (Ziv 1991).
+/// Rounds a number if all that its bounds allow rounds to the same one (Ziv 1991).
 template <typename Scalar>
-bool try_round(const Bounded& numerator, const Bounded& denominator, Scalar& rounded) {
-  const auto [lower, upper] = bounded_quotient(numerator, denominator);
+bool try_round(double lower, double upper, Scalar& rounded) {
   rounded = static_cast<Scalar>(upper) + Scalar{0};  // a zero is +0
   return static_cast<Scalar>(lower) == rounded;
 }
 
 template <typename Scalar>
-bool try_round(const BoundedContact& contact, Hit<Scalar>& hit) {
-  return contact.verdict == Verdict::hit && try_round(contact.height, contact.det, hit.t) &&
-         try_round(contact.u_scaled, contact.det, hit.u) && try_round(contact.v_scaled, contact.det, hit.v);
+bool try_round(const BoundedContact& bounded, Hit<Scalar>& hit) {
+  if (bounded.verdict != Verdict::hit) return false;
+  const auto [least_u, greatest_u] = bounded.by_det.of(bounded.u_scaled);
+  const auto [least_v, greatest_v] = bounded.by_det.of(bounded.v_scaled);
+  return try_round(bounded.contact.t_lower, bounded.contact.t_upper, hit.t) && try_round(least_u, greatest_u, hit.u) &&
+         try_round(least_v, greatest_v, hit.v);
 }
 
 }  // namespace

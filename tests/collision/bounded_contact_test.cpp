@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -23,6 +24,10 @@ using detail::PathRange;
 using detail::Verdict;
 
 bool holds(const Bounded& x, const mpq_class& truth) { return abs(mpq_class(x.value) - truth) <= mpq_class(x.radius); }
+
+bool holds(const std::array<double, 2>& interval, const mpq_class& truth) {
+  return mpq_class(interval[0]) <= truth && truth <= mpq_class(interval[1]);
+}
 
 class BoundedContactOfFamily : public testing::TestWithParam<PairFamily> {
  protected:
@@ -51,10 +56,10 @@ class BoundedContactOfFamily : public testing::TestWithParam<PairFamily> {
     if (!truth) return;
     expect_contact_of(*truth, bounded.contact, path, triangle, options);
     const RationalDeterminants exact = rational_determinants(path, triangle);
-    EXPECT_TRUE(holds(bounded.det, exact.det));
-    EXPECT_TRUE(holds(bounded.height, exact.height));
     EXPECT_TRUE(holds(bounded.u_scaled, exact.u));
     EXPECT_TRUE(holds(bounded.v_scaled, exact.v));
+    EXPECT_TRUE(holds(bounded.by_det.of(bounded.u_scaled), exact.u / exact.det));
+    EXPECT_TRUE(holds(bounded.by_det.of(bounded.v_scaled), exact.v / exact.det));
   }
 };
 
@@ -180,7 +185,7 @@ TYPED_TEST(DoubleContactOf, leaves_what_is_too_large_for_its_bound_undecided) {
   }
 }
 
-TEST(BoundedQuotient, holds_the_true_quotient) {
+TEST(BoundedQuotients, holds_the_true_quotient) {
   Random random(13);
   for (std::size_t i = case_count(200'000); i > 0; --i) {
     const auto scaled = [&] {
@@ -191,7 +196,7 @@ TEST(BoundedQuotient, holds_the_true_quotient) {
     if (random.one_in(2)) numerator.radius = std::fabs(numerator.value) * random.unit<double>();
     if (random.one_in(2)) denominator.radius = std::fabs(denominator.value) * random.unit<double>();
     if (!denominator.sign() || denominator.sign() == 0) continue;
-    const auto [lower, upper] = detail::bounded_quotient(numerator, denominator);
+    const auto [lower, upper] = detail::BoundedQuotients(denominator).of(numerator);
     for (const int n : {-1, 0, 1}) {
       for (const int d : {-1, 0, 1}) {
         const mpq_class truth = (mpq_class(numerator.value) + n * mpq_class(numerator.radius)) /
@@ -203,10 +208,10 @@ TEST(BoundedQuotient, holds_the_true_quotient) {
   }
 }
 
-TEST(BoundedQuotient, of_exact_numbers_is_a_few_ulps_wide) {
-  const auto [lower, upper] = detail::bounded_quotient(detail::exact(1), detail::exact(3));
+TEST(BoundedQuotients, of_exact_numbers_is_a_few_ulps_wide) {
+  const auto [lower, upper] = detail::BoundedQuotients(detail::exact(3)).of(detail::exact(1));
   EXPECT_LT(upper - lower, 0x1p-49);
-  const auto [zero_lower, zero_upper] = detail::bounded_quotient(detail::exact(0), detail::exact(-3));
+  const auto [zero_lower, zero_upper] = detail::BoundedQuotients(detail::exact(-3)).of(detail::exact(0));
   EXPECT_EQ(zero_lower, 0);
   EXPECT_EQ(zero_upper, 0);
 }
