@@ -86,7 +86,9 @@ class GridBuild {
         scratch_(scratch),
         crowded_(options.crowded == 0 ? std::numeric_limits<std::size_t>::max() : options.crowded) {
     grid.granule_ = least_granule;
-    const std::size_t budget = std::max(free_entries, entries_per_triangle * mesh.triangle_count());
+    const std::size_t budget =
+        std::min<std::size_t>(std::max(free_entries, entries_per_triangle * mesh.triangle_count()),
+                              std::numeric_limits<std::uint32_t>::max());
     std::array<double, 3> wished =
         wished_resolution(GridFrame::around(box, {1, 1, 1}, division), box, mesh.triangle_count(), options);
     for (;;) {
@@ -191,8 +193,8 @@ class GridBuild {
 
   /// Lists all triangles in top cells, unless that takes more entries than the budget. One cell always fits.
   bool try_list(std::size_t budget) {
-    const auto& [nx, ny, nz] = grid_.frame_.cells;
-    const std::size_t cell_count = std::size_t{nx} * ny * nz;
+    const std::array<std::uint32_t, 3> cells = grid_.frame_.cells;
+    const std::size_t cell_count = std::size_t{cells[0]} * cells[1] * cells[2];
     const auto& triangles = scratch_.triangles_;
     auto& met = scratch_.met_;
     auto& offsets = scratch_.offsets_;
@@ -201,9 +203,9 @@ class GridBuild {
     met.clear();
     for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) {
       const std::size_t before = met.size();
-      list_cells(triangles[triangle], static_cast<float>(division), {{0, 0, 0}, grid_.frame_.cells},
+      list_cells(triangles[triangle], static_cast<float>(division), {{0, 0, 0}, cells},
                  [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-                   const std::size_t cell = (std::size_t{z} * ny + y) * nx + x;
+                   const std::size_t cell = (std::size_t{z} * cells[1] + y) * cells[0] + x;
                    ++offsets[cell + 1];
                    met.push_back(static_cast<std::uint32_t>(cell));
                  });

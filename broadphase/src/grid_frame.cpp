@@ -80,6 +80,12 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
   return frame;
 }
 
+double GridFrame::scaled(double x) const noexcept { return x * unit[0] * unit[1]; }
+
+double GridFrame::place(std::size_t axis, double scaled_coordinate) const noexcept {
+  return (scaled_coordinate - origin[axis]) * scale[axis] + double{margin[axis]};
+}
+
 void GridFrame::coarsen(std::uint32_t factor) noexcept {
   division /= factor;
   has_floats = true;

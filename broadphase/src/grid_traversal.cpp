@@ -33,7 +33,7 @@ Pair exact_difference(double x, double y) {
 // the intervals of tau cut the path without a gap, and in each of them the exact path lies in the visited cell or cube
 // grown by e.
 //
-// With |p - P| below 11 u R (next), e is below 16 u R, half the padding. A triangle that the path meets at tau is met
+// With |p - P| (next), e is below 16 u R, half the padding. A triangle that the path meets at tau is met
 // in the box, which the outer planes stand off by two paddings, so at a tau of the interval of some cell or cube; the
 // point where it is met is within e of that cell, or of some cell of that cube, which is then in the grid and lists the
 // triangle. That cell is the visited one: a cube has only cells that list nothing. A leap that lands one cell off for a
@@ -41,11 +41,21 @@ Pair exact_difference(double x, double y) {
 // `end`, or where it leaves the grid; all that is not yet visited lies at or beyond that tau, exactly: tau stands for
 // the exact parameter, not for a rounded place.
 //
-// The place where the walk begins. In the scaled frame, whose box is [0, w] with w <= 1 and w >= 2^-20 on an axis that
-// is divided, a start within `near` is off by a few 2^-53, and entering the grid multiplies and adds a few numbers of
-// that size, all in double: in cells less than 2^-29 R, and u R when it is rounded to float at last. Far below 11 u R,
-// which is what a placing in float with a start within one width of the box costs: 2 u 2 R for P itself, 2 u 2 R for
-// the way to the grid, whose rate has two roundings, and 3 u R for the sum.
+// With w <= R the way that the path has in the grid on an axis, what is left of these is 3 u w for the crossing and 2 u
+// w for the rate, and |p - P| is what follows.
+//
+// The place where the walk begins. In float, a start is within one width of the grid, so that P is at most 2 R by size:
+// 6 u R for its three roundings; the way to the grid is at most 2 R - w, its rate is off by 2 u of itself and the
+// product and the sum are rounded, 4 u (2 R - w) + u R; and what enters the grid by its rounded crossing is clamped
+// into it, 3 u (2 R - w) at most. With the above that stays below 16 u R for every w: p is not placed better than to 15
+// u R. In double, a start within `near` of a box [0, w] with w <= 1, and w >= 2^-20 on an axis that is divided, is off
+// by a few 2^-53, in cells less than 2^-29 R, one that is placed anew by 2^-43, less than 2^-22 R = 4 u R, and either
+// by u R when it is rounded to float at last and 3 u R when it is clamped.
+//
+// A path is taken to stand still on an axis if its rate is below `least_rate`. In the grid, tau is at most 2^37 on a
+// path that needs no scaling (a start within 2 R of the grid, at `slow` or faster; 1 on a segment), and 2^39 on one
+// that is scaled to a rate of 1 or more (a start within 8 2^35 cells): it moves by less than 2^-27 cells, an eighth of
+// u R.
 //
 // A path that starts farther than `near` from the box is placed anew, at the tau where it passes 0.5 on the axis on
 // which it moves fastest: if it meets the box at all, it is there within 2 of the box on every axis. The new place is
@@ -124,6 +134,7 @@ void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pat
   std::array<double, 3> by;
   double fastest = 0;
   double distance = 0;
+  bool is_near_in_cells = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     const double scaled = frame.scaled(path.start[i]);
@@ -131,8 +142,10 @@ void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pat
     by[axis] = path.has_end() ? frame.scaled(path.toward[i]) - scaled : frame.scaled(path.toward[i]);
     distance = std::max(distance, std::fabs(from[axis]));
     fastest = std::max(fastest, std::fabs(by[axis]) * frame.scale[axis]);
+    is_near_in_cells &= std::fabs(from[axis]) * frame.scale[axis] <= 2.0 * frame.resolution(axis);
   }
-  const bool is_plain = distance <= near && fastest <= double{fast} && (fastest >= double{slow} || path.has_end());
+  const bool is_plain =
+      distance <= near && is_near_in_cells && fastest <= double{fast} && (fastest >= double{slow} || path.has_end());
   if (!is_plain) {
     ScaledPath scaled(frame, path);
     place = scaled.place();
@@ -191,6 +204,13 @@ void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pat
     rate[axis] = static_cast<float>(by[axis]);
     inverse_rate[axis] = static_cast<float>(inverse[axis]);
   }
+}
+
+float PlacedPath::beyond(double t) const noexcept {
+  const double scaled = t * unit[0] * unit[1] * unit[2];
+  const double tau = scaled - origin[0] - origin[1] - origin[2];
+  const double rounding = std::fabs(scaled) + std::fabs(origin[0]) + std::fabs(origin[1]) + std::fabs(origin[2]);
+  return static_cast<float>(tau + rounding * 0x1p-50 + std::fabs(tau) * 0x1p-22 + 0x1p-140);
 }
 
 template void PlacedPath::place_in_double(const GridFrame&, const Path<float>&, double, double) noexcept;

@@ -52,6 +52,25 @@ class BruteForceComparison : public testing::Test {
 
 TYPED_TEST_SUITE(BruteForceComparison, Scalars, ScalarNames);
 
+/// An axis of little width and many cells, along which a path is far away in cells though near in space: it drifts
+/// across the others at a rate that is next to nothing, for a long time.
+TYPED_TEST(BruteForceComparison, DriftAcrossAThinMeshOfManyCells) {
+  const auto mesh = this->single({{0, 0, 0}, {1, 0, TypeParam(0x1p-19)}, {0, 1, TypeParam(0x1p-19)}});
+  GridComparison<TypeParam> comparison(mesh.view(), {},
+                                       {{.resolution = {1, 1, 2048}}, {}, {.resolution = {7, 1, 300}}});
+  for (const TypeParam start : {TypeParam(-0.001F), TypeParam(-0.002F), TypeParam(0.3F)}) {
+    for (const TypeParam rate : {TypeParam(0x1.8p-61), TypeParam(0x1.8p-63), TypeParam(0x1.8p-67)}) {
+      for (const TypeParam height : {TypeParam(7), TypeParam(1.5F), TypeParam(0x1p-10)}) {
+        const Vector3<TypeParam> from(start, TypeParam(0.3F), height);
+        const Vector3<TypeParam> along(rate, 0, TypeParam(-0x1p-49));
+        comparison.expect_same(Ray<TypeParam>{from, along});
+        comparison.expect_same(Line<TypeParam>{from, along});
+      }
+    }
+  }
+  EXPECT_GE(comparison.hit_count(), 20U);
+}
+
 TYPED_TEST(BruteForceComparison, EmptyMesh) {
   GridComparison<TypeParam> comparison(TriangleMeshView<TypeParam>{});
   comparison.expect_same(Line<TypeParam>{{0, 0, 0}, {1, 1, 1}});

@@ -48,7 +48,7 @@ struct GridFrame {
   static GridFrame around(const Box<Scalar>& box, const std::array<double, 3>& wished_cells, std::uint32_t division);
 
   /// x 2^exponent, exactly unless it underflows (by less than 2^-1073) or overflows.
-  [[nodiscard]] double scaled(double x) const noexcept { return x * unit[0] * unit[1]; }
+  [[nodiscard]] double scaled(double x) const noexcept;
   /// Finest cells on an axis.
   [[nodiscard]] std::uint32_t resolution(std::size_t axis) const noexcept { return cells[axis] * division; }
   /// Counts in cells that are 1/factor as many, a power of two.
@@ -58,9 +58,7 @@ struct GridFrame {
     return padding_share * static_cast<float>(resolution(axis));
   }
   /// X of a scaled coordinate. Three roundings of doubles.
-  [[nodiscard]] double place(std::size_t axis, double scaled_coordinate) const noexcept {
-    return (scaled_coordinate - origin[axis]) * scale[axis] + double{margin[axis]};
-  }
+  [[nodiscard]] double place(std::size_t axis, double scaled_coordinate) const noexcept;
 };
 
 /// What a cell holds, in 32 bits. An empty cell has a nibble for each octant of directions: how many cells a path of

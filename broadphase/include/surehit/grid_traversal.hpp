@@ -10,6 +10,10 @@
 #include "surehit/grid.hpp"
 #include "surehit/path.hpp"
 
+#if defined(__FAST_MATH__)
+#error "surehit's walk does not hold under -ffast-math: leave this header to the library, whose sources are without it"
+#endif
+
 namespace surehit {
 
 /// A path as a grid sees it: from where it enters the grid on, in finest cells, and mirrored so that it rises on every
@@ -25,7 +29,7 @@ struct PlacedPath {
   /// one of less than `least_rate` moves it by less than 2^-24 cells, and counts as none.
   static constexpr float slow = 0x1p-20F;
   static constexpr float fast = 0x1p20F;
-  static constexpr float least_rate = 0x1p-60F;
+  static constexpr float least_rate = 0x1p-66F;
   static constexpr float greatest_inverse = 0x1p100F;
 
   Place place = Place::outside;
@@ -45,12 +49,7 @@ struct PlacedPath {
   PlacedPath() = default;
 
   /// tau at t or a little beyond it.
-  [[nodiscard]] float beyond(double t) const noexcept {
-    const double scaled = t * unit[0] * unit[1] * unit[2];
-    const double tau = scaled - origin[0] - origin[1] - origin[2];
-    const double rounding = std::fabs(scaled) + std::fabs(origin[0]) + std::fabs(origin[1]) + std::fabs(origin[2]);
-    return static_cast<float>(tau + rounding * 0x1p-50 + std::fabs(tau) * 0x1p-22 + 0x1p-140);
-  }
+  [[nodiscard]] float beyond(double t) const noexcept;
 
  private:
   template <typename Scalar>
