@@ -33,7 +33,8 @@ struct Lanes {
 /// U, V, W and the two that the range asks for must each be at least zero for a hit, with det's sign taken out. So two
 /// of certain and opposite signs are a miss, even where det's own sign is not certain: were det zero, a path that meets
 /// the triangle would lie in its plane and all of them would vanish. All certain and of one sign are a hit: det = U + V
-/// + W then has that sign too. Comparisons accept what is certain, so that a NaN or an overflow stays possible.
+/// + W then has that sign too. Comparisons accept what is certain, and where sizes might overflow, the bound is
+/// infinite or NaN, so that nothing is.
 ///
 /// Not inlined: its frame is gone when the exact stage needs the stack, and the call costs nothing that can be
 /// measured.

@@ -25,15 +25,15 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = hn::ScalableTag<float>;
+/// As many as the widest instruction set of today walks at once.
+constexpr std::size_t most_lanes = 16;
+
+using FloatTag = hn::CappedTag<float, most_lanes>;
 using IntTag = hn::RebindToSigned<FloatTag>;
 using BitsTag = hn::RebindToUnsigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 using Words = hn::Vec<BitsTag>;
-
-/// As many as the widest instruction set walks at once.
-constexpr std::size_t most_lanes = 16;
 
 /// A number for each lane. In memory: a step loads what it needs, and a lane is filled anew by a scalar store.
 using LaneFloats = std::array<float, most_lanes>;

@@ -6,11 +6,11 @@ namespace surehit {
 
 /// What queries did. A query adds to the statistics that it is given and to no others; they are no part of the answer.
 struct QueryStatistics {
-  std::uint64_t paths = 0;            ///< paths asked
-  std::uint64_t cells = 0;            ///< grid cells walked through
-  std::uint64_t candidates = 0;       ///< pairs of a path and a triangle that reached the kernel
-  std::uint64_t undecided = 0;        ///< of these, pairs that the kernel's bounds could not call a miss or a hit
-  std::uint64_t exact_decisions = 0;  ///< of these, pairs that only exact arithmetic decided
+  std::uint64_t paths = 0;       ///< paths asked
+  std::uint64_t cells = 0;       ///< grid cells, and leaps through empty ones, walked through
+  std::uint64_t candidates = 0;  ///< entries of the lists met, a triangle in each cell and for padding; unclipped: all
+  std::uint64_t undecided = 0;   ///< of lists, those that the kernel's bounds could not call a miss or a hit
+  std::uint64_t exact_decisions = 0;  ///< pairs that only exact arithmetic decided
   std::uint64_t exact_orders = 0;     ///< pairs of hits whose order only exact arithmetic told
   std::uint64_t exact_roundings = 0;  ///< hits of which t, u or v took exact arithmetic to round
   std::uint64_t unclipped = 0;        ///< paths too far from the grid to be clipped, which met every triangle
