@@ -4,7 +4,7 @@ set -uo pipefail
 
 usage() {
   cat <<USAGE
-usage: $0 [--quick]
+usage: $0 [--quick | --clang]
 
 Without options: all tests in Release with GCC, a tenth of the cases under AddressSanitizer and
 UndefinedBehaviorSanitizer, and the library and the examples built with Clang.
