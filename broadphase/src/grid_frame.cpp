@@ -54,7 +54,7 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
 
   frame.unit = {std::ldexp(1.0, frame.exponent / 2), std::ldexp(1.0, frame.exponent - frame.exponent / 2)};
 
-  const double most_cells = most_finest_cells / division;
+  const auto most_cells = static_cast<double>(std::uint32_t{most_finest_cells / division});
   double finest = 0;
   std::array<double, 3> width = {};
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -180,6 +180,8 @@ class Batch {
     }
   }
 
+  WalkingPaths placed_ = {};  ///< paths that are placed together
+  WalkingPaths lanes_ = {};
   const Query<float>& query_;
   const PathRange<float>& range_;
   RangeWeights<float> weights_;
@@ -188,10 +190,8 @@ class Batch {
   const Finish& finish_;
   const Alone& alone_;
   std::size_t next_ = 0;          ///< the first path that is not placed yet
-  WalkingPaths placed_ = {};      ///< placed together,
-  std::size_t placed_first_ = 0;  ///< from this path on,
-  std::uint32_t waiting_ = 0;     ///< and still to be walked
-  WalkingPaths lanes_ = {};
+  std::size_t placed_first_ = 0;  ///< the first of `placed_`,
+  std::uint32_t waiting_ = 0;     ///< of `placed_`, still to be walked
   std::array<std::size_t, most_lanes> index_ = {};
   std::array<std::optional<Visit>, most_lanes> visits_;
 };

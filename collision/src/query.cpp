@@ -9,10 +9,9 @@
 #include "query_walk-inl.hpp"
 
 // Highway exports plain functions, so each kind of query has a name for each Scalar and path.
-#define SUREHIT_FOR_SCALARS(do) \
-  do (float)do(double)
-#define SUREHIT_FOR_PATHS(do) \
-  do (Segment) do(Ray) do(Line)
+// NOLINTBEGIN(bugprone-macro-parentheses): template arguments cannot have any
+#define SUREHIT_FOR_SCALARS(define) define(float) define(double)
+#define SUREHIT_FOR_PATHS(define) define(Segment) define(Ray) define(Line)
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
@@ -77,3 +76,4 @@ SUREHIT_FOR_PATHS(SUREHIT_EXPORT)
 
 }  // namespace surehit::detail
 #endif
+// NOLINTEND(bugprone-macro-parentheses)
