@@ -25,7 +25,7 @@ void measure_builds(const Request& request, Report& report) {
       const Summary time = summary_of(result.nanoseconds);
       const auto bytes = static_cast<double>(result.memory_bytes);
       report.keep(place, library, "build ns", time);
-      report.keep(place, library, "bytes", {bytes, bytes, bytes});
+      report.keep(place, library, "bytes", summary_of(bytes));
       if (result.entrant->is_ours()) {
         time_cells.push_back(short_number(time.median / 1e6));
         memory_cells.push_back(short_number(bytes / 1e6));
@@ -34,7 +34,7 @@ void measure_builds(const Request& request, Report& report) {
       const Summary time_ratio = summary_of(ratio(result.nanoseconds, ours.nanoseconds));
       const double memory_ratio = bytes / static_cast<double>(ours.memory_bytes);
       report.keep(place, library, "build over surehit", time_ratio);
-      report.keep(place, library, "bytes over surehit", {memory_ratio, memory_ratio, memory_ratio});
+      report.keep(place, library, "bytes over surehit", summary_of(memory_ratio));
       time_cells.push_back(short_number(time_ratio.median));
       memory_cells.push_back(short_number(memory_ratio));
     }

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -7,8 +8,10 @@
 #include "command_line/output_file.hpp"
 #include "command_line/program.hpp"
 #include "core_pin.hpp"
+#include "instruction_set.hpp"
 #include "mesh_io/input_error.hpp"
 #include "ratio_chart.hpp"
+#include "support/instruction_sets.hpp"
 #include "tables.hpp"
 
 namespace surehit::benchmark {
@@ -37,38 +40,47 @@ struct Words {
   std::vector<std::string> contenders;
   std::string folder;
   std::string up = "y";
+  std::string instruction_set = all_instruction_sets().front().name;
   std::string csv_path;
   std::string chart_path;
   bool quick = false;
   Request request;
 };
 
-std::vector<std::string> table_names() {
+template <typename Things, typename Name>
+std::vector<std::string> names_of(const Things& things, const Name& name) {
   std::vector<std::string> names;
-  for (const TableKind& table : all_tables()) names.push_back(table.name);
+  for (const auto& thing : things) names.push_back(std::invoke(name, thing));
   return names;
 }
 
-std::vector<std::string> set_names() {
-  std::vector<std::string> names;
-  for (const PathSet set : all_path_sets) names.push_back(name_of(set));
-  return names;
+/// An option whose values are among the names, which its description lists at the end.
+template <typename Value>
+CLI::Option* add_choice(CLI::App& app, const char* option, Value& value, std::string description,
+                        const std::vector<std::string>& names) {
+  const char* separator = ": ";
+  for (const std::string& name : names) {
+    description += separator + name;
+    separator = ", ";
+  }
+  return app.add_option(option, value, description)->check(CLI::IsMember(names).description(""));
 }
 
 void describe(CLI::App& app, Words& words, Request& request) {
   app.add_option("--meshes", words.folder, "Measure every mesh of a folder too")->type_name("FOLDER");
-  app.add_option("--up", words.up, "The upward axis of the folder's meshes")
-      ->check(CLI::IsMember({"y", "z"}))
-      ->capture_default_str();
-  app.add_option("--table", words.tables, "Only these tables: queries, build, size, tick or threads")
-      ->check(CLI::IsMember(table_names()).description(""))
-      ->type_name("NAME ...");
-  app.add_option("--mesh", words.meshes, "Only these meshes; the built-in one is called level")->type_name("NAME ...");
-  app.add_option("--set", words.sets, "Only these path sets: long, short, near, sight or edge")
-      ->check(CLI::IsMember(set_names()).description(""))
-      ->type_name("NAME ...");
+  add_choice(app, "--up", words.up, "The upward axis of the folder's meshes", {"y", "z"})->capture_default_str();
+  add_choice(app, "--table", words.tables, "Only these tables", names_of(all_tables(), &TableKind::name))
+      ->type_name("NAME");
+  app.add_option("--mesh", words.meshes, "Only these meshes; the built-in one is called level")->type_name("NAME");
+  add_choice(app, "--set", words.sets, "Only these path sets",
+             names_of(all_path_sets, [](PathSet set) { return name_of(set); }))
+      ->type_name("NAME");
   app.add_option("--contender", words.contenders, "Besides surehit only contenders whose name has one of these in it")
-      ->type_name("TEXT ...");
+      ->type_name("TEXT");
+  add_choice(app, "--instruction-set", words.instruction_set, "What surehit runs on; the others choose by themselves",
+             names_of(all_instruction_sets(), &InstructionSet::name))
+      ->type_name("NAME")
+      ->capture_default_str();
   const CLI::Range some(std::size_t{1}, std::size_t{100'000'000});
   app.add_option("--rounds", request.rounds, "Times that every contender is measured")
       ->check(CLI::Range(some).description(""))
@@ -123,6 +135,12 @@ void choose(const Words& words, Request& request) {
   }
 }
 
+std::int64_t target_of(const std::string& instruction_set) {
+  const std::vector<InstructionSet> all = all_instruction_sets();
+  const auto is_it = [&](const InstructionSet& set) { return set.name == instruction_set; };
+  return std::find_if(all.begin(), all.end(), is_it)->target;
+}
+
 void write_file(const std::string& path, const std::string& text) {
   example::OutputFile file(path);
   file.write(text);
@@ -130,7 +148,8 @@ void write_file(const std::string& path, const std::string& text) {
 }
 
 void measure(const Words& words, const Request& request) {
-  Report report;
+  const test::ForcedInstructionSet forced(target_of(words.instruction_set));
+  Report report(all_instruction_sets().front().name);  // what is in effect, rather than what was asked for
   for (const TableKind& table : all_tables()) {
     if (!is_among(table.name, words.tables)) continue;
     std::optional<CorePin> pin;

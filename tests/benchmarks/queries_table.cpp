@@ -58,8 +58,7 @@ void keep(const Row& row, Report& report) {
   }
   place.question = name_of(Question::any_hit);
   for (const WrongCount& wrong : row.judgement.wrong) {
-    const auto count = static_cast<double>(wrong.count);
-    report.keep(place, wrong.entrant->name(), "wrong decisions", {count, count, count});
+    report.keep(place, wrong.entrant->name(), "wrong decisions", summary_of(static_cast<double>(wrong.count)));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "markdown_table.hpp"
@@ -29,6 +30,9 @@ struct Record {
 /// Shows tables as they come, and keeps every figure for files.
 class Report {
  public:
+  /// The instruction set is that which surehit runs on.
+  explicit Report(std::string instruction_set) : instruction_set_(std::move(instruction_set)) {}
+
   void show(const std::string& title, const MarkdownTable& table) const;
   void keep(const Place& place, const std::string& contender, const std::string& measure, const Summary& figure) {
     records_.push_back({place, contender, measure, figure});
@@ -38,6 +42,7 @@ class Report {
   [[nodiscard]] std::string csv() const;
 
  private:
+  std::string instruction_set_;
   std::vector<Record> records_;
 };
 

@@ -17,6 +17,8 @@ struct Summary {
 
 /// Of a series that is not empty.
 [[nodiscard]] Summary summary_of(RoundSeries series);
+/// Of what is the same in every round.
+[[nodiscard]] inline Summary summary_of(double figure) { return {figure, figure, figure}; }
 /// Round by round.
 [[nodiscard]] RoundSeries ratio(const RoundSeries& over, const RoundSeries& under);
 

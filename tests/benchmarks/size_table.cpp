@@ -58,7 +58,7 @@ class SizeTable {
     for (const BuildResult& result : race_builds(built_, scene.mesh.view(), rounds)) {
       const auto bytes = static_cast<double>(result.memory_bytes);
       add(result.entrant->library, "", "build ms", 1e6, summary_of(result.nanoseconds));
-      add(result.entrant->library, "", "MB", 1e6, {bytes, bytes, bytes});
+      add(result.entrant->library, "", "MB", 1e6, summary_of(bytes));
     }
     constexpr std::array sets = {PathSet::long_paths, PathSet::short_paths, PathSet::near_paths};
     std::vector<PathSample> samples;
@@ -102,7 +102,7 @@ class SizeTable {
       const double exponent = growth_exponent(triangles_, column.figures);
       cells.push_back(short_number(exponent));
       report_.keep({"size", name_, 0, column.paths}, column.contender, "growth exponent of " + column.measure,
-                   {exponent, exponent, exponent});
+                   summary_of(exponent));
     }
     table.add_row(std::move(cells));
   }
