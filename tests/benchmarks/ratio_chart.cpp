@@ -26,9 +26,10 @@ struct BarKind {
 };
 
 constexpr std::array bar_kinds = {
-    BarKind{"Embree fast medium x1", "over surehit batch", "surehit's batches over Embree's single rays", "#1b6ca8"},
-    BarKind{"Embree fast medium x8", "over surehit batch", "surehit's batches over Embree's packets of 8", "#7fb7de"},
-    BarKind{"Embree fast medium x1", "over surehit single", "surehit's single paths over Embree's single rays",
+    BarKind{"Embree fast medium x1", "over surehit batch", "surehit's batches against Embree's single rays", "#1b6ca8"},
+    BarKind{"Embree fast medium x8", "over surehit batch", "surehit's batches against Embree's packets of 8",
+            "#7fb7de"},
+    BarKind{"Embree fast medium x1", "over surehit single", "surehit's single paths against Embree's single rays",
             "#e08e2b"},
 };
 

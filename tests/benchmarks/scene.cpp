@@ -73,12 +73,6 @@ Scene level_scene(float detail) {
   return {.name = "level", .mesh = std::move(level.mesh), .up = 2, .eye = eye};
 }
 
-Scene scene_of(std::string name, example::Mesh<float> mesh, int up) {
-  Scene scene{.name = std::move(name), .mesh = std::move(mesh), .up = up};
-  scene.eye = choose_eye(scene);
-  return scene;
-}
-
 std::vector<Scene> scenes_in(const std::string& folder, int up, const std::vector<std::string>& names) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -89,7 +83,9 @@ std::vector<Scene> scenes_in(const std::string& folder, int up, const std::vecto
   std::sort(files.begin(), files.end());
   std::vector<Scene> scenes;
   for (const fs::path& file : files) {
-    scenes.push_back(scene_of(file.stem().string(), example::read_mesh<float>(file.string()), up));
+    Scene& scene = scenes.emplace_back(
+        Scene{.name = file.stem().string(), .mesh = example::read_mesh<float>(file.string()), .up = up});
+    scene.eye = choose_eye(scene);
   }
   return scenes;
 }
