@@ -1,0 +1,278 @@
+#!/usr/bin/env python3
+"""Measures everything and writes what is published: the blocks of README.md between markers, FIGURES.md and ratios.svg.
+
+What it does not know is passed on to surehit_benchmark, to --quick too, which shows in half a minute that all of this
+works, and leaves figures without meaning: put the files back afterwards.
+"""
+
+import argparse
+import csv
+import re
+import shlex
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+
+PATH_SETS = ["short", "near", "long", "sight", "edge"]
+CLOSEST, ANY = "closest hit", "any hit"
+MEDIUM, LOW = "Embree fast medium", "Embree fast low"
+OTHER_INSTRUCTION_SETS = ["avx2", "sse4"]
+
+
+def fail(reason):
+    sys.exit(f"publish.py: {reason}")
+
+
+class Figures:
+    """All rows of the program's CSV files, in the order in which they were measured."""
+
+    def __init__(self):
+        self.rows = []
+
+    def add(self, path):
+        with open(path, newline="", encoding="utf-8") as file:
+            self.rows += csv.DictReader(file)
+
+    @property
+    def instruction_sets(self):
+        return self.values("instruction_set")
+
+    def matching(self, **where):
+        return [row for row in self.rows if all(row[column] == value for column, value in where.items())]
+
+    def values(self, column, **where):
+        return list(dict.fromkeys(row[column] for row in self.matching(**where)))
+
+    def median(self, **where):
+        """Of the one row that is meant; on the machine's best instruction set unless it is said which."""
+        rows = self.matching(**{"instruction_set": self.instruction_sets[0], **where})
+        if len(rows) != 1:
+            fail(f"{len(rows)} figures instead of one for {where}")
+        return float(rows[0]["median"])
+
+    def meshes(self, table):
+        """Each mesh's name in the CSV, and with its triangles as it is shown."""
+        for mesh in self.values("mesh", table=table):
+            triangles = int(self.values("triangles", table=table, mesh=mesh)[0])
+            yield mesh, f"{'built-in level' if mesh == 'level' else mesh} ({triangles:,})"
+
+
+def number(value):
+    return f"{value:.{2 if abs(value) < 10 else 1 if abs(value) < 100 else 0}f}"
+
+
+def markdown(header, rows):
+    lines = [header, ["---"] * len(header), *rows]
+    return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)
+
+
+def name_of_instruction_set(name):
+    return name.upper().replace("AVX512", "AVX-512")
+
+
+# What stands between README.md's markers: a function for each block, by its name.
+
+
+def machine(figures):
+    cpus = re.findall(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.MULTILINE)
+    model = re.sub(r"\((R|TM)\)|@.*$", "", cpus[0] if cpus else "unknown processor")
+    return f"{' '.join(model.split())}, {name_of_instruction_set(figures.instruction_sets[0])}"
+
+
+def queries(figures):
+    rows = []
+    for mesh, shown in figures.meshes("queries"):
+        for paths in PATH_SETS:
+
+            def median(question, contender, measure):
+                return figures.median(
+                    table="queries", mesh=mesh, paths=paths, question=question, contender=contender, measure=measure
+                )
+
+            cells = [shown, paths]
+            for question in CLOSEST, ANY:
+                cells.append(number(median(question, "surehit batch", "ns per path")) + " ns")
+                cells += [number(median(question, f"{MEDIUM} {way}", "over surehit batch")) for way in ("x1", "x8")]
+            singles = [number(median(question, f"{MEDIUM} x1", "over surehit single")) for question in (CLOSEST, ANY)]
+            wrong = median(ANY, f"{MEDIUM} x1", "wrong decisions")
+            rows.append([*cells, " / ".join(singles), f"{wrong:.0f}"])
+    return markdown(
+        ["mesh (triangles)", "paths", "closest: batch", "÷ single rays", "÷ packets", "any: batch", "÷ single rays"]
+        + ["÷ packets", "single calls, closest / any", "wrong"],
+        rows,
+    )
+
+
+def builds(figures):
+    rows = []
+    for mesh, shown in figures.meshes("build"):
+
+        def median(contender, measure):
+            return figures.median(table="build", mesh=mesh, contender=contender, measure=measure)
+
+        cells = [shown]
+        for measure, unit, of_ours in ("build ns", "ms", "build"), ("bytes", "MB", "bytes"):
+            cells.append(f"{number(median('surehit', measure) / 1e6)} {unit}")
+            cells += [number(median(quality, f"{of_ours} over surehit")) for quality in (MEDIUM, LOW)]
+        rows.append(cells)
+    return markdown(["mesh (triangles)", "build", "÷ medium", "÷ low", "memory", "÷ medium", "÷ low"], rows)
+
+
+def ticks(figures):
+    counts = figures.values("paths", table="tick")
+    rows = []
+    for mesh, shown in figures.meshes("tick"):
+        cells = [shown]
+        for count in counts:
+
+            def median(contender, measure):
+                return figures.median(table="tick", mesh=mesh, paths=count, contender=contender, measure=measure)
+
+            times = [median("surehit batch", measure) / 1e6 for measure in ("tick ns", "rebuild ns")]
+            cells.append(f"{number(times[0])} ms ({number(times[1])} ms)")
+            cells += [number(median(f"{LOW} {way}", "over surehit batch")) for way in ("x1", "x8")]
+        rows.append(cells)
+    header = ["mesh (triangles)"]
+    for count in counts:
+        header += [f"{int(count.split()[0]):,} paths (of it rebuild)", "÷ single rays", "÷ packets"]
+    return markdown(header, rows)
+
+
+def growth(figures):
+    exponent = "growth exponent of "
+    rows = []
+    for mesh in figures.values("mesh", table="size", measure=exponent + "ns"):
+        sizes = [int(size) for size in figures.values("triangles", table="size", mesh=mesh) if size != "0"]
+
+        def both(ours, theirs, paths, measure):
+            medians = [
+                figures.median(table="size", mesh=mesh, contender=who, paths=paths, measure=exponent + measure)
+                for who in (ours, theirs)
+            ]
+            return " / ".join(map(number, medians))
+
+        cells = [mesh, f"{min(sizes):,} to {max(sizes):,}"]
+        cells += [both("surehit", MEDIUM, "", measure) for measure in ("build ms", "MB")]
+        cells += [both("surehit batch", f"{MEDIUM} x1", paths, "ns") for paths in ("short", "near", "long")]
+        rows.append(cells)
+    return markdown(["mesh", "triangles", "build", "memory", "short", "near", "long"], rows)
+
+
+def over_meshes(figures, **where):
+    """The median of what is the median of each mesh."""
+    meshes = figures.values("mesh", table=where["table"])
+    return number(statistics.median(figures.median(mesh=mesh, **where) for mesh in meshes))
+
+
+def threads(figures):
+    rows = []
+    for paths in PATH_SETS:
+
+        def median(contender, measure):
+            return over_meshes(figures, table="threads", paths=paths, contender=contender, measure=measure)
+
+        them = f"{MEDIUM} x1"
+        cells = [median("surehit batch", "speedup"), median(them, "speedup")]
+        rows.append([paths, *cells, median(them, "over surehit batch on 2 threads")])
+    return markdown(["paths", "speedup of surehit", "of Embree", "÷ on two threads"], rows)
+
+
+def instruction_sets(figures):
+    def cell(name, paths):
+        ratios = [
+            over_meshes(
+                figures, instruction_set=name, table="queries", paths=paths, question=question,
+                contender=f"{MEDIUM} x1", measure="over surehit batch",
+            )
+            for question in (CLOSEST, ANY)
+        ]  # fmt: skip
+        return " / ".join(ratios)
+
+    names = figures.instruction_sets
+    rows = [[paths, *(cell(name, paths) for name in names)] for paths in PATH_SETS]
+    return markdown(["paths", *map(name_of_instruction_set, names)], rows)
+
+
+BLOCKS = {
+    block.__name__: block for block in (machine, queries, builds, ticks, growth, threads, instruction_sets)
+}
+
+
+MARKED = re.compile(r"(<!-- figures: (\w+) -->)(\n?).*?(<!-- end -->)", re.DOTALL)
+
+
+def with_blocks(text, figures):
+    """The text with anew what stands between markers: whole lines or a part of one, as it was before."""
+
+    def renewed(match):
+        around = "\n" if match[3] else ""
+        return match[1] + around * 2 + BLOCKS[match[2]](figures) + around + match[4]
+
+    return MARKED.sub(renewed, text)
+
+
+def check(figures):
+    contenders = figures.values("contender")
+    if not {"CGAL", f"{MEDIUM} x1"} <= set(contenders):
+        fail("README.md speaks of Embree and CGAL; the benchmark was built or run without them")
+    for row in figures.matching(measure="wrong decisions"):
+        if row["contender"].startswith("surehit") and float(row["median"]) > 0:
+            fail(f"surehit is wrong, which has to be mended first: {row}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+                                     allow_abbrev=False)  # fmt: skip
+    parser.add_argument("meshes", metavar="FOLDER", help="every mesh in it is measured, besides the built-in level")
+    parser.add_argument("--build", type=Path, default=ROOT / "build" / "release", metavar="FOLDER",
+                        help="where CMake was configured, in Release (default: build/release)")  # fmt: skip
+    arguments, passed_on = parser.parse_known_args()
+    if not (arguments.build / "CMakeCache.txt").exists():
+        fail(f"{arguments.build} is not configured; cmake --preset release does it for build/release")
+    subprocess.run(["cmake", "--build", arguments.build, "--target", "surehit_benchmark"], check=True)
+    readme = ROOT / "README.md"
+    text = readme.read_text(encoding="utf-8")
+    names = sorted(match[2] for match in MARKED.finditer(text))
+    if names != sorted(BLOCKS):  # said before the minutes of measuring
+        fail(f"README.md has blocks {names} instead of {sorted(BLOCKS)}")
+    program = arguments.build / "tests" / "benchmarks" / "surehit_benchmark"
+
+    figures = Figures()
+    sections = []
+    with tempfile.TemporaryDirectory() as folder:
+        csv_path, chart_path = Path(folder, "figures.csv"), Path(folder, "ratios.svg")
+
+        def run(*options, files=()):
+            shown = shlex.join(["surehit_benchmark", "--meshes", "FOLDER", *options, *passed_on])
+            print(shown, file=sys.stderr)
+            command = [program, "--meshes", arguments.meshes, *options, *passed_on, "--csv", csv_path, *files]
+            output = subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
+            figures.add(csv_path)
+            sections.append(f"    {shown}\n\n{output.rstrip()}")
+
+        run(files=["--chart", chart_path])
+        best = figures.instruction_sets[0]
+        for name in OTHER_INSTRUCTION_SETS:
+            if name != best:
+                run("--instruction-set", name, "--table", "queries", "--contender", MEDIUM)
+
+        check(figures)
+        text = with_blocks(text, figures)
+        origin = f"What `publish.py` measured ({machine(figures)}); [README.md](README.md) says what it means."
+        full = "\n\n".join(["# Figures", origin, *sections]) + "\n"
+        (HERE / "FIGURES.md").write_text(full, encoding="utf-8")
+        readme.write_text(text, encoding="utf-8")
+        shutil.copyfile(chart_path, HERE / "ratios.svg")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except subprocess.CalledProcessError as error:
+        sys.exit(error.returncode)
