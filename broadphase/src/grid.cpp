@@ -1,11 +1,10 @@
 #include "surehit/grid.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "cell_lister.hpp"
 #include "empty_space.hpp"
 #include "surehit/floating_point_environment.hpp"
 #include "triangle_overlap.hpp"
@@ -77,13 +76,14 @@ std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar
 
 /// Lists the triangles in top cells by counting, prefix sum and scatter; then emits the lists cell by cell, and divides
 /// the crowded ones on the way.
+template <typename Scalar>
 class GridBuild {
  public:
-  template <typename Scalar>
   GridBuild(Grid& grid, GridScratch& scratch, const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
             const GridOptions& options)
       : grid_(grid),
         scratch_(scratch),
+        mesh_(mesh),
         crowded_(options.crowded == 0 ? std::numeric_limits<std::size_t>::max() : options.crowded) {
     grid.granule_ = least_granule;
     const std::size_t budget =
@@ -93,8 +93,8 @@ class GridBuild {
         wished_resolution(GridFrame::around(box, {1, 1, 1}, division), box, mesh.triangle_count(), options);
     for (;;) {
       grid.frame_ = GridFrame::around(box, wished, division);
-      place_triangles(mesh);
-      if (try_list(budget)) break;
+      place_vertices();
+      if (try_list_all(budget)) break;
       for (double& cells : wished) cells = std::max(1.0, std::floor(cells / 2));
     }
     while (!try_emit()) grid.granule_ *= 2;
@@ -110,126 +110,52 @@ class GridBuild {
   /// What a vector load may read beyond the last top cell.
   static constexpr std::size_t top_slack = 64;
 
-  using CellTriangle = std::array<detail::CellPoint, 3>;
-
-  template <typename Scalar>
-  void place_triangles(const TriangleMeshView<Scalar>& mesh) {
+  void place_vertices() {
     const GridFrame& frame = grid_.frame_;
     auto& points = scratch_.points_;
-    auto& triangles = scratch_.triangles_;
-    points.resize(mesh.vertex_count());
+    points.resize(mesh_.vertex_count());
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vector3<Scalar> vertex = mesh.vertex(i);
+      const Vector3<Scalar> vertex = mesh_.vertex(i);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double scaled = frame.scaled(vertex[static_cast<Eigen::Index>(axis)]);
-        points[i][axis] = static_cast<float>(frame.place(axis, scaled));
+        const auto k = static_cast<Eigen::Index>(axis);
+        points[i][k] = static_cast<float>(frame.place(axis, frame.scaled(vertex[k])));
       }
-    }
-    triangles.resize(mesh.triangle_count());
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      triangles[i] = {points[mesh.corner(i, 0)], points[mesh.corner(i, 1)], points[mesh.corner(i, 2)]};
+      points[i][3] = 0;
     }
     for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame.padding(axis);
   }
 
-  /// Calls `list(x, y, z)` once for each cell that the triangle meets, of those in `within`; cells are `size` finest
-  /// cells long.
-  template <typename List>
-  void list_cells(const CellTriangle& triangle, float size, const detail::CellRange& within, const List& list) const {
-    const float per_size = 1 / size;  // a power of two
-    detail::CellRange range;
-    int wide_axes = 0;
-    std::size_t flat_axis = detail::TriangleOverlap::no_axis;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float low = std::min(std::min(triangle[0][axis], triangle[1][axis]), triangle[2][axis]);
-      const float high = std::max(std::max(triangle[0][axis], triangle[1][axis]), triangle[2][axis]);
-      const auto first = static_cast<std::uint32_t>(static_cast<std::int32_t>((low - padding_[axis]) * per_size));
-      const auto last = static_cast<std::uint32_t>(static_cast<std::int32_t>((high + padding_[axis]) * per_size));
-      if (last > first) {
-        ++wide_axes;
-      } else {
-        flat_axis = axis;
-      }
-      range.low[axis] = std::max(first, within.low[axis]);
-      range.high[axis] = std::min(last + 1, within.high[axis]);
-      if (range.low[axis] >= range.high[axis]) return;
+  /// Lists `count` triangles, the i-th of which is `id(i)`, in cells of `size` finest cells, unless that takes more
+  /// than so many entries.
+  template <typename Id>
+  bool try_list(std::size_t count, const Id& id, const detail::CellRange& cells, std::uint32_t size,
+                std::size_t most_entries, detail::CellLists& lists) const {
+    detail::CellLister lister(lists, cells, size, padding_);
+    const auto& points = scratch_.points_;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t triangle = id(i);
+      lister.add(triangle, {points[mesh_.corner(triangle, 0)], points[mesh_.corner(triangle, 1)],
+                            points[mesh_.corner(triangle, 2)]});
+      if (lister.count() > most_entries) return false;
     }
-    // Along a row of cells that is as wide as its box, a triangle meets each.
-    if (wide_axes <= 1) {
-      for (std::uint32_t z = range.low[2]; z < range.high[2]; ++z) {
-        for (std::uint32_t y = range.low[1]; y < range.high[1]; ++y) {
-          for (std::uint32_t x = range.low[0]; x < range.high[0]; ++x) list(x, y, z);
-        }
-      }
-      return;
-    }
-    list_parts(detail::TriangleOverlap(triangle, padding_, flat_axis), size, range, list);
-  }
-
-  /// Lists the cells of the range that the triangle meets, by halving it until it is a cell that the triangle meets, or
-  /// a range that it misses. The first one it meets.
-  template <typename List>
-  static void list_parts(const detail::TriangleOverlap& triangle, float size, const detail::CellRange& range,
-                         const List& list) {
-    std::size_t longest = range.length(0) >= range.length(1) ? 0 : 1;
-    if (range.length(2) > range.length(longest)) longest = 2;
-    if (range.length(longest) == 1) {
-      list(range.low[0], range.low[1], range.low[2]);
-      return;
-    }
-    const std::uint32_t middle = (range.low[longest] + range.high[longest]) / 2;
-    for (const bool upper : {false, true}) {
-      detail::CellRange part = range;
-      (upper ? part.low : part.high)[longest] = middle;
-      detail::CellPoint low;
-      detail::CellPoint high;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = size * static_cast<float>(static_cast<std::int32_t>(part.low[axis]));
-        high[axis] = size * static_cast<float>(static_cast<std::int32_t>(part.high[axis]));
-      }
-      if (triangle.meets(low, high)) list_parts(triangle, size, part, list);
-    }
+    lister.finish();
+    return lister.count() <= most_entries;
   }
 
   /// Lists all triangles in top cells, unless that takes more entries than the budget. One cell always fits.
-  bool try_list(std::size_t budget) {
-    const std::array<std::uint32_t, 3> cells = grid_.frame_.cells;
-    const std::size_t cell_count = std::size_t{cells[0]} * cells[1] * cells[2];
-    const auto& triangles = scratch_.triangles_;
-    auto& met = scratch_.met_;
-    auto& offsets = scratch_.offsets_;
-    offsets.assign(cell_count + 1, 0);
-    scratch_.met_count_.resize(triangles.size());
-    met.clear();
-    for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) {
-      const std::size_t before = met.size();
-      list_cells(triangles[triangle], static_cast<float>(division), {{0, 0, 0}, cells},
-                 [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-                   const std::size_t cell = (std::size_t{z} * cells[1] + y) * cells[0] + x;
-                   ++offsets[cell + 1];
-                   met.push_back(static_cast<std::uint32_t>(cell));
-                 });
-      if (met.size() > budget && cell_count > 1) return false;
-      scratch_.met_count_[triangle] = static_cast<std::uint32_t>(met.size() - before);
-    }
-    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    scratch_.listed_.resize(met.size());
-    auto& next = scratch_.next_;
-    next.assign(offsets.begin(), offsets.end() - 1);
-    const std::uint32_t* cell = met.data();
-    for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) {
-      for (std::uint32_t i = 0; i < scratch_.met_count_[triangle]; ++i) {
-        scratch_.listed_[next[*cell++]++] = static_cast<std::uint32_t>(triangle);
-      }
-    }
-    return true;
+  bool try_list_all(std::size_t budget) {
+    const std::array<std::uint32_t, 3>& cells = grid_.frame_.cells;
+    const bool is_one_cell = cells == std::array<std::uint32_t, 3>{1, 1, 1};
+    return try_list(
+        mesh_.triangle_count(), [](std::size_t i) { return static_cast<std::uint32_t>(i); }, {{0, 0, 0}, cells},
+        division, is_one_cell ? std::numeric_limits<std::size_t>::max() : budget, scratch_.lists_[0]);
   }
 
   /// Makes the words, bricks and entries. False if the entries are more than offsets in granules can tell.
   bool try_emit() {
     const auto& cells = grid_.frame_.cells;
-    const auto& offsets = scratch_.offsets_;
-    const auto& listed = scratch_.listed_;
+    const auto& offsets = scratch_.lists_[0].offsets;
+    const auto& listed = scratch_.lists_[0].triangles;
     auto& words = scratch_.words_;
     grid_.levels_ = 0;
     grid_.top_count_ = offsets.size() - 1;
@@ -277,50 +203,29 @@ class GridBuild {
   std::uint32_t divide(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& place,
                        std::uint32_t size, std::uint32_t level) {
     constexpr std::uint32_t edge = Grid::brick_edge;
-    detail::CellRange within;
+    detail::CellRange cells;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      within.low[axis] = place[axis] * edge;
-      within.high[axis] = within.low[axis] + edge;
+      cells.low[axis] = place[axis] * edge;
+      cells.high[axis] = cells.low[axis] + edge;
     }
-    std::vector<std::uint64_t>& met =
-        scratch_.met_in_brick_[level - 1];  // cells of each triangle in turn, a bit for each
-    met.assign(ids.size(), 0);
-    std::array<std::uint32_t, Grid::brick_size + 1> ends = {};
-    std::size_t entries = 0;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      list_cells(scratch_.triangles_[ids[i]], static_cast<float>(size), within,
-                 [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-                   const std::uint32_t cell =
-                       ((z - within.low[2]) * edge + (y - within.low[1])) * edge + (x - within.low[0]);
-                   met[i] |= std::uint64_t{1} << cell;
-                   ++ends[cell + 1];
-                   ++entries;
-                 });
-      if (entries > most_growth * ids.size()) return 0;
-    }
+    detail::CellLists& lists = scratch_.lists_[level];
+    const auto id = [&](std::size_t i) { return ids[i]; };
+    if (!try_list(ids.size(), id, cells, size, most_growth * ids.size(), lists)) return 0;
     // The brick of no number is no one's: a word of zeros would be that of an empty cell not yet measured.
     const std::size_t first = std::max<std::size_t>(grid_.bricks_.size(), Grid::brick_size);
     if (first / Grid::brick_size > CellWord::most_offset) return 0;
     grid_.bricks_.resize(first + Grid::brick_size);
     grid_.levels_ = std::max(grid_.levels_, level);
 
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<std::uint32_t>& lists = scratch_.lists_in_brick_[level - 1];
-    lists.resize(entries);
-    std::array<std::uint32_t, Grid::brick_size> next;
-    std::copy_n(ends.begin(), next.size(), next.begin());
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      for (std::uint64_t cells = met[i]; cells != 0; cells &= cells - 1) {
-        lists[next[static_cast<std::size_t>(std::countr_zero(cells))]++] = ids[i];
-      }
-    }
     std::array<std::uint32_t, Grid::brick_size> words = {};
     for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) {
-      if (ends[cell] == ends[cell + 1]) continue;
+      const std::uint32_t begin = lists.offsets[cell];
+      const std::uint32_t end = lists.offsets[cell + 1];
+      if (begin == end) continue;
       words[cell] =
-          emit({lists.data() + ends[cell], ends[cell + 1] - ends[cell]},
-               {within.low[0] + cell % edge, within.low[1] + cell / edge % edge, within.low[2] + cell / edge / edge},
-               size, level);
+          emit({lists.triangles.data() + begin, end - begin},
+               {cells.low[0] + cell % edge, cells.low[1] + cell / edge % edge, cells.low[2] + cell / edge / edge}, size,
+               level);
     }
     detail::measure_empty_space(words);
     for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) grid_.bricks_[first + cell] = CellWord(words[cell]);
@@ -336,16 +241,15 @@ class GridBuild {
 
   Grid& grid_;
   GridScratch& scratch_;
+  const TriangleMeshView<Scalar>& mesh_;
   std::size_t crowded_;
   detail::CellPoint padding_ = {};
 };
 
 std::size_t GridScratch::memory_bytes() const noexcept {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector.front()); };
-  std::size_t sum = bytes(points_) + bytes(triangles_) + bytes(met_) + bytes(met_count_) + bytes(offsets_) +
-                    bytes(next_) + bytes(listed_) + bytes(words_) + bytes(distances_);
-  for (const auto& met : met_in_brick_) sum += bytes(met);
-  for (const auto& lists : lists_in_brick_) sum += bytes(lists);
+  std::size_t sum = bytes(points_) + bytes(words_) + bytes(distances_);
+  for (const detail::CellLists& lists : lists_) sum += bytes(lists.met) + bytes(lists.offsets) + bytes(lists.triangles);
   return sum;
 }
 
@@ -360,7 +264,7 @@ void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
                    GridScratch& scratch) {
   const FloatingPointEnvironment environment;
   if (mesh.triangle_count() != 0) {
-    GridBuild(*this, scratch, mesh, box, options);
+    GridBuild<Scalar>(*this, scratch, mesh, box, options);
   } else {
     *this = Grid();
   }

@@ -16,15 +16,8 @@ namespace surehit::detail {
 // The normal has two roundings of the edges and two of their products: each component is off by 6 u E^2. An axis may be
 // any; but the triangle must be flat along it to be one height, and is so but for 6 u E^2 times its size, 3 E. A height
 // along it is three products of up to R |n|. For a sliver, |n| is far less than E^2; so that is counted apart: `slack`.
-//
-// If a box spans the triangle on axis k, a point of the triangle is in the box as soon as it is on the other two axes;
-// so the triangle's shadow along k and a rectangle are all there is to part, and two convex shapes in a plane are
-// parted by a side of one of them.
-TriangleOverlap::TriangleOverlap(const std::array<CellPoint, 3>& corners, const CellPoint& padding,
-                                 std::size_t flat_axis)
-    : padding_(padding),
-      first_axis_(flat_axis == no_axis ? 0 : flat_axis),
-      axes_end_(flat_axis == no_axis ? 3 : flat_axis + 1) {
+TriangleOverlap::TriangleOverlap(const std::array<CellPoint, 3>& corners, const CellPoint& padding)
+    : padding_(padding) {
   constexpr float u = 0x1p-24F;
   std::array<CellPoint, 3> edges;
   float longest = 0;
@@ -34,7 +27,7 @@ TriangleOverlap::TriangleOverlap(const std::array<CellPoint, 3>& corners, const 
       longest = std::max(longest, std::fabs(edges[i][axis]));
     }
   }
-  for (std::size_t k = first_axis_; k < axes_end_; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t l = (k + 1) % 3;
     const std::size_t m = (k + 2) % 3;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -49,7 +42,6 @@ TriangleOverlap::TriangleOverlap(const std::array<CellPoint, 3>& corners, const 
       shadow.high = std::max(std::max(a, b), c);
     }
   }
-  if (axes_end_ - first_axis_ != 3) return;
   float far = 0;
   height_ = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -70,16 +62,14 @@ bool TriangleOverlap::meets(const CellPoint& low, const CellPoint& high) const {
     centre[axis] = (low[axis] + high[axis]) / 2;
     half[axis] = (high[axis] - low[axis]) / 2 + padding_[axis];
   }
-  if (axes_end_ - first_axis_ == 3) {
-    float height = height_;
-    float reach = height_slack_;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      height -= normal_[axis] * centre[axis];
-      reach += std::fabs(normal_[axis]) * half[axis];
-    }
-    if (std::fabs(height) > reach) return false;
+  float height = height_;
+  float reach = height_slack_;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    height -= normal_[axis] * centre[axis];
+    reach += std::fabs(normal_[axis]) * half[axis];
   }
-  for (std::size_t k = first_axis_; k < axes_end_; ++k) {
+  if (std::fabs(height) > reach) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t l = (k + 1) % 3;
     const std::size_t m = (k + 2) % 3;
     for (std::size_t i = 0; i < 3; ++i) {

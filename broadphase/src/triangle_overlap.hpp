@@ -21,12 +21,8 @@ struct CellRange {
 /// with every rounding on the side of an overlap.
 class TriangleOverlap {
  public:
-  /// For boxes that on no axis need be parted from the triangle by their own sides.
-  static constexpr std::size_t no_axis = 3;
-
-  /// Corners within [0, 2^15] on each axis; boxes grow by `padding` on each side. Where all boxes span the triangle on
-  /// `flat_axis`, it is only asked how they lie along the other two.
-  TriangleOverlap(const std::array<CellPoint, 3>& corners, const CellPoint& padding, std::size_t flat_axis = no_axis);
+  /// Corners within [0, 2^15] on each axis; boxes grow by `padding` on each side.
+  TriangleOverlap(const std::array<CellPoint, 3>& corners, const CellPoint& padding);
 
   /// Whether it meets the padded box from `low` to `high`, which must overlap the triangle's own. Never false if it
   /// does; true for others only if they miss it by rounding.
@@ -41,8 +37,6 @@ class TriangleOverlap {
   };
 
   CellPoint padding_;
-  std::size_t first_axis_;  ///< the axes k of the shadows that count
-  std::size_t axes_end_;
   std::array<Shadow, 9> shadows_;
   CellPoint normal_ = {};
   float height_ = 0;        ///< of the triangle's plane along the normal

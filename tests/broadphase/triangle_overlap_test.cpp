@@ -8,22 +8,19 @@
 #include <cstdint>
 #include <sstream>
 
+#include "cell_point_draws.hpp"
 #include "support/case_count.hpp"
 #include "support/exact_cells.hpp"
 #include "support/listing_slack.hpp"
-#include "support/neighbour.hpp"
-#include "support/random.hpp"
 
 namespace surehit::test {
 namespace {
 
-using Corners = std::array<detail::CellPoint, 3>;
-
-/// Triangles and boxes in a grid of `resolution_` finest cells on each axis.
-class TriangleOverlapIn : public testing::TestWithParam<std::uint32_t> {
+class TriangleOverlapIn : public CellPointDraws, public testing::WithParamInterface<std::uint32_t> {
  protected:
-  void expect_right(const Corners& corners, const detail::CellPoint& low, const detail::CellPoint& high,
-                    std::size_t flat_axis = detail::TriangleOverlap::no_axis) {
+  TriangleOverlapIn() : CellPointDraws(GetParam()) {}
+
+  void expect_right(const Corners& corners, const detail::CellPoint& low, const detail::CellPoint& high) {
     ExactPolygon polygon;
     for (const auto& corner : corners) polygon.push_back({corner[0], corner[1], corner[2]});
     const CellBox box = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
@@ -34,7 +31,7 @@ class TriangleOverlapIn : public testing::TestWithParam<std::uint32_t> {
       const auto [lowest, highest] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
       if (lowest > high[axis] + padding_ || highest < low[axis] - padding_) return;
     }
-    const bool meets = detail::TriangleOverlap(corners, {padding_, padding_, padding_}, flat_axis).meets(low, high);
+    const bool meets = detail::TriangleOverlap(corners, {padding_, padding_, padding_}).meets(low, high);
     std::ostringstream text;
     text << std::hexfloat;
     for (const auto& corner : corners) text << "{" << corner[0] << ", " << corner[1] << ", " << corner[2] << "} ";
@@ -69,39 +66,11 @@ class TriangleOverlapIn : public testing::TestWithParam<std::uint32_t> {
     }
   }
 
-  float on_axis() {
-    const auto plane = static_cast<float>(random_.below(resolution_ + 1));
-    const auto clamped = [&](float x) { return std::clamp(x, 0.0F, static_cast<float>(resolution_)); };
-    switch (random_.below(6)) {
-      case 0:
-        return plane;
-      case 1:  // where the padding begins and ends, and just beyond
-        return clamped(plane + static_cast<float>(random_.between(-1, 1)) * padding_ *
-                                   (1 + random_.symmetric<float>() * 0x1p-6F));
-      case 2:
-        return clamped(neighbour(plane, static_cast<int>(random_.between(-2, 2))));
-      default:
-        return static_cast<float>(resolution_) * random_.unit<float>();
-    }
-  }
-  detail::CellPoint point() { return {on_axis(), on_axis(), on_axis()}; }
-
-  detail::CellPoint near(const detail::CellPoint& other, float size) {
-    detail::CellPoint drawn;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      drawn[axis] = std::clamp(other[axis] + size * random_.symmetric<float>(), 0.0F, static_cast<float>(resolution_));
-    }
-    return drawn;
-  }
-
   void TearDown() override {
     EXPECT_GT(met_, 0U);
     EXPECT_GT(missed_, 0U);
   }
 
-  const std::uint32_t resolution_ = GetParam();
-  const float padding_ = GridFrame::padding_share * static_cast<float>(resolution_);
-  Random random_{20240229};
   std::size_t met_ = 0;
   std::size_t missed_ = 0;
 };
@@ -138,26 +107,6 @@ TEST_P(TriangleOverlapIn, BoxesOfSliversAndDegenerateTriangles) {
     expect_right({a, b, near(between, std::ldexp(static_cast<float>(resolution_), -10))});
     expect_right({a, b, a});
     expect_right({a, a, a});
-  }
-}
-
-/// Where the box spans the triangle on an axis, that is said to make the question easier.
-TEST_P(TriangleOverlapIn, BoxesThatSpanItOnAnAxis) {
-  for (std::size_t i = 0; i < case_count(6000); ++i) {
-    const float reach = std::ldexp(static_cast<float>(resolution_), -static_cast<int>(random_.below(8)));
-    const detail::CellPoint a = point();
-    const Corners corners = {a, near(a, reach), random_.one_in(8) ? a : near(a, reach)};
-    const detail::CellPoint centre = near(a, reach);
-    const float size = reach * random_.unit<float>();
-    const std::size_t axis = random_.below(3);
-    detail::CellPoint low = centre;
-    detail::CellPoint high = centre;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [lowest, highest] = std::minmax({corners[0][k], corners[1][k], corners[2][k]});
-      low[k] = k == axis ? lowest : std::max(0.0F, centre[k] - size);
-      high[k] = k == axis ? highest : std::min(static_cast<float>(resolution_), centre[k] + size);
-    }
-    expect_right(corners, low, high, axis);
   }
 }
 

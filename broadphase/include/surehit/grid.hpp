@@ -92,26 +92,38 @@ class CellWord {
   std::uint32_t bits_ = 0;
 };
 
+namespace detail {
+
+/// A point counted in finest cells, as long as a vector load; its fourth number is 0.
+using PaddedPoint = Eigen::Array4f;
+
+/// Lists of triangles, one for each of some cells, while they are made.
+struct CellLists {
+  struct Entry {
+    std::uint32_t cell;
+    std::uint32_t triangle;
+  };
+
+  std::vector<Entry> met;                ///< cells that the triangles meet, of all triangles in turn
+  std::vector<std::uint32_t> offsets;    ///< where each cell's list begins, and one more for the end
+  std::vector<std::uint32_t> triangles;  ///< the lists, one behind the other
+};
+
+}  // namespace detail
+
 /// What a build needs besides the grid. Given to the next build, its memory is used again.
 class GridScratch {
  public:
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
  private:
+  template <typename Scalar>
   friend class GridBuild;
-  using Point = std::array<float, 3>;
 
-  std::vector<Point> points_;                    ///< the vertices in finest cells
-  std::vector<std::array<Point, 3>> triangles_;  ///< and the triangles' corners
-  std::vector<std::uint32_t> met_;               ///< top cells that the triangles meet, of all of them in turn
-  std::vector<std::uint32_t> met_count_;         ///< of each triangle
-  std::vector<std::uint32_t> offsets_;           ///< where each top cell's list begins, and one more for the end
-  std::vector<std::uint32_t> next_;              ///< where each top cell's next triangle goes
-  std::vector<std::uint32_t> listed_;            ///< the top cells' lists
-  std::vector<std::uint32_t> words_;             ///< the top cells' words
-  std::vector<std::uint8_t> distances_;          ///< through empty cells
-  std::array<std::vector<std::uint64_t>, 2> met_in_brick_;    ///< for a brick, the cells that each triangle meets
-  std::array<std::vector<std::uint32_t>, 2> lists_in_brick_;  ///< the lists of its cells
+  std::vector<detail::PaddedPoint> points_;  ///< the vertices
+  std::array<detail::CellLists, 3> lists_;   ///< of the top cells, and of the brick of each level that is being made
+  std::vector<std::uint32_t> words_;         ///< the top cells' words
+  std::vector<std::uint8_t> distances_;      ///< through empty cells
 };
 
 /// A uniform grid over a mesh's box, in which crowded cells hold a brick of 4 × 4 × 4 cells of their own, and so on for
@@ -174,6 +186,7 @@ class Grid {
   }
 
  private:
+  template <typename Scalar>
   friend class GridBuild;
 
   GridFrame frame_;

@@ -1,0 +1,114 @@
+#include "cell_lister.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace surehit::detail {
+namespace {
+
+/// A triangle that takes more is first parted from as many as can be.
+constexpr float most_blocks = 16;
+
+float count_blocks(const PaddedPoint& first, const PaddedPoint& last) {
+  return (PaddedPoint((last - first) / 2).floor() + 1).prod();
+}
+
+}  // namespace
+
+CellLister::CellLister(CellLists& lists, const CellRange& cells, std::uint32_t size, const CellPoint& padding)
+    : lists_(lists),
+      size_(static_cast<float>(size)),
+      per_size_(1 / size_),  // a power of two
+      cell_padding_(padding),
+      padding_(padding[0], padding[1], padding[2], 0),
+      row_(cells.length(0)),
+      layer_(row_ * cells.length(1)) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    first_[static_cast<Eigen::Index>(axis)] = static_cast<float>(cells.low[axis]);
+    last_[static_cast<Eigen::Index>(axis)] = static_cast<float>(cells.high[axis] - 1);
+  }
+  first_[3] = last_[3] = 0;
+  lists_.offsets.assign(std::size_t{layer_} * cells.length(2) + 1, 0);
+}
+
+void CellLister::add_range(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last) {
+  if (count_blocks(first, last) <= most_blocks) {
+    add_blocks(triangle, corners, first, last);
+    return;
+  }
+  std::array<CellPoint, 3> points;
+  for (std::size_t i = 0; i < 3; ++i) points[i] = {corners[i][0], corners[i][1], corners[i][2]};
+  add_parts(triangle, corners, first, last, TriangleOverlap(points, cell_padding_));
+}
+
+/// Halves the cells until the triangle misses them or they are few enough. At first it meets them.
+void CellLister::add_parts(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last,
+                           const TriangleOverlap& overlap) {
+  if (count_blocks(first, last) <= most_blocks) {
+    add_blocks(triangle, corners, first, last);
+    return;
+  }
+  Eigen::Index longest = 0;
+  (last - first).maxCoeff(&longest);
+  for (const bool upper : {false, true}) {
+    Cell part_first = first;
+    Cell part_last = last;
+    const float middle = std::floor((first[longest] + last[longest]) / 2);
+    if (upper) {
+      part_first[longest] = middle + 1;
+    } else {
+      part_last[longest] = middle;
+    }
+    const PaddedPoint low = part_first * size_;
+    const PaddedPoint high = (part_last + 1) * size_;
+    if (!overlap.meets({low[0], low[1], low[2]}, {high[0], high[1], high[2]})) continue;
+    add_parts(triangle, corners, part_first, part_last, overlap);
+  }
+}
+
+void CellLister::add_blocks(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last) {
+  Cell block = first;
+  for (block[2] = first[2]; block[2] <= last[2]; block[2] += 2) {
+    for (block[1] = first[1]; block[1] <= last[1]; block[1] += 2) {
+      for (block[0] = first[0]; block[0] <= last[0]; block[0] += 2) {
+        add_block(triangle, corners, block, (last - block).min(1));
+      }
+    }
+  }
+}
+
+void CellLister::ask() {
+  OverlapLanes::Row<std::int32_t> overlaps;
+  find_overlaps(lanes_, cell_padding_, size_, overlaps);
+  const std::size_t most = count_ + filled_ * OverlapLanes::cells_of_a_block;
+  if (lists_.met.size() < most) lists_.met.resize(2 * most);
+  CellLists::Entry* const begin = lists_.met.data() + count_;
+  CellLists::Entry* end = begin;
+  const auto row_length = static_cast<float>(row_);
+  const auto layer_size = static_cast<float>(layer_);
+  for (std::size_t lane = 0; lane < filled_; ++lane) {
+    // Exact: cells are no more than floats can count.
+    const float place = (lanes_.low[0][lane] - first_[0]) + (lanes_.low[1][lane] - first_[1]) * row_length +
+                        (lanes_.low[2][lane] - first_[2]) * layer_size;
+    const auto first = static_cast<std::uint32_t>(static_cast<std::int32_t>(place));
+    const auto bits = static_cast<std::uint32_t>(overlaps[lane]);
+    // All are written, and those kept that are met: nobody could foretell which.
+    for (std::uint32_t cell = 0; cell < OverlapLanes::cells_of_a_block; ++cell) {
+      *end = {first + (cell & 1) + (cell >> 1 & 1) * row_ + (cell >> 2) * layer_, triangles_[lane]};
+      end += bits >> cell & 1;
+    }
+  }
+  for (const CellLists::Entry* entry = begin; entry != end; ++entry) ++lists_.offsets[entry->cell];
+  count_ += static_cast<std::size_t>(end - begin);
+  filled_ = 0;
+}
+
+void CellLister::finish() {
+  ask();
+  auto& offsets = lists_.offsets;
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  lists_.triangles.resize(count_);
+  for (std::size_t i = count_; i-- > 0;) lists_.triangles[--offsets[lists_.met[i].cell]] = lists_.met[i].triangle;
+}
+
+}  // namespace surehit::detail

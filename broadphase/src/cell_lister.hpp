@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+
+#include "overlap_lanes.hpp"
+#include "surehit/grid.hpp"
+#include "triangle_overlap.hpp"
+
+namespace surehit::detail {
+
+/// Makes the lists of a box of cells, of triangles that come one by one. Their boxes are cut into blocks of cells, many
+/// of which are asked at once whether they meet their triangle; then entries are sorted by counting.
+class CellLister {
+ public:
+  using Corners = std::array<PaddedPoint, 3>;
+
+  /// Of `cells` that are `size` finest cells long. The lists are complete once finished, and outlive this.
+  CellLister(CellLists& lists, const CellRange& cells, std::uint32_t size, const CellPoint& padding);
+
+  /// A triangle whose padded box overlaps some of the cells. Lists keep the order in which triangles are added.
+  void add(std::uint32_t triangle, const Corners& corners) {
+    const auto& [a, b, c] = corners;
+    const Cell first = Cell((a.min(b).min(c) - padding_) * per_size_).floor().max(first_);
+    const Cell last = Cell((a.max(b).max(c) + padding_) * per_size_).floor().min(last_);
+    const Cell more = last - first;
+    assert(more.minCoeff() >= 0);
+    if (more.maxCoeff() > 1) {
+      add_range(triangle, corners, first, last);
+    } else {
+      add_block(triangle, corners, first, more);
+    }
+  }
+
+  /// Entries so far, those of the last few triangles aside.
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+  void finish();
+
+ private:
+  /// Whole numbers.
+  using Cell = PaddedPoint;
+
+  /// Of one more cell on some axes, or none.
+  void add_block(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& more) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<std::size_t>(axis);
+      for (std::size_t i = 0; i < 3; ++i) lanes_.corners[i][k][filled_] = corners[i][axis];
+      lanes_.low[k][filled_] = first[axis];
+      lanes_.more[k][filled_] = more[axis];
+    }
+    triangles_[filled_] = triangle;
+    if (++filled_ == OverlapLanes::count) ask();
+  }
+
+  void add_range(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last);
+  void add_parts(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last,
+                 const TriangleOverlap& overlap);
+  void add_blocks(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last);
+  /// Asks what is in the lanes, and makes entries of the answers.
+  void ask();
+
+  CellLists& lists_;
+  std::size_t count_ = 0;
+  float size_;
+  float per_size_;
+  CellPoint cell_padding_;
+  PaddedPoint padding_;
+  Cell first_;
+  Cell last_;
+  std::uint32_t row_;    ///< cells from one to the next on axis y
+  std::uint32_t layer_;  ///< and on axis z
+  OverlapLanes lanes_;
+  OverlapLanes::Row<std::uint32_t> triangles_;
+  std::size_t filled_ = 0;
+};
+
+}  // namespace surehit::detail

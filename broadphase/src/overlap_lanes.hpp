@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "triangle_overlap.hpp"
+
+namespace surehit::detail {
+
+/// Triangles side by side, as vectors load them, each with a block of up to 2 × 2 × 2 cells.
+struct OverlapLanes {
+  static constexpr std::size_t count = 16;
+  static constexpr std::uint32_t cells_of_a_block = 8;
+  template <typename T>
+  struct alignas(count * sizeof(T)) Row : std::array<T, count> {};
+
+  std::array<std::array<Row<float>, 3>, 3> corners = {};  ///< of corner and axis
+  std::array<Row<float>, 3> low = {};                     ///< the block's first cell
+  std::array<Row<float>, 3> more = {};                    ///< 1 if it has another on the axis, else 0
+};
+
+/// Asks for each lane what `TriangleOverlap` tells of one triangle: bit x + 2 y + 4 z is whether it meets the cell that
+/// is so much farther than the block's first. Cells are `size` finest cells long, a power of two, and overlap the
+/// triangle's box. Never a bit too few; one too many only by rounding.
+void find_overlaps(const OverlapLanes& lanes, const CellPoint& padding, float size,
+                   OverlapLanes::Row<std::int32_t>& overlaps);
+
+}  // namespace surehit::detail
