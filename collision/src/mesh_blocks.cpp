@@ -42,19 +42,27 @@ void MeshBlocks<Scalar>::fill_blocks(const Grid& grid) {
     const std::span<const std::uint32_t> ids = grid.triangles(word);
     const std::size_t first = grid.first_entry(word);
     Scalar* block = blocks_.data() + coordinates * first;
-    Scalar longest = 0;
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      const auto& [a, b, c] = corners_[ids[i]];
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto k = static_cast<Eigen::Index>(axis);
-        const Scalar origin = vertices_[a][k];
-        block[axis * ids.size() + i] = origin;
-        block[(3 + axis) * ids.size() + i] = vertices_[b][k];
-        block[(6 + axis) * ids.size() + i] = vertices_[c][k];
-        longest = std::max({longest, std::fabs(vertices_[b][k] - origin), std::fabs(vertices_[c][k] - origin)});
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const Vector3<Scalar>& vertex = vertices_[corners_[ids[i]][corner]];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          block[(3 * corner + axis) * ids.size() + i] = vertex[static_cast<Eigen::Index>(axis)];
+        }
       }
     }
-    edge_sizes_[first / 4] = too_large ? std::numeric_limits<Scalar>::infinity() : longest;
+    using Lengths = Eigen::Array<Scalar, 4, 1>;
+    const auto coordinates_of = [&](std::size_t corner, std::size_t axis, std::size_t i) {
+      return Eigen::Map<const Lengths>(block + (3 * corner + axis) * ids.size() + i);
+    };
+    Lengths longest = Lengths::Zero();
+    for (std::size_t i = 0; i < ids.size(); i += 4) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Lengths origin = coordinates_of(0, axis, i);
+        longest = longest.max((coordinates_of(1, axis, i) - origin).abs());
+        longest = longest.max((coordinates_of(2, axis, i) - origin).abs());
+      }
+    }
+    edge_sizes_[first / 4] = too_large ? std::numeric_limits<Scalar>::infinity() : longest.maxCoeff();
   };
   std::for_each(grid.top().begin(), grid.top().end(), fill);
   std::for_each(grid.bricks().begin(), grid.bricks().end(), fill);

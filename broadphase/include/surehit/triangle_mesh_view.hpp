@@ -63,9 +63,13 @@ class TriangleMeshView {
   [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }
 
   [[nodiscard]] Vector3<Scalar> vertex(std::size_t index) const {
-    Scalar xyz[3];  // copied, since a stride may leave them unaligned
-    std::memcpy(xyz, vertices_ + index * vertex_stride_, sizeof xyz);
-    return {xyz[0], xyz[1], xyz[2]};
+    const std::byte* const place = vertices_ + index * vertex_stride_;
+    const auto coordinate = [&](std::size_t axis) {
+      Scalar x;  // copied, since a stride may leave it unaligned
+      std::memcpy(&x, place + axis * sizeof x, sizeof x);
+      return x;
+    };
+    return {coordinate(0), coordinate(1), coordinate(2)};
   }
 
   /// Index of corner 0, 1 or 2 (a, b, c) of a triangle.
