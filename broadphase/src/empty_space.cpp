@@ -2,36 +2,49 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <vector>
 
 namespace surehit::detail {
 namespace {
 
 constexpr std::uint8_t farthest = CellWord::farthest;
-/// Room beside a row for what lies beyond the grid, as far as a row is looked along.
-constexpr std::size_t beyond = 16;
+/// Rows are as long as some of these, so that loops along them are whole vectors, and lie one apart: room for what is
+/// beyond the grid, as far as a row is looked along.
+constexpr std::size_t row_unit = 16;
+constexpr std::uint32_t octants = 8;
 
-/// Distances in one octant, row by row, with room beside each row. A cube with a corner in an empty cell is one larger
-/// than the least of those that have it in the seven next cells.
-class Octant {
+/// Distances in each octant, row by row. A cube with a corner in an empty cell is one larger than the least of those
+/// that have it in the seven next cells.
+class Octants {
  public:
-  Octant(const std::array<std::uint32_t, 3>& cells, std::vector<std::uint8_t>& scratch)
-      : cells_(cells), pitch_(cells[0] + 2 * beyond) {
-    const std::size_t cell_count = std::size_t{cells[0]} * cells[1] * cells[2];
-    const std::size_t rows = std::size_t{cells[1]} * cells[2];
-    scratch.assign(cell_count + (rows + 3) * pitch_, farthest);
-    occupied_ = scratch.data();
-    distances_ = occupied_ + cell_count;
-    outer_row_ = distances_ + rows * pitch_;
+  Octants(const std::array<std::uint32_t, 3>& cells, std::vector<std::uint8_t>& scratch)
+      : cells_(cells), length_((cells[0] + row_unit - 1) / row_unit * row_unit), pitch_(length_ + row_unit) {
+    const std::size_t all_rows = std::size_t{cells[1]} * cells[2] * pitch_;
+    scratch.assign(row_unit + (1 + octants) * all_rows + 3 * pitch_, farthest);
+    emptiness_ = scratch.data() + row_unit;
+    for (std::uint32_t octant = 0; octant < octants; ++octant)
+      distances_[octant] = emptiness_ + (1 + octant) * all_rows;
+    outer_row_ = emptiness_ + (1 + octants) * all_rows;
     row_ = outer_row_ + pitch_;
     next_ = row_ + pitch_;
   }
 
-  void set_occupied(std::size_t cell, bool occupied) { occupied_[cell] = occupied ? 1 : 0; }
+  /// Where the cells of a row begin.
+  [[nodiscard]] std::size_t row(std::uint32_t y, std::uint32_t z) const {
+    return (std::size_t{z} * cells_[1] + y) * pitch_;
+  }
+
+  void set_row(std::size_t row, const std::uint32_t* words) {
+    std::uint8_t* const emptiness = emptiness_ + row;
+    std::fill_n(emptiness, length_, no_bits_clear);
+    for (std::size_t x = 0; x < cells_[0]; ++x) emptiness[x] = words[x] == 0 ? no_bits_clear : 0;
+  }
 
   void measure(std::uint32_t octant) {
     const bool up_y = (octant & 2) == 0;
     const bool up_z = (octant & 4) == 0;
+    std::uint8_t* const distances = distances_[octant];
     for (std::uint32_t step_z = 0; step_z < cells_[2]; ++step_z) {
       const std::uint32_t z = up_z ? cells_[2] - 1 - step_z : step_z;
       for (std::uint32_t step_y = 0; step_y < cells_[1]; ++step_y) {
@@ -40,57 +53,79 @@ class Octant {
           if ((beside_y && step_y == 0) || (beside_z && step_z == 0)) return outer_row_;
           const std::uint32_t row_y = beside_y ? (up_y ? y + 1 : y - 1) : y;
           const std::uint32_t row_z = beside_z ? (up_z ? z + 1 : z - 1) : z;
-          return row(row_y, row_z);
+          return distances + row(row_y, row_z);
         };
-        measure_row(occupied_ + (std::size_t{z} * cells_[1] + y) * cells_[0], (octant & 1) == 0,
-                    {beside(true, false), beside(false, true), beside(true, true)}, row(y, z) + beyond);
+        measure_row(emptiness_ + row(y, z), (octant & 1) == 0 ? 1 : -1,
+                    {beside(true, false), beside(false, true), beside(true, true)}, distances + row(y, z));
       }
     }
   }
 
-  [[nodiscard]] const std::uint8_t* distances(std::uint32_t y, std::uint32_t z) { return row(y, z) + beyond; }
+  /// Adds the distances of all octants to a row of words.
+  void add_row(std::size_t row, std::uint32_t* words) const {
+    std::array<std::array<std::uint8_t, row_unit>, octants / 2> pairs;
+    for (std::size_t first = 0; first < cells_[0]; first += row_unit) {
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const std::uint8_t* const even = distances_[2 * i] + row + first;
+        const std::uint8_t* const odd = distances_[2 * i + 1] + row + first;
+        for (std::size_t x = 0; x < row_unit; ++x) pairs[i][x] = static_cast<std::uint8_t>(even[x] | odd[x] << 4);
+      }
+      for (std::size_t x = 0; x < std::min(row_unit, cells_[0] - first); ++x) {
+        words[first + x] |= std::uint32_t{pairs[0][x]} | std::uint32_t{pairs[1][x]} << 8 |
+                            std::uint32_t{pairs[2][x]} << 16 | std::uint32_t{pairs[3][x]} << 24;
+      }
+    }
+  }
 
  private:
-  [[nodiscard]] std::uint8_t* row(std::uint32_t y, std::uint32_t z) {
-    return distances_ + (std::size_t{z} * cells_[1] + y) * pitch_;
-  }
+  static constexpr std::uint8_t no_bits_clear = 0xff;
+
+  using Row = const std::uint8_t* __restrict;
+
+  static std::uint8_t lesser(std::uint8_t x, std::uint8_t y) { return x < y ? x : y; }
 
   /// Along the row a distance is the least of what the rows beside it allow here, one more than they allow in the next
-  /// cell, and so on: looked up in strides of 1, 2, 4 and 8, as loops that are vectors.
-  void measure_row(const std::uint8_t* occupied, bool upward, const std::array<const std::uint8_t*, 3>& beside,
-                   std::uint8_t* distances) {
-    const std::size_t count = cells_[0];
-    for (std::size_t x = 0; x < pitch_; ++x) {
-      const std::uint8_t two = beside[0][x] < beside[1][x] ? beside[0][x] : beside[1][x];
-      next_[x] = two < beside[2][x] ? two : beside[2][x];
+  /// cell, and so on: looked up in strides of 1, 2, 4 and 8. Cells of the row beyond the grid count as empty; what they
+  /// are given is read only from there.
+  void measure_row(const std::uint8_t* emptiness, std::ptrdiff_t forward,
+                   const std::array<const std::uint8_t*, 3>& beside, std::uint8_t* distances) {
+    std::uint8_t* near = row_;
+    std::uint8_t* far = next_;
+    begin_row(emptiness, beside[0], beside[1], beside[2], forward, near);
+    for (std::ptrdiff_t stride = 1; stride < 8; stride *= 2) {
+      look_ahead(near, stride * forward, far);
+      std::swap(near, far);
     }
-    std::uint8_t* from = row_ + beyond;
-    std::uint8_t* to = next_ + beyond;
-    const std::ptrdiff_t forward = upward ? 1 : -1;
-    std::fill_n(row_, pitch_, farthest);
-    for (std::size_t x = 0; x < count; ++x) {
-      const std::uint8_t ahead = to[static_cast<std::ptrdiff_t>(x) + forward];
-      const std::uint8_t least = to[x] < ahead ? to[x] : ahead;
-      const std::uint8_t more = least < farthest ? static_cast<std::uint8_t>(least + 1) : farthest;
-      from[x] = occupied[x] != 0 ? 0 : more;
-    }
-    std::fill_n(next_, pitch_, farthest);
-    for (std::ptrdiff_t stride = 1; stride < 16; stride *= 2) {
-      const std::uint8_t* ahead = from + stride * forward;
-      for (std::size_t x = 0; x < count; ++x) {
-        const auto through = static_cast<std::uint8_t>(ahead[x] + stride);
-        to[x] = from[x] < through ? from[x] : through;
+    look_ahead(near, 8 * forward, distances);
+  }
+
+  void begin_row(Row emptiness, Row b0, Row b1, Row b2, std::ptrdiff_t forward, std::uint8_t* __restrict row) const {
+    for (std::size_t first = 0; first < length_; first += row_unit) {
+      for (std::size_t x = first; x < first + row_unit; ++x) {
+        const std::size_t next = x + static_cast<std::size_t>(forward);
+        const std::uint8_t here = lesser(lesser(b0[x], b1[x]), b2[x]);
+        const std::uint8_t ahead = lesser(lesser(b0[next], b1[next]), b2[next]);
+        const std::uint8_t least = lesser(lesser(here, ahead), farthest - 1);
+        row[x] = static_cast<std::uint8_t>((least + 1) & emptiness[x]);
       }
-      std::swap(from, to);
     }
-    std::copy_n(from, count, distances);
+  }
+
+  void look_ahead(Row row, std::ptrdiff_t by, std::uint8_t* __restrict farther) const {
+    const auto more = static_cast<std::uint8_t>(std::abs(by));
+    for (std::size_t first = 0; first < length_; first += row_unit) {
+      for (std::size_t x = first; x < first + row_unit; ++x) {
+        farther[x] = lesser(row[x], static_cast<std::uint8_t>(row[x + static_cast<std::size_t>(by)] + more));
+      }
+    }
   }
 
   std::array<std::uint32_t, 3> cells_;
+  std::size_t length_;
   std::size_t pitch_;
   // All in the scratch.
-  std::uint8_t* occupied_;
-  std::uint8_t* distances_;
+  std::uint8_t* emptiness_;  ///< all bits set where a cell is empty
+  std::array<std::uint8_t*, octants> distances_;
   std::uint8_t* outer_row_;
   std::uint8_t* row_;
   std::uint8_t* next_;
@@ -121,18 +156,16 @@ std::uint64_t grown(std::uint64_t cubes, std::uint32_t octant) {
 
 void measure_empty_space(std::span<std::uint32_t> words, const std::array<std::uint32_t, 3>& cells,
                          std::vector<std::uint8_t>& scratch) {
-  Octant octant(cells, scratch);
-  for (std::size_t cell = 0; cell < words.size(); ++cell) octant.set_occupied(cell, words[cell] != 0);
-  for (std::uint32_t index = 0; index < 8; ++index) {
-    octant.measure(index);
-    std::size_t cell = 0;
+  Octants distances(cells, scratch);
+  const auto for_rows = [&](const auto& visit) {
+    std::uint32_t* row = words.data();
     for (std::uint32_t z = 0; z < cells[2]; ++z) {
-      for (std::uint32_t y = 0; y < cells[1]; ++y) {
-        const std::uint8_t* distances = octant.distances(y, z);
-        for (std::uint32_t x = 0; x < cells[0]; ++x, ++cell) words[cell] |= std::uint32_t{distances[x]} << 4 * index;
-      }
+      for (std::uint32_t y = 0; y < cells[1]; ++y, row += cells[0]) visit(distances.row(y, z), row);
     }
-  }
+  };
+  for_rows([&](std::size_t row, const std::uint32_t* cells_of_row) { distances.set_row(row, cells_of_row); });
+  for (std::uint32_t octant = 0; octant < octants; ++octant) distances.measure(octant);
+  for_rows([&](std::size_t row, std::uint32_t* cells_of_row) { distances.add_row(row, cells_of_row); });
 }
 
 void measure_empty_space(std::span<std::uint32_t, Grid::brick_size> words) {
