@@ -21,8 +21,9 @@ MeshBlocks<Scalar>::MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid&
 
 template <typename Scalar>
 void MeshBlocks<Scalar>::rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid) {
-  vertices_.resize(mesh.vertex_count());
-  for (std::size_t i = 0; i < vertices_.size(); ++i) vertices_[i] = mesh.vertex(i);
+  vertices_.resize(mesh.vertex_count() + 1);
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) vertices_[i] = mesh.vertex(i);
+  vertices_.back().setZero();
   corners_.resize(mesh.triangle_count());
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     corners_[i] = {mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
@@ -37,29 +38,34 @@ void MeshBlocks<Scalar>::fill_blocks(const Grid& grid) {
   Scalar largest = 0;
   for (const Vector3<Scalar>& vertex : vertices_) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
   const bool too_large = !(largest <= detail::KernelBound<Scalar>::largest_size / 2);
+  using Four = Eigen::Matrix<Scalar, 4, 1>;
+  using FourPoints = Eigen::Matrix<Scalar, 4, 4>;
   const auto fill = [&](CellWord word) {
     if (word.is_empty() || word.is_divided()) return;
     const std::span<const std::uint32_t> ids = grid.triangles(word);
     const std::size_t first = grid.first_entry(word);
     Scalar* block = blocks_.data() + coordinates * first;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        const Vector3<Scalar>& vertex = vertices_[corners_[ids[i]][corner]];
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          block[(3 * corner + axis) * ids.size() + i] = vertex[static_cast<Eigen::Index>(axis)];
+    Four longest = Four::Zero();
+    for (std::size_t i = 0; i < ids.size(); i += 4) {
+      std::array<FourPoints, 3> corners;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::array<std::uint32_t, 3>& triangle = corners_[ids[i + k]];
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+          const Vector3<Scalar>& vertex = vertices_[triangle[corner]];
+          corners[corner].col(static_cast<Eigen::Index>(k)) = Eigen::Map<const Four>(vertex.data());
         }
       }
-    }
-    using Lengths = Eigen::Array<Scalar, 4, 1>;
-    const auto coordinates_of = [&](std::size_t corner, std::size_t axis, std::size_t i) {
-      return Eigen::Map<const Lengths>(block + (3 * corner + axis) * ids.size() + i);
-    };
-    Lengths longest = Lengths::Zero();
-    for (std::size_t i = 0; i < ids.size(); i += 4) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Lengths origin = coordinates_of(0, axis, i);
-        longest = longest.max((coordinates_of(1, axis, i) - origin).abs());
-        longest = longest.max((coordinates_of(2, axis, i) - origin).abs());
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        corners[corner].transposeInPlace();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          Eigen::Map<Four>(block + (3 * corner + axis) * ids.size() + i) =
+              corners[corner].col(static_cast<Eigen::Index>(axis));
+        }
+      }
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        for (const std::size_t corner : {1, 2}) {
+          longest = longest.cwiseMax((corners[corner].col(axis) - corners[0].col(axis)).cwiseAbs());
+        }
       }
     }
     edge_sizes_[first / 4] = too_large ? std::numeric_limits<Scalar>::infinity() : longest.maxCoeff();
@@ -70,7 +76,7 @@ void MeshBlocks<Scalar>::fill_blocks(const Grid& grid) {
 
 template <typename Scalar>
 TriangleMeshView<Scalar> MeshBlocks<Scalar>::view() const noexcept {
-  return view_with(std::span<const Vector3<Scalar>>(vertices_));
+  return view_with(std::span<const Vector3<Scalar>>(vertices_.data(), vertices_.empty() ? 0 : vertices_.size() - 1));
 }
 
 template <typename Scalar>

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "surehit/box.hpp"
+#include "surehit/default_init_allocator.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 
 namespace surehit {
@@ -104,9 +105,9 @@ struct CellLists {
     std::uint32_t triangle;
   };
 
-  std::vector<Entry> met;                ///< cells that the triangles meet, of all triangles in turn
+  UnsetVector<Entry> met;                ///< cells that the triangles meet, of all triangles in turn
   std::vector<std::uint32_t> offsets;    ///< where each cell's list begins, and one more for the end
-  std::vector<std::uint32_t> triangles;  ///< the lists, one behind the other
+  UnsetVector<std::uint32_t> triangles;  ///< the lists, one behind the other
 };
 
 }  // namespace detail

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "surehit/default_init_allocator.hpp"
 #include "surehit/grid.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 #include "surehit/vertex_view.hpp"
@@ -52,10 +52,10 @@ class MeshBlocks {
  private:
   void fill_blocks(const Grid& grid);
 
-  std::vector<Vector3<Scalar>> vertices_;
-  std::vector<std::array<std::uint32_t, 3>> corners_;
-  std::vector<Scalar> blocks_;
-  std::vector<Scalar> edge_sizes_;
+  detail::UnsetVector<Vector3<Scalar>> vertices_;  ///< and one more, for a vector load of the last
+  detail::UnsetVector<std::array<std::uint32_t, 3>> corners_;
+  detail::UnsetVector<Scalar> blocks_;
+  detail::UnsetVector<Scalar> edge_sizes_;
 };
 
 }  // namespace surehit
