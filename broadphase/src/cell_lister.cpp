@@ -15,7 +15,8 @@ float count_blocks(const PaddedPoint& first, const PaddedPoint& last) {
 
 }  // namespace
 
-CellLister::CellLister(CellLists& lists, const CellRange& cells, std::uint32_t size, const CellPoint& padding)
+CellLister::CellLister(CellLists& lists, const CellRange& cells, std::uint32_t size, const CellPoint& padding,
+                       std::size_t triangles)
     : lists_(lists),
       size_(static_cast<float>(size)),
       per_size_(1 / size_),  // a power of two
@@ -28,6 +29,8 @@ CellLister::CellLister(CellLists& lists, const CellRange& cells, std::uint32_t s
     last_[static_cast<Eigen::Index>(axis)] = static_cast<float>(cells.high[axis] - 1);
   }
   first_[3] = last_[3] = 0;
+  // Most meshes take no more; what is not used is not touched.
+  if (lists_.met.size() < 4 * triangles) lists_.met.resize(4 * triangles);
   lists_.offsets.assign(std::size_t{layer_} * cells.length(2) + 1, 0);
 }
 

@@ -18,14 +18,16 @@ class CellLister {
  public:
   using Corners = std::array<PaddedPoint, 3>;
 
-  /// Of `cells` that are `size` finest cells long. The lists are complete once finished, and outlive this.
-  CellLister(CellLists& lists, const CellRange& cells, std::uint32_t size, const CellPoint& padding);
+  /// Of `cells` that are `size` finest cells long, for about so many triangles. The lists are complete once finished,
+  /// and outlive this.
+  CellLister(CellLists& lists, const CellRange& cells, std::uint32_t size, const CellPoint& padding,
+             std::size_t triangles);
 
   /// A triangle whose padded box overlaps some of the cells. Lists keep the order in which triangles are added.
   void add(std::uint32_t triangle, const Corners& corners) {
     const auto& [a, b, c] = corners;
-    const Cell first = Cell((a.min(b).min(c) - padding_) * per_size_).floor().max(first_);
-    const Cell last = Cell((a.max(b).max(c) + padding_) * per_size_).floor().min(last_);
+    const Cell first = cell_of(a.min(b).min(c) - padding_).max(first_);
+    const Cell last = cell_of(a.max(b).max(c) + padding_).min(last_);
     const Cell more = last - first;
     assert(more.minCoeff() >= 0);
     if (more.maxCoeff() > 1) {
@@ -43,6 +45,13 @@ class CellLister {
  private:
   /// Whole numbers.
   using Cell = PaddedPoint;
+
+  /// Rounded towards 0, where it is not floor that counts: no cell lies below.
+  [[nodiscard]] Cell cell_of(const PaddedPoint& point) const {
+    Cell cell = point * per_size_;
+    for (Eigen::Index k = 0; k < 4; ++k) cell[k] = static_cast<float>(static_cast<std::int32_t>(cell[k]));
+    return cell;
+  }
 
   /// Of one more cell on some axes, or none.
   void add_block(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& more) {

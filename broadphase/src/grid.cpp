@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "cell_lister.hpp"
 #include "empty_space.hpp"
@@ -114,11 +115,14 @@ class GridBuild {
     const GridFrame& frame = grid_.frame_;
     auto& points = scratch_.points_;
     points.resize(mesh_.vertex_count());
+    const bool in_float = std::is_same_v<Scalar, float> && frame.has_floats;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vector3<Scalar> vertex = mesh_.vertex(i);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<Eigen::Index>(axis);
-        points[i][k] = static_cast<float>(frame.place(axis, frame.scaled(vertex[k])));
+        points[i][k] = in_float ? (static_cast<float>(vertex[k]) - frame.float_low[axis]) * frame.float_scale[axis] +
+                                      frame.margin[axis]
+                                : static_cast<float>(frame.place(axis, frame.scaled(vertex[k])));
       }
       points[i][3] = 0;
     }
@@ -130,7 +134,7 @@ class GridBuild {
   template <typename Id>
   bool try_list(std::size_t count, const Id& id, const detail::CellRange& cells, std::uint32_t size,
                 std::size_t most_entries, detail::CellLists& lists) const {
-    detail::CellLister lister(lists, cells, size, padding_);
+    detail::CellLister lister(lists, cells, size, padding_, count);
     const auto& points = scratch_.points_;
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t triangle = id(i);
@@ -160,7 +164,11 @@ class GridBuild {
     grid_.levels_ = 0;
     grid_.top_count_ = offsets.size() - 1;
     grid_.entries_.clear();
-    grid_.entries_.reserve(listed.size() + listed.size() / 4);
+    std::size_t rounded_up = 0;
+    for (std::size_t cell = 0; cell < grid_.top_count_; ++cell) {
+      rounded_up += (offsets[cell + 1] - offsets[cell] + grid_.granule_ - 1) / grid_.granule_ * grid_.granule_;
+    }
+    grid_.entries_.reserve(rounded_up + rounded_up / 16);
     grid_.bricks_.clear();
     words.assign(grid_.top_count_, 0);
     std::size_t cell = 0;
