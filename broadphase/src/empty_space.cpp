@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <vector>
 
 namespace surehit::detail {
@@ -41,22 +40,11 @@ class Octants {
     for (std::size_t x = 0; x < cells_[0]; ++x) emptiness[x] = words[x] == 0 ? no_bits_clear : 0;
   }
 
-  void measure(std::uint32_t octant) {
-    const bool up_y = (octant & 2) == 0;
-    const bool up_z = (octant & 4) == 0;
-    std::uint8_t* const distances = distances_[octant];
+  /// All octants by turns: their rows do not wait for one another.
+  void measure() {
     for (std::uint32_t step_z = 0; step_z < cells_[2]; ++step_z) {
-      const std::uint32_t z = up_z ? cells_[2] - 1 - step_z : step_z;
       for (std::uint32_t step_y = 0; step_y < cells_[1]; ++step_y) {
-        const std::uint32_t y = up_y ? cells_[1] - 1 - step_y : step_y;
-        const auto beside = [&](bool beside_y, bool beside_z) -> const std::uint8_t* {
-          if ((beside_y && step_y == 0) || (beside_z && step_z == 0)) return outer_row_;
-          const std::uint32_t row_y = beside_y ? (up_y ? y + 1 : y - 1) : y;
-          const std::uint32_t row_z = beside_z ? (up_z ? z + 1 : z - 1) : z;
-          return distances + row(row_y, row_z);
-        };
-        measure_row(emptiness_ + row(y, z), (octant & 1) == 0 ? 1 : -1,
-                    {beside(true, false), beside(false, true), beside(true, true)}, distances + row(y, z));
+        for (std::uint32_t octant = 0; octant < octants; ++octant) measure_row(octant, step_y, step_z);
       }
     }
   }
@@ -85,18 +73,23 @@ class Octants {
   static std::uint8_t lesser(std::uint8_t x, std::uint8_t y) { return x < y ? x : y; }
 
   /// Along the row a distance is the least of what the rows beside it allow here, one more than they allow in the next
-  /// cell, and so on: looked up in strides of 1, 2, 4 and 8. Cells of the row beyond the grid count as empty; what they
-  /// are given is read only from there.
-  void measure_row(const std::uint8_t* emptiness, std::ptrdiff_t forward,
-                   const std::array<const std::uint8_t*, 3>& beside, std::uint8_t* distances) {
-    std::uint8_t* near = row_;
-    std::uint8_t* far = next_;
-    begin_row(emptiness, beside[0], beside[1], beside[2], forward, near);
-    for (std::ptrdiff_t stride = 1; stride < 8; stride *= 2) {
-      look_ahead(near, stride * forward, far);
-      std::swap(near, far);
-    }
-    look_ahead(near, 8 * forward, distances);
+  /// cell, and so on: looked up among four cells, then among four fours. Cells of the row beyond the grid count as
+  /// empty; what they are given is read only from there.
+  void measure_row(std::uint32_t octant, std::uint32_t step_y, std::uint32_t step_z) {
+    const bool up_y = (octant & 2) == 0;
+    const bool up_z = (octant & 4) == 0;
+    const std::uint32_t y = up_y ? cells_[1] - 1 - step_y : step_y;
+    const std::uint32_t z = up_z ? cells_[2] - 1 - step_z : step_z;
+    const auto beside = [&](bool beside_y, bool beside_z) -> const std::uint8_t* {
+      if ((beside_y && step_y == 0) || (beside_z && step_z == 0)) return outer_row_;
+      const std::uint32_t row_y = beside_y ? (up_y ? y + 1 : y - 1) : y;
+      const std::uint32_t row_z = beside_z ? (up_z ? z + 1 : z - 1) : z;
+      return distances_[octant] + row(row_y, row_z);
+    };
+    const std::ptrdiff_t forward = (octant & 1) == 0 ? 1 : -1;
+    begin_row(emptiness_ + row(y, z), beside(true, false), beside(false, true), beside(true, true), forward, row_);
+    look_ahead(row_, forward, 1, next_);
+    look_ahead(next_, 4 * forward, 4, distances_[octant] + row(y, z));
   }
 
   void begin_row(Row emptiness, Row b0, Row b1, Row b2, std::ptrdiff_t forward, std::uint8_t* __restrict row) const {
@@ -111,11 +104,16 @@ class Octants {
     }
   }
 
-  void look_ahead(Row row, std::ptrdiff_t by, std::uint8_t* __restrict farther) const {
-    const auto more = static_cast<std::uint8_t>(std::abs(by));
+  /// The least of a cell and the three after it, `by` apart, each of which allows `more` than the one before.
+  void look_ahead(Row row, std::ptrdiff_t by, std::uint8_t more, std::uint8_t* __restrict farther) const {
+    const Row one = row + by;
+    const Row two = row + 2 * by;
+    const Row three = row + 3 * by;
+    const auto plus = [](std::uint8_t x, int y) { return static_cast<std::uint8_t>(x + y); };
     for (std::size_t first = 0; first < length_; first += row_unit) {
       for (std::size_t x = first; x < first + row_unit; ++x) {
-        farther[x] = lesser(row[x], static_cast<std::uint8_t>(row[x + static_cast<std::size_t>(by)] + more));
+        farther[x] =
+            lesser(lesser(row[x], plus(one[x], more)), lesser(plus(two[x], 2 * more), plus(three[x], 3 * more)));
       }
     }
   }
@@ -164,7 +162,7 @@ void measure_empty_space(std::span<std::uint32_t> words, const std::array<std::u
     }
   };
   for_rows([&](std::size_t row, const std::uint32_t* cells_of_row) { distances.set_row(row, cells_of_row); });
-  for (std::uint32_t octant = 0; octant < octants; ++octant) distances.measure(octant);
+  distances.measure();
   for_rows([&](std::size_t row, std::uint32_t* cells_of_row) { distances.add_row(row, cells_of_row); });
 }
 
