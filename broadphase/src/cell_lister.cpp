@@ -22,16 +22,19 @@ CellLister::CellLister(CellLists& lists, const CellRange& cells, std::uint32_t s
       per_size_(1 / size_),  // a power of two
       cell_padding_(padding),
       padding_(padding[0], padding[1], padding[2], 0),
-      row_(cells.length(0)),
-      layer_(row_ * cells.length(1)) {
+      order_{{}, cells.length(0), cells.length(0) * cells.length(1)} {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    first_[static_cast<Eigen::Index>(axis)] = static_cast<float>(cells.low[axis]);
+    order_.first[axis] = static_cast<float>(cells.low[axis]);
+    first_[static_cast<Eigen::Index>(axis)] = order_.first[axis];
     last_[static_cast<Eigen::Index>(axis)] = static_cast<float>(cells.high[axis] - 1);
   }
   first_[3] = last_[3] = 0;
   // Most meshes take no more; what is not used is not touched.
-  if (lists_.met.size() < 4 * triangles) lists_.met.resize(4 * triangles);
-  lists_.offsets.assign(std::size_t{layer_} * cells.length(2) + 1, 0);
+  if (lists_.cells.size() < 4 * triangles) {
+    lists_.owners.resize(4 * triangles);
+    lists_.cells.resize(4 * triangles);
+  }
+  lists_.offsets.assign(std::size_t{order_.layer} * cells.length(2) + 1, 0);
 }
 
 void CellLister::add_range(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last) {
@@ -83,26 +86,16 @@ void CellLister::add_blocks(std::uint32_t triangle, const Corners& corners, cons
 void CellLister::ask() {
   OverlapLanes::Row<std::int32_t> overlaps;
   find_overlaps(lanes_, cell_padding_, size_, overlaps);
-  const std::size_t most = count_ + filled_ * OverlapLanes::cells_of_a_block;
-  if (lists_.met.size() < most) lists_.met.resize(2 * most);
-  CellLists::Entry* const begin = lists_.met.data() + count_;
-  CellLists::Entry* end = begin;
-  const auto row_length = static_cast<float>(row_);
-  const auto layer_size = static_cast<float>(layer_);
-  for (std::size_t lane = 0; lane < filled_; ++lane) {
-    // Exact: cells are no more than floats can count.
-    const float place = (lanes_.low[0][lane] - first_[0]) + (lanes_.low[1][lane] - first_[1]) * row_length +
-                        (lanes_.low[2][lane] - first_[2]) * layer_size;
-    const auto first = static_cast<std::uint32_t>(static_cast<std::int32_t>(place));
-    const auto bits = static_cast<std::uint32_t>(overlaps[lane]);
-    // All are written, and those kept that are met: nobody could foretell which.
-    for (std::uint32_t cell = 0; cell < OverlapLanes::cells_of_a_block; ++cell) {
-      *end = {first + (cell & 1) + (cell >> 1 & 1) * row_ + (cell >> 2) * layer_, triangles_[lane]};
-      end += bits >> cell & 1;
-    }
+  const std::size_t most = count_ + OverlapLanes::count * OverlapLanes::cells_of_a_block;
+  if (lists_.cells.size() < most) {
+    lists_.owners.resize(2 * most);
+    lists_.cells.resize(2 * most);  // last, for they tell what room there is, even if this throws
   }
-  for (const CellLists::Entry* entry = begin; entry != end; ++entry) ++lists_.offsets[entry->cell];
-  count_ += static_cast<std::size_t>(end - begin);
+  std::uint32_t* const cells = lists_.cells.data() + count_;
+  const std::size_t written =
+      write_overlaps(lanes_, overlaps, triangles_, filled_, order_, cells, lists_.owners.data() + count_);
+  for (std::size_t i = 0; i < written; ++i) ++lists_.offsets[cells[i]];
+  count_ += written;
   filled_ = 0;
 }
 
@@ -111,7 +104,7 @@ void CellLister::finish() {
   auto& offsets = lists_.offsets;
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   lists_.triangles.resize(count_);
-  for (std::size_t i = count_; i-- > 0;) lists_.triangles[--offsets[lists_.met[i].cell]] = lists_.met[i].triangle;
+  for (std::size_t i = count_; i-- > 0;) lists_.triangles[--offsets[lists_.cells[i]]] = lists_.owners[i];
 }
 
 }  // namespace surehit::detail

@@ -80,8 +80,7 @@ class CellLister {
   PaddedPoint padding_;
   Cell first_;
   Cell last_;
-  std::uint32_t row_;    ///< cells from one to the next on axis y
-  std::uint32_t layer_;  ///< and on axis z
+  CellOrder order_;
   OverlapLanes lanes_;
   OverlapLanes::Row<std::uint32_t> triangles_;
   std::size_t filled_ = 0;

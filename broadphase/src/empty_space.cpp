@@ -150,6 +150,20 @@ std::uint64_t grown(std::uint64_t cubes, std::uint32_t octant) {
   return cubes;
 }
 
+using BitMatrix = std::array<std::uint32_t, 32>;
+
+/// By swapping halves, then quarters, and so on (Warren, Hacker's Delight).
+void transpose(BitMatrix& rows) {
+  std::uint32_t right_half = 0xffff;
+  for (std::uint32_t half = 16; half != 0; half /= 2, right_half ^= right_half << half) {
+    for (std::uint32_t i = 0; i < 32; i = (i + half + 1) & ~half) {
+      const std::uint32_t swapped = (rows[i] >> half ^ rows[i + half]) & right_half;
+      rows[i] ^= swapped << half;
+      rows[i + half] ^= swapped;
+    }
+  }
+}
+
 }  // namespace
 
 void measure_empty_space(std::span<std::uint32_t> words, const std::array<std::uint32_t, 3>& cells,
@@ -171,16 +185,25 @@ void measure_empty_space(std::span<std::uint32_t, Grid::brick_size> words) {
   for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) {
     occupied |= std::uint64_t{words[cell] != 0 ? 1U : 0U} << cell;
   }
-  for (std::uint32_t octant = 0; octant < 8; ++octant) {
+  // Bit b of the distances in an octant is row 4 octant + b, a bit for each cell; so the columns are the words.
+  BitMatrix lower = {};
+  BitMatrix upper = {};
+  for (std::uint32_t octant = 0; octant < octants; ++octant) {
     const std::uint64_t two = grown(occupied, octant);
     const std::uint64_t three = grown(two, octant);
     const std::uint64_t four = grown(three, octant);
-    for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) {
-      if ((occupied >> cell & 1) != 0) continue;
-      const auto distance =
-          static_cast<std::uint32_t>(4 - (two >> cell & 1) - (three >> cell & 1) - (four >> cell & 1));
-      words[cell] |= distance << 4 * octant;
+    // 1 where a cube of two cells is not empty, else 2 where one of three is not, and so on up to 4.
+    const std::array<std::uint64_t, 3> bits = {two | (four & ~three), four & ~two, ~four};
+    for (std::size_t b = 0; b < bits.size(); ++b) {
+      lower[4 * octant + b] = static_cast<std::uint32_t>(bits[b] & ~occupied);
+      upper[4 * octant + b] = static_cast<std::uint32_t>((bits[b] & ~occupied) >> 32);
     }
+  }
+  transpose(lower);
+  transpose(upper);
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    words[i] |= lower[i];
+    words[32 + i] |= upper[i];
   }
 }
 

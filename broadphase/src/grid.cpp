@@ -257,7 +257,8 @@ class GridBuild {
 std::size_t GridScratch::memory_bytes() const noexcept {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector.front()); };
   std::size_t sum = bytes(points_) + bytes(words_) + bytes(distances_);
-  for (const detail::CellLists& lists : lists_) sum += bytes(lists.met) + bytes(lists.offsets) + bytes(lists.triangles);
+  for (const detail::CellLists& lists : lists_)
+    sum += bytes(lists.cells) + bytes(lists.owners) + bytes(lists.offsets) + bytes(lists.triangles);
   return sum;
 }
 

@@ -100,12 +100,8 @@ using PaddedPoint = Eigen::Array4f;
 
 /// Lists of triangles, one for each of some cells, while they are made.
 struct CellLists {
-  struct Entry {
-    std::uint32_t cell;
-    std::uint32_t triangle;
-  };
-
-  UnsetVector<Entry> met;                ///< cells that the triangles meet, of all triangles in turn
+  UnsetVector<std::uint32_t> cells;      ///< that the triangles meet, of all triangles in turn
+  UnsetVector<std::uint32_t> owners;     ///< the triangle that meets each of them
   std::vector<std::uint32_t> offsets;    ///< where each cell's list begins, and one more for the end
   UnsetVector<std::uint32_t> triangles;  ///< the lists, one behind the other
 };
