@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace surehit::detail {
 namespace {
@@ -15,9 +16,10 @@ float count_blocks(const PaddedPoint& first, const PaddedPoint& last) {
 
 }  // namespace
 
-CellLister::CellLister(CellLists& lists, const CellRange& cells, std::uint32_t size, const CellPoint& padding,
-                       std::size_t triangles)
-    : lists_(lists),
+CellLister::CellLister(CellEntries& entries, bool may_grow, const CellRange& cells, std::uint32_t size,
+                       const CellPoint& padding)
+    : entries_(entries),
+      may_grow_(may_grow),
       size_(static_cast<float>(size)),
       per_size_(1 / size_),  // a power of two
       cell_padding_(padding),
@@ -29,12 +31,7 @@ CellLister::CellLister(CellLists& lists, const CellRange& cells, std::uint32_t s
     last_[static_cast<Eigen::Index>(axis)] = static_cast<float>(cells.high[axis] - 1);
   }
   first_[3] = last_[3] = 0;
-  // Most meshes take no more; what is not used is not touched.
-  if (lists_.cells.size() < 4 * triangles) {
-    lists_.owners.resize(4 * triangles);
-    lists_.cells.resize(4 * triangles);
-  }
-  lists_.offsets.assign(std::size_t{order_.layer} * cells.length(2) + 1, 0);
+  entries_.count = 0;
 }
 
 void CellLister::add_range(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last) {
@@ -84,27 +81,34 @@ void CellLister::add_blocks(std::uint32_t triangle, const Corners& corners, cons
 }
 
 void CellLister::ask() {
+  const std::size_t filled = std::exchange(filled_, 0);
+  if (entries_.count == CellEntries::too_many) return;
+  const std::size_t most = entries_.count + OverlapLanes::count * OverlapLanes::cells_of_a_block;
+  if (entries_.cells.size() < most) {
+    if (!may_grow_) {
+      entries_.count = CellEntries::too_many;
+      return;
+    }
+    entries_.make_room(2 * most);
+  }
   OverlapLanes::Row<std::int32_t> overlaps;
   find_overlaps(lanes_, cell_padding_, size_, overlaps);
-  const std::size_t most = count_ + OverlapLanes::count * OverlapLanes::cells_of_a_block;
-  if (lists_.cells.size() < most) {
-    lists_.owners.resize(2 * most);
-    lists_.cells.resize(2 * most);  // last, for they tell what room there is, even if this throws
-  }
-  std::uint32_t* const cells = lists_.cells.data() + count_;
-  const std::size_t written =
-      write_overlaps(lanes_, overlaps, triangles_, filled_, order_, cells, lists_.owners.data() + count_);
-  for (std::size_t i = 0; i < written; ++i) ++lists_.offsets[cells[i]];
-  count_ += written;
-  filled_ = 0;
+  entries_.count += write_overlaps(lanes_, overlaps, triangles_, filled, order_, entries_.cells.data() + entries_.count,
+                                   entries_.triangles.data() + entries_.count);
 }
 
-void CellLister::finish() {
-  ask();
-  auto& offsets = lists_.offsets;
+void sort_entries(std::span<const CellEntries> parts, std::size_t cell_count, CellLists& lists) {
+  auto& offsets = lists.offsets;
+  offsets.assign(cell_count + 1, 0);
+  for (const CellEntries& part : parts) {
+    for (std::size_t i = 0; i < part.count; ++i) ++offsets[part.cells[i]];
+  }
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  lists_.triangles.resize(count_);
-  for (std::size_t i = count_; i-- > 0;) lists_.triangles[--offsets[lists_.cells[i]]] = lists_.owners[i];
+  lists.triangles.resize(offsets.back());
+  for (std::size_t k = parts.size(); k-- > 0;) {
+    const CellEntries& part = parts[k];
+    for (std::size_t i = part.count; i-- > 0;) lists.triangles[--offsets[part.cells[i]]] = part.triangles[i];
+  }
 }
 
 }  // namespace surehit::detail

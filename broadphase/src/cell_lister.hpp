@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "overlap_lanes.hpp"
 #include "surehit/grid.hpp"
@@ -12,18 +13,17 @@
 
 namespace surehit::detail {
 
-/// Makes the lists of a box of cells, of triangles that come one by one. Their boxes are cut into blocks of cells, many
-/// of which are asked at once whether they meet their triangle; then entries are sorted by counting.
+/// Finds which cells of a box triangles meet, which come one by one. Their boxes are cut into blocks of cells, many of
+/// which are asked at once whether they meet their triangle.
 class CellLister {
  public:
   using Corners = std::array<PaddedPoint, 3>;
 
-  /// Of `cells` that are `size` finest cells long, for about so many triangles. The lists are complete once finished,
-  /// and outlive this.
-  CellLister(CellLists& lists, const CellRange& cells, std::uint32_t size, const CellPoint& padding,
-             std::size_t triangles);
+  /// Of `cells` that are `size` finest cells long. The entries, which outlive this, are complete once it is finished;
+  /// if they may not grow, they are too many as soon as there is no room.
+  CellLister(CellEntries& entries, bool may_grow, const CellRange& cells, std::uint32_t size, const CellPoint& padding);
 
-  /// A triangle whose padded box overlaps some of the cells. Lists keep the order in which triangles are added.
+  /// A triangle whose padded box overlaps some of the cells. Entries keep the order in which triangles are added.
   void add(std::uint32_t triangle, const Corners& corners) {
     const auto& [a, b, c] = corners;
     const Cell first = cell_of(a.min(b).min(c) - padding_).max(first_);
@@ -37,10 +37,7 @@ class CellLister {
     }
   }
 
-  /// Entries so far, those of the last few triangles aside.
-  [[nodiscard]] std::size_t count() const { return count_; }
-
-  void finish();
+  void finish() { ask(); }
 
  private:
   /// Whole numbers.
@@ -72,8 +69,8 @@ class CellLister {
   /// Asks what is in the lanes, and makes entries of the answers.
   void ask();
 
-  CellLists& lists_;
-  std::size_t count_ = 0;
+  CellEntries& entries_;
+  bool may_grow_;
   float size_;
   float per_size_;
   CellPoint cell_padding_;
@@ -85,5 +82,8 @@ class CellLister {
   OverlapLanes::Row<std::uint32_t> triangles_;
   std::size_t filled_ = 0;
 };
+
+/// Sorts the entries of so many cells into lists, by counting.
+void sort_entries(std::span<const CellEntries> parts, std::size_t cell_count, CellLists& lists);
 
 }  // namespace surehit::detail

@@ -8,6 +8,7 @@
 #include "cell_lister.hpp"
 #include "empty_space.hpp"
 #include "surehit/floating_point_environment.hpp"
+#include "surehit/in_parts.hpp"
 #include "triangle_overlap.hpp"
 
 namespace surehit {
@@ -17,6 +18,10 @@ namespace {
 constexpr std::size_t entries_per_triangle = 8;
 /// Small meshes may be divided as finely as one likes up to here.
 constexpr std::size_t free_entries = std::size_t{1} << 18;
+/// Most meshes take fewer. Room that is not used is not touched.
+constexpr std::size_t usual_entries = 4;
+/// Vertices or triangles in an executor's task.
+constexpr std::size_t triangles_in_a_part = std::size_t{1} << 13;
 constexpr double cells_per_triangle_limit = 8;
 constexpr double free_cells = 0x1p20;
 /// Cells are counted in float, exactly up to here.
@@ -81,10 +86,11 @@ template <typename Scalar>
 class GridBuild {
  public:
   GridBuild(Grid& grid, GridScratch& scratch, const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
-            const GridOptions& options)
+            const GridOptions& options, const Executor* executor)
       : grid_(grid),
         scratch_(scratch),
         mesh_(mesh),
+        executor_(executor),
         crowded_(options.crowded == 0 ? std::numeric_limits<std::size_t>::max() : options.crowded) {
     grid.granule_ = least_granule;
     const std::size_t budget =
@@ -116,43 +122,75 @@ class GridBuild {
     auto& points = scratch_.points_;
     points.resize(mesh_.vertex_count());
     const bool in_float = std::is_same_v<Scalar, float> && frame.has_floats;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vector3<Scalar> vertex = mesh_.vertex(i);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto k = static_cast<Eigen::Index>(axis);
-        points[i][k] = in_float ? (static_cast<float>(vertex[k]) - frame.float_low[axis]) * frame.float_scale[axis] +
-                                      frame.margin[axis]
-                                : static_cast<float>(frame.place(axis, frame.scaled(vertex[k])));
+    detail::in_parts(executor_, points.size(), triangles_in_a_part, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const Vector3<Scalar> vertex = mesh_.vertex(i);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const auto k = static_cast<Eigen::Index>(axis);
+          points[i][k] = in_float ? (static_cast<float>(vertex[k]) - frame.float_low[axis]) * frame.float_scale[axis] +
+                                        frame.margin[axis]
+                                  : static_cast<float>(frame.place(axis, frame.scaled(vertex[k])));
+        }
+        points[i][3] = 0;
       }
-      points[i][3] = 0;
-    }
+    });
     for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame.padding(axis);
   }
 
-  /// Lists `count` triangles, the i-th of which is `id(i)`, in cells of `size` finest cells, unless that takes more
-  /// than so many entries.
+  /// Finds which cells the triangles meet, `id(i)` for each i from `first` to below `last`, unless these are more than
+  /// so many entries.
   template <typename Id>
-  bool try_list(std::size_t count, const Id& id, const detail::CellRange& cells, std::uint32_t size,
-                std::size_t most_entries, detail::CellLists& lists) const {
-    detail::CellLister lister(lists, cells, size, padding_, count);
+  bool try_find(std::size_t first, std::size_t last, const Id& id, const detail::CellRange& cells, std::uint32_t size,
+                std::size_t most_entries, detail::CellEntries& entries, bool may_grow) const {
+    detail::CellLister lister(entries, may_grow, cells, size, padding_);
     const auto& points = scratch_.points_;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t triangle = id(i);
       lister.add(triangle, {points[mesh_.corner(triangle, 0)], points[mesh_.corner(triangle, 1)],
                             points[mesh_.corner(triangle, 2)]});
-      if (lister.count() > most_entries) return false;
+      if (entries.count > most_entries) return false;
     }
     lister.finish();
-    return lister.count() <= most_entries;
+    return entries.count <= most_entries;
   }
 
   /// Lists all triangles in top cells, unless that takes more entries than the budget. One cell always fits.
   bool try_list_all(std::size_t budget) {
     const std::array<std::uint32_t, 3>& cells = grid_.frame_.cells;
-    const bool is_one_cell = cells == std::array<std::uint32_t, 3>{1, 1, 1};
-    return try_list(
-        mesh_.triangle_count(), [](std::size_t i) { return static_cast<std::uint32_t>(i); }, {{0, 0, 0}, cells},
-        division, is_one_cell ? std::numeric_limits<std::size_t>::max() : budget, scratch_.lists_[0]);
+    const std::size_t cell_count = std::size_t{cells[0]} * cells[1] * cells[2];
+    if (cell_count == 1) budget = detail::CellEntries::too_many - 1;
+    detail::CellLists& lists = scratch_.lists_[0];
+    if (executor_ != nullptr && try_find_in_parts(budget)) {
+      sort_entries(scratch_.parts_, cell_count, lists);
+      return true;
+    }
+    if (!try_find_top(0, mesh_.triangle_count(), budget, lists.entries, true)) return false;
+    sort_entries({&lists.entries, 1}, cell_count, lists);
+    return true;
+  }
+
+  bool try_find_top(std::size_t first, std::size_t last, std::size_t most_entries, detail::CellEntries& entries,
+                    bool may_grow) const {
+    entries.make_room(usual_entries * (last - first));
+    const auto id = [](std::size_t i) { return static_cast<std::uint32_t>(i); };
+    return try_find(first, last, id, {{0, 0, 0}, grid_.frame_.cells}, division, most_entries, entries, may_grow);
+  }
+
+  /// The same by the executor's tasks. False as well if some part takes more room than most: tasks cannot ask for it.
+  bool try_find_in_parts(std::size_t most_entries) {
+    constexpr std::size_t size = triangles_in_a_part;
+    auto& parts = scratch_.parts_;
+    parts.resize((mesh_.triangle_count() + size - 1) / size);
+    for (detail::CellEntries& part : parts) part.make_room(entries_per_triangle * size);
+    detail::in_parts(executor_, mesh_.triangle_count(), size, [&](std::size_t first, std::size_t last) {
+      static_cast<void>(try_find_top(first, last, most_entries, parts[first / size], false));
+    });
+    std::size_t entries = 0;
+    for (const detail::CellEntries& part : parts) {
+      if (part.count > most_entries - entries) return false;
+      entries += part.count;
+    }
+    return true;
   }
 
   /// Makes the words, bricks and entries. False if the entries are more than offsets in granules can tell.
@@ -218,7 +256,8 @@ class GridBuild {
     }
     detail::CellLists& lists = scratch_.lists_[level];
     const auto id = [&](std::size_t i) { return ids[i]; };
-    if (!try_list(ids.size(), id, cells, size, most_growth * ids.size(), lists)) return 0;
+    if (!try_find(0, ids.size(), id, cells, size, most_growth * ids.size(), lists.entries, true)) return 0;
+    sort_entries({&lists.entries, 1}, Grid::brick_size, lists);
     // The brick of no number is no one's: a word of zeros would be that of an empty cell not yet measured.
     const std::size_t first = std::max<std::size_t>(grid_.bricks_.size(), Grid::brick_size);
     if (first / Grid::brick_size > CellWord::most_offset) return 0;
@@ -250,6 +289,7 @@ class GridBuild {
   Grid& grid_;
   GridScratch& scratch_;
   const TriangleMeshView<Scalar>& mesh_;
+  const Executor* executor_;
   std::size_t crowded_;
   detail::CellPoint padding_ = {};
 };
@@ -257,31 +297,38 @@ class GridBuild {
 std::size_t GridScratch::memory_bytes() const noexcept {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector.front()); };
   std::size_t sum = bytes(points_) + bytes(words_) + bytes(distances_);
-  for (const detail::CellLists& lists : lists_)
-    sum += bytes(lists.cells) + bytes(lists.owners) + bytes(lists.offsets) + bytes(lists.triangles);
+  const auto add = [&](const detail::CellEntries& entries) { sum += bytes(entries.cells) + bytes(entries.triangles); };
+  for (const detail::CellLists& lists : lists_) {
+    add(lists.entries);
+    sum += bytes(lists.offsets) + bytes(lists.triangles);
+  }
+  for (const detail::CellEntries& part : parts_) add(part);
   return sum;
 }
 
 template <typename Scalar>
-Grid::Grid(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options) {
+Grid::Grid(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
+           const Executor* executor) {
   GridScratch scratch;
-  rebuild(mesh, box, options, scratch);
+  rebuild(mesh, box, options, scratch, executor);
 }
 
 template <typename Scalar>
 void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
-                   GridScratch& scratch) {
+                   GridScratch& scratch, const Executor* executor) {
   const FloatingPointEnvironment environment;
   if (mesh.triangle_count() != 0) {
-    GridBuild<Scalar>(*this, scratch, mesh, box, options);
+    GridBuild<Scalar>(*this, scratch, mesh, box, options, executor);
   } else {
     *this = Grid();
   }
 }
 
-template Grid::Grid(const TriangleMeshView<float>&, const Box<float>&, const GridOptions&);
-template Grid::Grid(const TriangleMeshView<double>&, const Box<double>&, const GridOptions&);
-template void Grid::rebuild(const TriangleMeshView<float>&, const Box<float>&, const GridOptions&, GridScratch&);
-template void Grid::rebuild(const TriangleMeshView<double>&, const Box<double>&, const GridOptions&, GridScratch&);
+template Grid::Grid(const TriangleMeshView<float>&, const Box<float>&, const GridOptions&, const Executor*);
+template Grid::Grid(const TriangleMeshView<double>&, const Box<double>&, const GridOptions&, const Executor*);
+template void Grid::rebuild(const TriangleMeshView<float>&, const Box<float>&, const GridOptions&, GridScratch&,
+                            const Executor*);
+template void Grid::rebuild(const TriangleMeshView<double>&, const Box<double>&, const GridOptions&, GridScratch&,
+                            const Executor*);
 
 }  // namespace surehit

@@ -50,8 +50,9 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
     }
     V edges[3][3];
     for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
         edges[i][axis] = hn::Sub(corners[(i + 1) % 3][axis], corners[i][axis]);
+      }
     }
 
     M shadowed[3][4];  // by axis k and by steps on k + 1 and k + 2

@@ -51,8 +51,8 @@ detail::Query<Scalar> Collider<Scalar>::query(Filter filter, const QueryOptions<
 }
 
 template <typename Scalar>
-std::optional<InvalidMesh> Collider<Scalar>::try_build(const TriangleMeshView<Scalar>& mesh,
-                                                       const BuildOptions& options) {
+std::optional<InvalidMesh> Collider<Scalar>::build(const TriangleMeshView<Scalar>& mesh, const Executor* executor,
+                                                   const BuildOptions& options) {
   const FloatingPointEnvironment environment;
   if (std::optional<InvalidMesh> invalid = find_invalid(mesh)) return invalid;
   if (!options.masks.empty() && options.masks.size() != mesh.triangle_count()) {
@@ -62,16 +62,17 @@ std::optional<InvalidMesh> Collider<Scalar>::try_build(const TriangleMeshView<Sc
   }
   Collider built;
   built.box_ = box_of(mesh);
-  built.grid_ = Grid(mesh, built.box_, options.grid);
+  built.grid_ = Grid(mesh, built.box_, options.grid, executor);
   built.masks_.assign(options.masks.begin(), options.masks.end());
   built.grid_options_ = options.grid;
-  built.mesh_ = MeshBlocks<Scalar>(mesh, built.grid_);
+  built.mesh_ = MeshBlocks<Scalar>(mesh, built.grid_, executor);
   *this = std::move(built);
   return std::nullopt;
 }
 
 template <typename Scalar>
-std::optional<InvalidMesh> Collider<Scalar>::try_rebuild(const VertexView<Scalar>& vertices) {
+std::optional<InvalidMesh> Collider<Scalar>::move_vertices(const VertexView<Scalar>& vertices,
+                                                           const Executor* executor) {
   const FloatingPointEnvironment environment;
   const TriangleMeshView<Scalar> old = mesh_.view();
   if (vertices.count != old.vertex_count()) {
@@ -82,8 +83,8 @@ std::optional<InvalidMesh> Collider<Scalar>::try_rebuild(const VertexView<Scalar
   const TriangleMeshView<Scalar> mesh = mesh_.view_with(vertices);
   if (std::optional<InvalidMesh> invalid = find_invalid(mesh)) return invalid;
   const Box<Scalar> box = box_of(mesh);
-  spare_.grid.rebuild(mesh, box, grid_options_, spare_.scratch);
-  spare_.mesh.rebuild(mesh, spare_.grid);
+  spare_.grid.rebuild(mesh, box, grid_options_, spare_.scratch, executor);
+  spare_.mesh.rebuild(mesh, spare_.grid, executor);
   std::swap(spare_.grid, grid_);
   std::swap(spare_.mesh, mesh_);
   box_ = box;

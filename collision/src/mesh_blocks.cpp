@@ -5,22 +5,25 @@
 #include <limits>
 
 #include "kernel_bound.hpp"
+#include "surehit/in_parts.hpp"
 
 namespace surehit {
 namespace {
 
 /// What the widest vector load may read beyond the last triangle.
 constexpr std::size_t slack = 64;
+/// In an executor's task.
+constexpr std::size_t cells_in_a_part = std::size_t{1} << 13;
 
 }  // namespace
 
 template <typename Scalar>
-MeshBlocks<Scalar>::MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid) {
-  rebuild(mesh, grid);
+MeshBlocks<Scalar>::MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor) {
+  rebuild(mesh, grid, executor);
 }
 
 template <typename Scalar>
-void MeshBlocks<Scalar>::rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid) {
+void MeshBlocks<Scalar>::rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor) {
   vertices_.resize(mesh.vertex_count() + 1);
   for (std::size_t i = 0; i < mesh.vertex_count(); ++i) vertices_[i] = mesh.vertex(i);
   vertices_.back().setZero();
@@ -28,11 +31,11 @@ void MeshBlocks<Scalar>::rebuild(const TriangleMeshView<Scalar>& mesh, const Gri
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     corners_[i] = {mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
   }
-  fill_blocks(grid);
+  fill_blocks(grid, executor);
 }
 
 template <typename Scalar>
-void MeshBlocks<Scalar>::fill_blocks(const Grid& grid) {
+void MeshBlocks<Scalar>::fill_blocks(const Grid& grid, const Executor* executor) {
   blocks_.resize(coordinates * grid.entries().size() + slack);
   edge_sizes_.resize(grid.entries().size() / 4);
   Scalar largest = 0;
@@ -63,15 +66,18 @@ void MeshBlocks<Scalar>::fill_blocks(const Grid& grid) {
         }
       }
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        for (const std::size_t corner : {1, 2}) {
+        for (const std::size_t corner : {1U, 2U}) {
           longest = longest.cwiseMax((corners[corner].col(axis) - corners[0].col(axis)).cwiseAbs());
         }
       }
     }
     edge_sizes_[first / 4] = too_large ? std::numeric_limits<Scalar>::infinity() : longest.maxCoeff();
   };
-  std::for_each(grid.top().begin(), grid.top().end(), fill);
-  std::for_each(grid.bricks().begin(), grid.bricks().end(), fill);
+  for (const std::span<const CellWord> words : {grid.top(), grid.bricks()}) {
+    detail::in_parts(executor, words.size(), cells_in_a_part, [&](std::size_t first, std::size_t last) {
+      for (std::size_t cell = first; cell < last; ++cell) fill(words[cell]);
+    });
+  }
 }
 
 template <typename Scalar>

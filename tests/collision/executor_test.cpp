@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cfenv>
@@ -244,6 +245,97 @@ TYPED_TEST(BatchOnExecutor, never_throws) {
   static_assert(noexcept(collider.any_hits(std::declval<std::span<const Line<TypeParam>>>(),
                                            std::declval<std::span<std::uint8_t>>(), std::declval<Executor>())));
   SUCCEED();
+}
+
+/// Colliders of meshes in more than one part.
+template <typename Scalar>
+class BuildOnExecutor : public testing::Test {
+ protected:
+  static void expect_same_bits(const Collider<Scalar>& built, const Collider<Scalar>& expected,
+                               const GeneratedMesh<Scalar>& mesh) {
+    const auto bits = [](std::span<const CellWord> words) {
+      std::vector<std::uint32_t> all;
+      for (const CellWord word : words) all.push_back(word.bits());
+      return all;
+    };
+    EXPECT_EQ(bits(built.grid().top()), bits(expected.grid().top()));
+    EXPECT_EQ(bits(built.grid().bricks()), bits(expected.grid().bricks()));
+    EXPECT_TRUE(std::ranges::equal(built.grid().entries(), expected.grid().entries()));
+    if (mesh.triangles.empty()) return;  // nothing to aim at
+    std::vector<Path<Scalar>> paths;
+    PathDrawer<Scalar> drawer(mesh.view(), 97);
+    for (int i = 0; i < 200; ++i) paths.push_back(drawer.draw());
+    expect_same_answers(built, expected, paths);
+  }
+
+  static void expect_same_with(Executor executor, const GeneratedMesh<Scalar>& mesh, const BuildOptions& options = {}) {
+    Collider<Scalar> expected(mesh.view(), options);
+    Collider<Scalar> built(mesh.view(), executor, options);
+    expect_same_bits(built, expected, mesh);
+    GeneratedMesh<Scalar> moved = mesh;
+    for (auto& vertex : moved.vertices) vertex[0] += vertex[1] * vertex[2];
+    const std::span<const Vector3<Scalar>> vertices(moved.vertices);
+    expected.rebuild(vertices);
+    for (int i = 0; i < 2; ++i) {
+      built.rebuild(vertices, executor);
+      expect_same_bits(built, expected, moved);
+    }
+  }
+
+  Random random_{20240229};
+};
+TYPED_TEST_SUITE(BuildOnExecutor, Scalars, ScalarNames);
+
+TYPED_TEST(BuildOnExecutor, is_the_same_to_the_bit) {
+  for (const std::size_t count : {0U, 1U, 8192U, 8193U, 50'000U}) {
+    SCOPED_TRACE(count);
+    const auto mesh = scattered_triangles<TypeParam>(count, TypeParam{0.05F}, this->random_);
+    this->expect_same_with(&forwards, mesh);
+    this->expect_same_with(&backwards, mesh);
+    this->expect_same_with(NewThreads(3), mesh);
+  }
+}
+
+TYPED_TEST(BuildOnExecutor, is_the_same_where_cells_are_divided) {
+  const auto mesh = scattered_triangles<TypeParam>(30'000, TypeParam{0.02F}, this->random_);
+  this->expect_same_with(NewThreads(2), mesh, {GridOptions{.resolution = {9, 5, 7}, .crowded = 20}, {}});
+}
+
+/// Those of the first part take more room than a part has, though not more than the mesh may take.
+TYPED_TEST(BuildOnExecutor, is_the_same_where_a_part_has_no_room) {
+  auto mesh = scattered_triangles<TypeParam>(8192, TypeParam{0.4F}, this->random_);
+  const auto small = scattered_triangles<TypeParam>(60'000, TypeParam{0.001F}, this->random_);
+  for (std::size_t i = 0; i < small.triangles.size(); ++i) mesh.add(small.view().triangle(i));
+  const Collider<TypeParam> collider(mesh.view());
+  std::size_t of_first_part = 0;
+  for (const std::uint32_t id : collider.grid().entries()) of_first_part += id < 8192 ? 1 : 0;
+  ASSERT_GT(of_first_part, 8U * 8192U);
+  this->expect_same_with(NewThreads(2), mesh);
+}
+
+TYPED_TEST(BuildOnExecutor, is_the_same_in_any_floating_point_mode_of_its_threads) {
+  const auto mesh = scattered_triangles<TypeParam>(20'000, TypeParam{0.05F}, this->random_);
+  const TypeParam tiny = 1'000'000 * std::numeric_limits<TypeParam>::denorm_min();
+  for (const TypeParam factor : {TypeParam{1}, tiny}) {
+    const auto scaled = placed<TypeParam>(mesh, factor, {0, 0, 0});
+    for (const FloatingPointMode& mode :
+         {FloatingPointMode{"upward", FE_UPWARD, false}, FloatingPointMode{"downward_and_flush", FE_DOWNWARD, true}}) {
+      SCOPED_TRACE(mode.name);
+      NewThreads threads(2, mode);
+      this->expect_same_with(threads, scaled);
+      EXPECT_TRUE(threads.keeps_modes());
+      EXPECT_GT(threads.tasks(), 10U);
+    }
+  }
+}
+
+TYPED_TEST(BuildOnExecutor, says_what_is_wrong_with_a_mesh) {
+  auto mesh = scattered_triangles<TypeParam>(20'000, TypeParam{0.05F}, this->random_);
+  Collider<TypeParam> collider(mesh.view());
+  mesh.vertices.back()[0] = std::numeric_limits<TypeParam>::infinity();
+  EXPECT_TRUE(collider.try_rebuild(std::span<const Vector3<TypeParam>>(mesh.vertices), NewThreads(2)).has_value());
+  EXPECT_TRUE(collider.try_build(mesh.view(), NewThreads(2)).has_value());
+  EXPECT_THROW(Collider<TypeParam>(mesh.view(), NewThreads(2)), InvalidMesh);
 }
 
 }  // namespace

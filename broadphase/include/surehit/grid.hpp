@@ -3,11 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "surehit/box.hpp"
 #include "surehit/default_init_allocator.hpp"
+#include "surehit/executor.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 
 namespace surehit {
@@ -98,10 +100,24 @@ namespace detail {
 /// A point counted in finest cells, as long as a vector load; its fourth number is 0.
 using PaddedPoint = Eigen::Array4f;
 
+/// Which triangles meet which cells, of all triangles in turn.
+struct CellEntries {
+  static constexpr std::size_t too_many = std::numeric_limits<std::size_t>::max();
+
+  std::size_t count = 0;             ///< as far as the rest counts; `too_many` if there was no room
+  UnsetVector<std::uint32_t> cells;  ///< as many as there is room for
+  UnsetVector<std::uint32_t> triangles;
+
+  void make_room(std::size_t entries) {
+    if (cells.size() >= entries) return;
+    triangles.resize(entries);
+    cells.resize(entries);  // last: where that throws, they still tell what room there is
+  }
+};
+
 /// Lists of triangles, one for each of some cells, while they are made.
 struct CellLists {
-  UnsetVector<std::uint32_t> cells;      ///< that the triangles meet, of all triangles in turn
-  UnsetVector<std::uint32_t> owners;     ///< the triangle that meets each of them
+  CellEntries entries;
   std::vector<std::uint32_t> offsets;    ///< where each cell's list begins, and one more for the end
   UnsetVector<std::uint32_t> triangles;  ///< the lists, one behind the other
 };
@@ -119,6 +135,7 @@ class GridScratch {
 
   std::vector<detail::PaddedPoint> points_;  ///< the vertices
   std::array<detail::CellLists, 3> lists_;   ///< of the top cells, and of the brick of each level that is being made
+  std::vector<detail::CellEntries> parts_;   ///< of the top cells, where parts of the mesh are listed at once
   std::vector<std::uint32_t> words_;         ///< the top cells' words
   std::vector<std::uint8_t> distances_;      ///< through empty cells
 };
@@ -138,14 +155,16 @@ class Grid {
   Grid() = default;
 
   /// Of a valid mesh (see `find_invalid`) and its box. Time and memory are linear in the triangles, for the resolution
-  /// is lowered until the lists fit their budget. May throw std::bad_alloc.
+  /// is lowered until the lists fit their budget. The grid is the same with an executor as without. May throw
+  /// std::bad_alloc.
   template <typename Scalar>
-  Grid(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options);
-  /// Becomes the grid of another mesh, in the memory that it has. If that throws, the grid is good for another rebuild
-  /// only.
+  Grid(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
+       const Executor* executor = nullptr);
+  /// Becomes the grid of another mesh, in the memory that it has. If that throws,
+  /// the grid is good for another rebuild only.
   template <typename Scalar>
   void rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
-               GridScratch& scratch);
+               GridScratch& scratch, const Executor* executor = nullptr);
 
   [[nodiscard]] const GridFrame& frame() const noexcept { return frame_; }
   /// Top cells on each axis.

@@ -54,24 +54,42 @@ class Collider {
   explicit Collider(const TriangleMeshView<Scalar>& mesh, const BuildOptions& options = {}) {
     if (auto invalid = try_build(mesh, options)) throw *std::move(invalid);
   }
+  Collider(const TriangleMeshView<Scalar>& mesh, Executor executor, const BuildOptions& options = {}) {
+    if (auto invalid = try_build(mesh, executor, options)) throw *std::move(invalid);
+  }
 #endif
 
   /// Replaces the mesh, or says why it cannot and keeps the state from before. Time and memory are linear in the
   /// triangles.
   [[nodiscard]] std::optional<InvalidMesh> try_build(const TriangleMeshView<Scalar>& mesh,
-                                                     const BuildOptions& options = {});
+                                                     const BuildOptions& options = {}) {
+    return build(mesh, nullptr, options);
+  }
+  /// The same by an executor's tasks. What is built is the same to the bit.
+  [[nodiscard]] std::optional<InvalidMesh> try_build(const TriangleMeshView<Scalar>& mesh, Executor executor,
+                                                     const BuildOptions& options = {}) {
+    return build(mesh, &executor, options);
+  }
 
 #if defined(__cpp_exceptions)
   /// Throws what `try_rebuild` returns.
   void rebuild(const VertexView<Scalar>& vertices) {
     if (auto invalid = try_rebuild(vertices)) throw *std::move(invalid);
   }
+  void rebuild(const VertexView<Scalar>& vertices, Executor executor) {
+    if (auto invalid = try_rebuild(vertices, executor)) throw *std::move(invalid);
+  }
 #endif
 
   /// Moves the vertices, for a mesh that deforms each tick: the same triangles, masks and options. Takes the time of a
   /// build, but no memory after the first two times. Says why it cannot, and keeps the state from before, if the
   /// vertices are not as many as the mesh has or not finite; so does std::bad_alloc.
-  [[nodiscard]] std::optional<InvalidMesh> try_rebuild(const VertexView<Scalar>& vertices);
+  [[nodiscard]] std::optional<InvalidMesh> try_rebuild(const VertexView<Scalar>& vertices) {
+    return move_vertices(vertices, nullptr);
+  }
+  [[nodiscard]] std::optional<InvalidMesh> try_rebuild(const VertexView<Scalar>& vertices, Executor executor) {
+    return move_vertices(vertices, &executor);
+  }
 
   /// The hit of least t; among equal exact t, of the least triangle. `statistics`, where given, are added to.
   [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Path<Scalar>& path, const QueryOptions<Scalar>& options = {},
@@ -159,6 +177,8 @@ class Collider {
  private:
   using Filter = const HitFilter<Scalar>*;  ///< none if null
 
+  std::optional<InvalidMesh> build(const TriangleMeshView<Scalar>&, const Executor*, const BuildOptions&);
+  std::optional<InvalidMesh> move_vertices(const VertexView<Scalar>&, const Executor*);
   detail::Query<Scalar> query(Filter, const QueryOptions<Scalar>&, QueryStatistics*,
                               QueryStatistics& unread) const noexcept;
   std::optional<Hit<Scalar>> find_first(const Path<Scalar>&, Filter, const QueryOptions<Scalar>&,

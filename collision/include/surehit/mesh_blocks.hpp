@@ -18,10 +18,10 @@ class MeshBlocks {
  public:
   MeshBlocks() = default;
   /// Of a valid mesh and its grid. May throw std::bad_alloc.
-  MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid);
+  MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor = nullptr);
 
   /// The same triangles with other vertices. Memory is reused.
-  void rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid);
+  void rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor = nullptr);
 
   [[nodiscard]] std::size_t triangle_count() const noexcept { return corners_.size(); }
   [[nodiscard]] Triangle<Scalar> triangle(std::uint32_t id) const noexcept {
@@ -50,7 +50,7 @@ class MeshBlocks {
   [[nodiscard]] Scalar edge_size(std::size_t first_entry) const noexcept { return edge_sizes_[first_entry / 4]; }
 
  private:
-  void fill_blocks(const Grid& grid);
+  void fill_blocks(const Grid& grid, const Executor* executor);
 
   detail::UnsetVector<Vector3<Scalar>> vertices_;  ///< and one more, for a vector load of the last
   detail::UnsetVector<std::array<std::uint32_t, 3>> corners_;

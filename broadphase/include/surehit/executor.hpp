@@ -10,10 +10,10 @@ namespace surehit {
 /// A reference to whatever spreads work over threads: any callable `void(std::size_t count, const Executor::Task&
 /// task)` that calls `task(i)` once for each i in [0, count), from any threads and in any order, and returns when all
 /// calls have. A game's job system fits in a lambda; `tbb_executor.hpp` has one for oneTBB. It owns nothing: the
-/// callable must outlive the query, which a lambda written in the call does. It must not throw.
+/// callable must outlive the query or the build, which a lambda written in the call does. It must not throw.
 class Executor {
  public:
-  /// One batch's work. It lives as long as the callable runs.
+  /// One batch's or build's work. It lives as long as the callable runs.
   class Task {
    public:
     void operator()(std::size_t index) const { call_(work_, index); }
