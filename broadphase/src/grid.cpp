@@ -104,6 +104,7 @@ class GridBuild {
       if (try_list_all(budget)) break;
       for (double& cells : wished) cells = std::max(1.0, std::floor(cells / 2));
     }
+    measure_triangles();
     while (!try_emit()) grid.granule_ *= 2;
     shrink_division();
   }
@@ -135,6 +136,18 @@ class GridBuild {
       }
     });
     for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame.padding(axis);
+  }
+
+  void measure_triangles() {
+    scratch_.boxes_.resize(mesh_.triangle_count());
+    detail::in_parts(executor_, scratch_.boxes_.size(), triangles_in_a_part, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const detail::PaddedPoint& a = scratch_.points_[mesh_.corner(i, 0)];
+        const detail::PaddedPoint& b = scratch_.points_[mesh_.corner(i, 1)];
+        const detail::PaddedPoint& c = scratch_.points_[mesh_.corner(i, 2)];
+        scratch_.boxes_[i] = {a.min(b).min(c), a.max(b).max(c)};
+      }
+    });
   }
 
   /// Finds which cells the triangles meet, `id(i)` for each i from `first` to below `last`, unless these are more than
@@ -207,6 +220,8 @@ class GridBuild {
       rounded_up += (offsets[cell + 1] - offsets[cell] + grid_.granule_ - 1) / grid_.granule_ * grid_.granule_;
     }
     grid_.entries_.reserve(rounded_up + rounded_up / 16);
+    grid_.boxes_.clear();
+    grid_.boxes_.reserve((rounded_up + rounded_up / 16) / grid_.granule_);
     grid_.bricks_.clear();
     words.assign(grid_.top_count_, 0);
     std::size_t cell = 0;
@@ -241,8 +256,32 @@ class GridBuild {
     const auto offset = static_cast<std::uint32_t>(entries.size() / granule);
     entries.insert(entries.end(), ids.begin(), ids.end());
     entries.resize((offset + granules) * granule, ids.back());
+    grid_.boxes_.resize(offset + granules, box_of(ids, place, size));
     const auto counted = static_cast<std::uint32_t>(std::min<std::size_t>(granules, CellWord::most_granules));
     return CellWord::listing(counted, offset & CellWord::most_offset).bits();
+  }
+
+  /// Of the triangles' boxes and the cell. They are padded as when they were listed, and so each meets the cell.
+  [[nodiscard]] CellBox box_of(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& place,
+                               std::uint32_t size) const {
+    constexpr float parts = CellBox::parts;
+    detail::PaddedBox whole = scratch_.boxes_[ids.front()];
+    for (const std::uint32_t id : ids.subspan(1)) {
+      whole.low = whole.low.min(scratch_.boxes_[id].low);
+      whole.high = whole.high.max(scratch_.boxes_[id].high);
+    }
+    std::array<std::uint32_t, 3> first;
+    std::array<std::uint32_t, 3> end;
+    const auto edge = static_cast<float>(size);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      const float corner = static_cast<float>(place[axis]) * edge;
+      const float from = (whole.low[k] - padding_[axis] - corner) / edge * parts;
+      const float to = (whole.high[k] + padding_[axis] - corner) / edge * parts;
+      first[axis] = static_cast<std::uint32_t>(std::clamp(from, 0.0F, parts - 1));
+      end[axis] = static_cast<std::uint32_t>(std::ceil(std::clamp(to, 1.0F, parts)));
+    }
+    return CellBox::around(first, end);
   }
 
   /// The word of a cell that is divided into a brick of cells of `size`; 0 if that would not part its triangles.
@@ -296,7 +335,7 @@ class GridBuild {
 
 std::size_t GridScratch::memory_bytes() const noexcept {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector.front()); };
-  std::size_t sum = bytes(points_) + bytes(words_) + bytes(distances_);
+  std::size_t sum = bytes(points_) + bytes(boxes_) + bytes(words_) + bytes(distances_);
   const auto add = [&](const detail::CellEntries& entries) { sum += bytes(entries.cells) + bytes(entries.triangles); };
   for (const detail::CellLists& lists : lists_) {
     add(lists.entries);

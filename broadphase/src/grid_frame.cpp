@@ -92,6 +92,8 @@ void GridFrame::coarsen(std::uint32_t factor) noexcept {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     scale[axis] /= factor;
     margin[axis] /= static_cast<float>(factor);
+    float_margin[axis] = margin[axis];
+    float_stop[axis] = static_cast<float>(resolution(axis));
     const double unit_scale = scale[axis] * unit[0] * unit[1];
     const double low = origin[axis] / unit[0] / unit[1];
     float_scale[axis] = static_cast<float>(unit_scale);

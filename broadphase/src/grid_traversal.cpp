@@ -41,6 +41,12 @@ Pair exact_difference(double x, double y) {
 // `end`, or where it leaves the grid; all that is not yet visited lies at or beyond that tau, exactly: tau stands for
 // the exact parameter, not for a rounded place.
 //
+// A list whose triangles take up only a part of its cell, the box B, need not be met by a path that passes B by. The
+// point where a triangle is met, within e of the cell, lies in the triangle's box, so within e of B, on every axis. The
+// planes of B are taken one padding farther out, which is more than e and the two roundings, u R each, that moving them
+// costs: so the exact path is beyond each near plane and before each far one at that tau, and these are crossed, as
+// computed, before and after it. It lies between 0 and `end` like every tau that counts.
+//
 // With w <= R the way that the path has in the grid on an axis, what is left of these is 3 u w for the crossing and 2 u
 // w for the rate, and |p - P| is what follows.
 //
@@ -197,6 +203,10 @@ void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pat
   if (!moves) enters = 0;
   origin[2] = enters;
   end = moves ? beyond(last_t) : 0;
+  exit = moves ? static_cast<float>(leaves - enters) : 0;
+  rate = detail::all_lanes(0.0F);
+  inverse_rate = detail::all_lanes(greatest_inverse);
+  start = frame.float_margin;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto stop = static_cast<float>(frame.resolution(axis));
     const auto entered = static_cast<float>(from[axis] + enters * by[axis]);

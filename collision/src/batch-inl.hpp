@@ -7,10 +7,14 @@
 #define SUREHIT_BATCH_INL
 #endif
 
+#include <hwy/cache_control.h>
+
+#include <algorithm>
 #include <array>
 #include <bit>
-#include <optional>
+#include <utility>
 
+#include "hit_rounding-inl.hpp"
 #include "query_walk-inl.hpp"
 
 #if HWY_TARGET != HWY_SCALAR  // which has no lanes
@@ -25,12 +29,12 @@ namespace surehit::detail::HWY_NAMESPACE {
 /// Paths of one kind, walked side by side. A lane whose path has come to an occupied cell meets that cell's list alone,
 /// a vector of triangles at a time; a lane whose path has ended is filled with the next one.
 ///
-/// `Visitor` is what single queries use, one for each path that comes to an occupied cell. `finish(index, visitor)` is
-/// called for these when they end, and `alone(index)` for each path that the lanes cannot place.
+/// `Visitor` is what single queries use, one for each path that may meet a triangle. `finish(index, visitor)` is called
+/// for these when they end, and `alone(index)` for each path that the lanes cannot place.
 template <typename Visitor, typename AnyPath, typename Finish, typename Alone>
 class Batch {
  public:
-  Batch(const Query<float>& query, const PathRange<float>& range, std::span<const AnyPath> paths, const Finish& finish,
+  Batch(const Query<float>& query, const PathRange<float>& range, std::span<const AnyPath> paths, Finish& finish,
         const Alone& alone)
       : query_(query),
         range_(range),
@@ -38,7 +42,8 @@ class Batch {
         walk_(query.grid),
         paths_(paths),
         finish_(finish),
-        alone_(alone) {
+        alone_(alone),
+        visitors_(all_lanes(Visitor(query), std::make_index_sequence<most_lanes>())) {
     static_assert(sizeof(AnyPath) == path_size * sizeof(float));
   }
 
@@ -51,65 +56,71 @@ class Batch {
   }
 
  private:
-  /// What a path in a lane needs besides its walk.
-  struct Visit {
-    Visit(const Query<float>& query, const PathRange<float>& range, const RangeWeights<float>& weights,
-          const AnyPath& any_path)
-        : path(any_path),
-          narrowphase(path, query.options, range, query.statistics),
-          visitor(query, narrowphase),
-          kernel_path(path, weights) {}
+  template <std::size_t... lane>
+  static std::array<Visitor, most_lanes> all_lanes(const Visitor& visitor, std::index_sequence<lane...>) {
+    return {((void)lane, visitor)...};
+  }
 
-    Path<float> path;
-    Narrowphase<float> narrowphase;
-    Visitor visitor;
-    KernelPath<float> kernel_path;
-  };
+  using Kernel = typename Visitor::Kernel;
 
   static constexpr std::size_t path_size = 6;
   /// Lanes are filled when this share of them is idle: each time one ends would cost more than it saves.
   static constexpr std::size_t idle_share = 4;
 
+  /// Triangles of a list that one path has come to, as many as the kernel takes at once.
+  struct Job {
+    std::uint32_t lane;
+    std::uint32_t from;
+    Lanes lanes;
+    FirstLanes<float> first;
+  };
+  /// `BlockKernel::Crossing` in memory, but for the bound of det.
+  struct alignas(most_lanes * sizeof(float)) Crossing {
+    LaneFloats height;
+    LaneFloats height_radius;
+    LaneFloats det;
+  };
+  /// Of a list, so many triangles become jobs; the few that are longer are finished one after the other.
+  static constexpr std::size_t most_at_once = 32;
+  /// The lists that come after so many jobs wait for the next round of them: what is kept of each takes stack.
+  static constexpr std::size_t most_jobs = 6;
+
   template <bool has_levels>
   HWY_INLINE void run_levels() {
     const std::size_t lanes = hn::Lanes(FloatTag());
     const std::uint32_t all = static_cast<std::uint32_t>((std::uint64_t{1} << lanes) - 1);
-    lanes_ = {};
-    std::uint32_t walking = 0;
     for (;;) {
-      const std::uint32_t idle = all & ~walking;
-      if (static_cast<std::size_t>(std::popcount(idle)) * idle_share >= lanes) walking |= fill<has_levels>(idle);
-      if (walking == 0) return;
-      query_.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking));
-      const LaneWalk::Cells cells = walk_.look<has_levels>(lanes_, walking);
+      const std::uint32_t idle = all & ~walking_;
+      if (static_cast<std::size_t>(std::popcount(idle)) * idle_share >= lanes) fill<has_levels>(idle);
+      if (walking_ == 0) return;
+      query_.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking_));
+      const LaneWalk::Cells cells = walk_.look<has_levels>(lanes_, walking_);
       const BitsTag du;
       const auto lists = hn::Eq(hn::And(cells.word, hn::Set(du, 15U)), hn::Zero(du));
-      if (const auto meeting = static_cast<std::uint32_t>(bits_of(du, lists)) & walking; meeting != 0) {
+      if (const auto standing = static_cast<std::uint32_t>(bits_of(du, lists)) & walking_; standing != 0) {
         alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_lanes> words;
         hn::Store(cells.word, du, words.data());
-        walking &= ~meet_lists(meeting, words);
+        meet_lists(walk_.meet_boxes(cells, standing, lanes_), words);
       }
-      const std::uint32_t still = walk_.advance(cells, walking, lanes_);
-      end_lanes(walking & ~still);
-      walking = still;
+      const std::uint32_t still = walk_.advance(cells, walking_, lanes_);
+      end_lanes(walking_ & ~still);
     }
   }
 
-  /// Puts paths that are placed but not yet walked into idle lanes; returns the lanes filled.
+  /// Puts paths that are placed but not yet walked into idle lanes.
   template <bool has_levels>
-  HWY_INLINE std::uint32_t fill(std::uint32_t idle) {
-    std::uint32_t filled = 0;
+  HWY_INLINE void fill(std::uint32_t idle) {
     while (idle != 0) {
       if (waiting_ == 0 && !place_next<has_levels>()) break;
       const auto from = static_cast<std::size_t>(std::countr_zero(waiting_));
       const auto to = static_cast<std::size_t>(std::countr_zero(idle));
       lanes_.copy_lane(to, placed_, from);
+      kernel_path_[to] = placed_kernel_paths_.at(from);
       index_[to] = placed_first_ + from;
+      walking_ |= std::uint32_t{1} << to;
       waiting_ &= waiting_ - 1;
       idle &= idle - 1;
-      filled |= std::uint32_t{1} << to;
     }
-    return filled;
   }
 
   /// Places the next paths until one of them is inside the grid.
@@ -127,8 +138,8 @@ class Batch {
         std::copy_n(numbers, path_size * count, last.begin());
         numbers = last.data();
       }
-      const LaneWalk::Placed placed =
-          walk_.place(numbers, Path<float>(paths_.front()).has_end(), range_.first, range_.last, count, placed_);
+      const LaneWalk::Placed placed = walk_.place(numbers, Path<float>(paths_.front()).has_end(), range_.first,
+                                                  range_.last, count, placed_, placed_kernel_paths_);
       query_.statistics.paths += count - static_cast<std::size_t>(std::popcount(placed.apart));
       for (std::uint32_t apart = placed.apart; apart != 0; apart &= apart - 1) {
         alone_(placed_first_ + static_cast<std::size_t>(std::countr_zero(apart)));
@@ -150,61 +161,206 @@ class Batch {
     return (inside & ~leaving) | walk_.advance(cells, leaving, placed_);
   }
 
-  /// Lets these lanes' paths meet the lists of their cells; returns those that are done.
-  HWY_INLINE std::uint32_t meet_lists(std::uint32_t meeting, const std::array<std::uint32_t, most_lanes>& words) {
-    std::uint32_t done = 0;
-    for (std::uint32_t next = meeting; next != 0; next &= next - 1) {
-      prefetch_list(query_, CellWord(words[static_cast<std::size_t>(std::countr_zero(next))]));
+  /// Lets these lanes' paths meet the lists of their cells, and ends those that are done. The kernel runs over all
+  /// lists before anything is done about its verdicts, which nobody can foretell.
+  HWY_INLINE void meet_lists(std::uint32_t arriving, const std::array<std::uint32_t, most_lanes>& words) {
+    const std::size_t lanes = hn::Lanes(hn::ScalableTag<float>());
+    for (std::uint32_t left = arriving; left != 0; left &= left - 1) {
+      prefetch_list(query_, CellWord(words[static_cast<std::size_t>(std::countr_zero(left))]));
     }
-    for (; meeting != 0; meeting &= meeting - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(meeting));
-      std::optional<Visit>& visit = visits_[lane];
-      if (!visit) visit.emplace(query_, range_, weights_, paths_[index_[lane]]);
-      if (!meet_list(query_, visit->kernel_path, CellWord(words[lane]), visit->visitor)) continue;
-      if (visit->visitor.is_done()) {
-        done |= std::uint32_t{1} << lane;
-      } else {
-        lanes_.shorten(lane, visit->visitor.limit());
+    std::uint32_t done = 0;
+    while (arriving != 0) {
+      std::size_t jobs = 0;
+      std::uint32_t longer = 0;
+      for (; arriving != 0 && jobs < most_jobs; arriving &= arriving - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(arriving));
+        const TriangleList<float>& list = lists_[lane] = list_of(query_, CellWord(words[lane]));
+        query_.statistics.candidates += list.count;
+        for (std::size_t from = 0; from < std::min(list.count, most_at_once); from += lanes) {
+          jobs_[jobs].lane = lane;
+          jobs_[jobs++].from = static_cast<std::uint32_t>(from);
+        }
+        longer |= std::uint32_t{list.count > most_at_once} << lane;
+      }
+      for (const std::uint32_t open : std::span(open_).first(open_jobs(jobs))) {
+        const auto& [lane, from, verdicts, first] = jobs_[open];
+        query_.statistics.undecided += static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
+        const bool shorter = visitors_[lane].meet(Meeting<float, AnyPath>{
+            query_, range_, paths_[index_[lane]], kernel_path_[lane], lists_[lane], from, verdicts, first});
+        done |= heed(lane, shorter);
+      }
+      for (longer &= ~done; longer != 0; longer &= longer - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(longer));
+        const bool shorter = meet_list(query_, range_, paths_[index_[lane]], kernel_path_[lane], weights_, lists_[lane],
+                                       most_at_once, visitors_[lane]);
+        done |= heed(lane, shorter);
       }
     }
     end_lanes(done);
-    return done;
+  }
+
+  /// Does what a lane's visitor has come to; returns the lane's bit if that is the end.
+  HWY_INLINE std::uint32_t heed(std::uint32_t lane, bool shorter) {
+    if (visitors_[lane].is_done()) return std::uint32_t{1} << lane;
+    if (shorter) lanes_.shorten(lane, visitors_[lane].limit());
+    return 0;
+  }
+
+  /// Asks the kernel; returns how many jobs are open then: the path may meet something there.
+  HWY_NOINLINE std::size_t open_jobs(std::size_t count) {
+    const hn::ScalableTag<float> d;
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      Job& job = jobs_[i];
+      const Kernel kernel(kernel_path_[job.lane], lists_[job.lane], job.from);
+      job.lanes = kernel.classify(weights_);
+      open_[open] = static_cast<std::uint32_t>(i);
+      if constexpr (Visitor::wants_order) {
+        const typename Kernel::Crossing crossing = kernel.crossing();
+        hn::Store(crossing.height, d, crossings_[open].height.data());
+        hn::Store(crossing.height_radius, d, crossings_[open].height_radius.data());
+        hn::Store(crossing.det, d, crossings_[open].det.data());
+        det_radius_[open] = crossing.det_radius;
+      }
+      open += job.lanes.possible != 0 ? 1 : 0;
+    }
+    if constexpr (Visitor::wants_order) {
+      for (std::size_t i = 0; i < open; ++i) {
+        Job& job = jobs_[open_[i]];
+        const auto& [height, height_radius, det] = crossings_[i];
+        job.first = Kernel::first_of(
+            {hn::Load(d, height.data()), hn::Load(d, height_radius.data()), hn::Load(d, det.data()), det_radius_[i]},
+            job.lanes.certain, visitors_[job.lane].t_upper());
+      }
+    }
+    return open;
   }
 
   HWY_INLINE void end_lanes(std::uint32_t ended) {
+    walking_ &= ~ended;
     for (; ended != 0; ended &= ended - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(ended));
-      if (!visits_[lane]) continue;
-      finish_(index_[lane], visits_[lane]->visitor);
-      visits_[lane].reset();
+      finish_(index_[lane], visitors_[lane]);
+      visitors_[lane].reset();
     }
   }
 
   WalkingPaths placed_ = {};  ///< paths that are placed together
+  KernelLanes placed_kernel_paths_ = {};
   WalkingPaths lanes_ = {};
   const Query<float>& query_;
   const PathRange<float>& range_;
   RangeWeights<float> weights_;
   LaneWalk walk_;
   std::span<const AnyPath> paths_;
-  const Finish& finish_;
+  Finish& finish_;
   const Alone& alone_;
   std::size_t next_ = 0;          ///< the first path that is not placed yet
   std::size_t placed_first_ = 0;  ///< the first of `placed_`,
   std::uint32_t waiting_ = 0;     ///< of `placed_`, still to be walked
+  std::uint32_t walking_ = 0;     ///< lanes that hold a path
   std::array<std::size_t, most_lanes> index_ = {};
-  std::array<std::optional<Visit>, most_lanes> visits_;
+  std::array<KernelPath<float>, most_lanes> kernel_path_;
+  std::array<Visitor, most_lanes> visitors_;
+  std::array<TriangleList<float>, most_lanes> lists_;
+  static constexpr std::size_t job_room = most_jobs + most_at_once / hn::MaxLanes(hn::ScalableTag<float>());
+  std::array<Job, job_room> jobs_;
+  std::array<std::uint32_t, job_room> open_;                             ///< jobs to be gone into,
+  std::array<Crossing, Visitor::wants_order ? job_room : 0> crossings_;  ///< and where their paths cross
+  std::array<float, Visitor::wants_order ? job_room : 0> det_radius_;
 };
 
 #endif  // HWY_TARGET != HWY_SCALAR
 
+/// Turns what `FirstHit` kept of the batch's paths into hits, as many at a time as a vector has doubles. What they
+/// cannot tell goes through the narrowphase one by one.
+template <typename AnyPath>
+class BatchRounding {
+ public:
+  BatchRounding(const Query<float>& query, const PathRange<float>& range, std::span<const AnyPath> paths,
+                std::span<Hit<float>> hits)
+      : query_(query), range_(range), paths_(paths), hits_(hits) {}
+
+  HWY_INLINE void add(std::size_t index, FirstHit<float>& first) {
+    const Path<float> path(paths_[index]);
+    if (!first.is_located_only()) {
+      hits_[index] = first.hit(query_, Narrowphase<float>(path, query_.options, range_, query_.statistics));
+      return;
+    }
+    const Triangle<float>& triangle = first.triangle();
+    index_[count_] = index;
+    id_[count_] = first.id(query_);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      coordinates_[axis][count_] = path.start[k];
+      coordinates_[3 + axis][count_] = path.toward[k];
+      coordinates_[6 + axis][count_] = triangle.a[k];
+      coordinates_[9 + axis][count_] = triangle.b[k];
+      coordinates_[12 + axis][count_] = triangle.c[k];
+    }
+    if (++count_ == hn::Lanes(DoubleTag())) flush();
+  }
+
+  HWY_NOINLINE void flush() {
+    if (count_ == 0) return;
+    const DoubleTag d;
+    const FloatTag df;
+    const auto vectors = [&](std::size_t first) -> Vectors<DoubleTag> {
+      const auto load = [&](std::size_t i) { return hn::PromoteTo(d, hn::Load(df, coordinates_[i].data())); };
+      return {load(first), load(first + 1), load(first + 2)};
+    };
+    const Vectors<DoubleTag> start = vectors(0);
+    Vectors<DoubleTag> direction = vectors(3);
+    if (Path<float>(paths_.front()).has_end()) {
+      direction = {hn::Sub(direction.x, start.x), hn::Sub(direction.y, start.y), hn::Sub(direction.z, start.z)};
+    }
+    const RoundedHits<DoubleTag> rounded(d, start, direction, vectors(6), vectors(9), vectors(12));
+    std::array<float, most> t;
+    std::array<float, most> u;
+    std::array<float, most> v;
+    hn::StoreU(rounded.t, df, t.data());
+    hn::StoreU(rounded.u, df, u.data());
+    hn::StoreU(rounded.v, df, v.data());
+    for (std::size_t i = 0; i < count_; ++i) {
+      if ((rounded.rounded >> i & 1) != 0) {
+        hits_[index_[i]] = {t[i], u[i], v[i], id_[i], (rounded.front >> i & 1) != 0 ? Side::front : Side::back};
+      } else {
+        round_alone(i);
+      }
+    }
+    count_ = 0;
+  }
+
+ private:
+  using DoubleTag = hn::CappedTag<double, 8>;
+  using FloatTag = hn::Rebind<float, DoubleTag>;
+  /// As many as the widest instruction set of today has doubles.
+  static constexpr std::size_t most = 8;
+
+  HWY_NOINLINE void round_alone(std::size_t i) {
+    const Path<float> path(paths_[index_[i]]);
+    const Narrowphase<float> narrowphase(path, query_.options, range_, query_.statistics);
+    Candidate<float> candidate{id_[i], query_.mesh.triangle(id_[i]), {}};
+    if (narrowphase.find_contact(candidate.triangle, candidate.contact)) hits_[index_[i]] = narrowphase.hit(candidate);
+  }
+
+  const Query<float>& query_;
+  const PathRange<float>& range_;
+  std::span<const AnyPath> paths_;
+  std::span<Hit<float>> hits_;
+  std::size_t count_ = 0;
+  /// Of the path's start and end or direction, and of the triangle's corners. Beyond the last hit anything finite.
+  alignas(64) std::array<std::array<float, most>, 15> coordinates_ = {};
+  std::array<std::size_t, most> index_;
+  std::array<std::uint32_t, most> id_;
+};
+
 /// Answers all paths: side by side where there are lanes and the grid's frame is one of floats, else one by one.
 template <typename Visitor, typename AnyPath, typename Finish, typename Alone>
-HWY_INLINE void answer_each(const Query<float>& query, std::span<const AnyPath> paths,
-                            [[maybe_unused]] const Finish& finish, const Alone& alone) {
-  if (paths.empty() || query.grid.is_empty()) return;
+HWY_INLINE void answer_each(const Query<float>& query, [[maybe_unused]] const PathRange<float>& range,
+                            std::span<const AnyPath> paths, [[maybe_unused]] Finish& finish, const Alone& alone) {
+  if (query.grid.is_empty()) return;
 #if HWY_TARGET != HWY_SCALAR
-  const PathRange<float> range(paths.front(), query.options);
   if (query.grid.frame().has_floats && !range.is_empty()) {
     Batch<Visitor, AnyPath, Finish, Alone>(query, range, paths, finish, alone).run();
     return;
@@ -216,21 +372,27 @@ HWY_INLINE void answer_each(const Query<float>& query, std::span<const AnyPath> 
 template <typename AnyPath>
 void find_each_first(const Query<float>& query, std::span<const AnyPath> paths, std::span<Hit<float>> hits) {
   std::fill_n(hits.begin(), paths.size(), Hit<float>{});
-  const auto finish = [&](std::size_t index, const FirstHit<float>& first) {
-    if (first.is_found()) hits[index] = first.hit();
+  if (paths.empty()) return;
+  const PathRange<float> range(paths.front(), query.options);
+  BatchRounding<AnyPath> rounding(query, range, paths, hits);
+  const auto finish = [&](std::size_t index, FirstHit<float>& first) {
+    if (first.is_found()) rounding.add(index, first);
   };
   const auto alone = [&](std::size_t index) {
     hits[index] = find_first<float>(query, paths[index]).value_or(Hit<float>{});
   };
-  answer_each<FirstHit<float>>(query, paths, finish, alone);
+  answer_each<FirstHit<float>>(query, range, paths, finish, alone);
+  rounding.flush();
 }
 
 template <typename AnyPath>
 void find_each_any(const Query<float>& query, std::span<const AnyPath> paths, std::span<std::uint8_t> blocked) {
   std::fill_n(blocked.begin(), paths.size(), std::uint8_t{0});
+  if (paths.empty()) return;
+  const PathRange<float> range(paths.front(), query.options);
   const auto finish = [&](std::size_t index, const AnyHit<float>& any) { blocked[index] = any.is_done() ? 1 : 0; };
   const auto alone = [&](std::size_t index) { blocked[index] = find_any<float>(query, paths[index]) ? 1 : 0; };
-  answer_each<AnyHit<float>>(query, paths, finish, alone);
+  answer_each<AnyHit<float>>(query, range, paths, finish, alone);
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE

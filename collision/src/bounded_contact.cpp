@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "double_kernel-inl.hpp"
 #include "kernel_bound.hpp"
 
 namespace surehit::detail {
 namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
 
 using BoundedVector = std::array<Bounded, 3>;
 
@@ -76,55 +79,37 @@ BoundedContact decide(const Determinants& of, const Path<Scalar>& path, const Pa
   return result;
 }
 
-using DoubleVector = std::array<double, 3>;
+/// One pair at a time: a lane of the baseline's.
+using OneLane = hn::CappedTag<double, 1>;
+using OneVector = HWY_NAMESPACE::Vectors<OneLane>;
 
 template <typename Scalar>
-DoubleVector double_difference(const Vector3<Scalar>& x, const Vector3<Scalar>& y) {
-  return {double{x[0]} - double{y[0]}, double{x[1]} - double{y[1]}, double{x[2]} - double{y[2]}};
+OneVector lane_of(const Vector3<Scalar>& x) {
+  const OneLane d;
+  return {hn::Set(d, double{x[0]}), hn::Set(d, double{x[1]}), hn::Set(d, double{x[2]})};
 }
-
-DoubleVector cross(const DoubleVector& x, const DoubleVector& y) {
-  return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-}
-
-double dot(const DoubleVector& x, const DoubleVector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
-
-double size(const DoubleVector& x) { return std::max({std::fabs(x[0]), std::fabs(x[1]), std::fabs(x[2])}); }
 
 }  // namespace
 
 template <typename Scalar>
 BoundedContact double_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
                               const PathRange<Scalar>& range) {
-  using Bound = KernelBound<double>;
-  const DoubleVector d = path.has_end()
-                             ? double_difference<Scalar>(path.toward, path.start)
-                             : DoubleVector{double{path.toward[0]}, double{path.toward[1]}, double{path.toward[2]}};
-  const DoubleVector e1 = double_difference<Scalar>(triangle.b, triangle.a);
-  const DoubleVector e2 = double_difference<Scalar>(triangle.c, triangle.a);
-  const DoubleVector s = double_difference<Scalar>(path.start, triangle.a);
-  const double d_size = size(d);
-  const double e1_size = size(e1);
-  const double e2_size = size(e2);
-  const double s_size = size(s);
-  const double largest = std::max({d_size, e1_size, e2_size, s_size});
   const double first = range.first > -PathRange<Scalar>::infinity ? double{range.first} : 0;
   const double last = range.last < PathRange<Scalar>::infinity ? double{range.last} : 0;
-  const double largest_limit = std::max(std::fabs(first), std::fabs(last));
-  if (!(largest <= Bound::largest_size && largest_limit <= Bound::largest_limit)) return {};
-
-  const DoubleVector p = cross(d, e2);
-  const DoubleVector q = cross(s, e1);
-  const double det = dot(e1, p);
-  const double height = dot(e2, q);
-  const double u = dot(s, p);
-  const double v = dot(d, q);
-  const double underflow = (1 + largest) * Bound::underflow;
-  const double det_size = d_size * e1_size * e2_size;
-  const double height_size = s_size * e1_size * e2_size;
-  const double u_size = s_size * d_size * e2_size;
-  const double v_size = s_size * d_size * e1_size;
-  const auto bounded = [&](double value, double sizes) { return Bounded{value, Bound::relative * sizes + underflow}; };
+  if (!(std::max(std::fabs(first), std::fabs(last)) <= KernelBound<double>::largest_limit)) return {};
+  const OneLane d;
+  const OneVector start = lane_of<Scalar>(path.start);
+  const OneVector toward = lane_of<Scalar>(path.toward);
+  const OneVector direction =
+      path.has_end() ? OneVector{hn::Sub(toward.x, start.x), hn::Sub(toward.y, start.y), hn::Sub(toward.z, start.z)}
+                     : toward;
+  const HWY_NAMESPACE::DoubleDeterminants<OneLane> of(d, start, direction, lane_of<Scalar>(triangle.a),
+                                                      lane_of<Scalar>(triangle.b), lane_of<Scalar>(triangle.c));
+  const auto number = [](auto lane) { return hn::GetLane(lane); };
+  const auto bounded = [&](double value, double sizes) { return Bounded{value, number(of.radius(hn::Set(d, sizes)))}; };
+  const double det = number(of.det), height = number(of.height), u = number(of.u), v = number(of.v);
+  const double det_size = number(of.det_size), height_size = number(of.height_size);
+  const double u_size = number(of.u_size), v_size = number(of.v_size);
   return decide({bounded(det, det_size), bounded(height, height_size), bounded(u, u_size), bounded(v, v_size),
                  bounded(det - u - v, det_size + u_size + v_size),
                  bounded(height - first * det, height_size + std::fabs(first) * det_size),
@@ -155,28 +140,21 @@ BoundedContact bounded_contact(const Path<Scalar>& path, const Triangle<Scalar>&
   return decide(of, path, range);
 }
 
-// With n, r_n and d, r_d the values and radii: |N/D - n/d| <= (r_n + |n/d| r_d) / (|d| - r_d). The inverse of d is off
-// by u of itself, q = n (1/d) by 2 u |q|, the sums and the other inverse by a few u of themselves, and q - e and q + e
-// by u
-// (|q| + e), all of which the factor and the term 2^-51 |q| cover. A q that underflows is off by 2^-1075 besides, which
-// r_d / (|d| - r_d) may enlarge, so it counts with |q|; 2^-1070 is for what underflows after it. The inverse itself
-// must not: beyond `largest_denominator` nothing is told.
-constexpr double largest_denominator = 0x1p1000;
-
-BoundedQuotients::BoundedQuotients(const Bounded& denominator)
-    : inverse_(1 / denominator.value),
-      radius_(denominator.radius),
-      greatest_inverse_(std::fabs(denominator.value) <= largest_denominator
-                            ? 1 / (std::fabs(denominator.value) - denominator.radius)
-                            : std::numeric_limits<double>::infinity()) {}
+BoundedQuotients::BoundedQuotients(const Bounded& denominator) {
+  const OneLane d;
+  const auto by =
+      HWY_NAMESPACE::Quotients<OneLane>::by(d, hn::Set(d, denominator.value), hn::Set(d, denominator.radius));
+  inverse_ = hn::GetLane(by.inverse);
+  radius_ = denominator.radius;
+  greatest_inverse_ = hn::GetLane(by.greatest_inverse);
+}
 
 std::array<double, 2> BoundedQuotients::of(const Bounded& numerator) const {
   if (numerator.value == 0 && numerator.radius == 0) return {0, 0};
-  const double quotient = numerator.value * inverse_;
-  const double size = std::fabs(quotient);
-  const double error = (numerator.radius + (size + 0x1p-1074) * radius_) * greatest_inverse_;
-  const double bound = error * radius_growth + size * 0x1p-51 + radius_underflow;
-  return {quotient - bound, quotient + bound};
+  const OneLane d;
+  const HWY_NAMESPACE::Quotients<OneLane> by{hn::Set(d, inverse_), hn::Set(d, radius_), hn::Set(d, greatest_inverse_)};
+  const auto interval = by.of(hn::Set(d, numerator.value), hn::Set(d, numerator.radius));
+  return {hn::GetLane(interval.lower), hn::GetLane(interval.upper)};
 }
 
 template BoundedContact double_contact(const Path<float>&, const Triangle<float>&, const PathRange<float>&);

@@ -187,8 +187,10 @@ void Collider<Scalar>::find_each_first(std::span<const AnyPath> paths, std::span
              if constexpr (std::is_same_v<Scalar, float>) {
                detail::first_hits(query(nullptr, options, nullptr, of_task), paths.subspan(first, count), &hits[first]);
              } else {
+               const detail::Query<Scalar> asked = query(nullptr, options, nullptr, of_task);
                for (std::size_t i = first; i < first + count; ++i) {
-                 hits[i] = find_first(paths[i], nullptr, options, &of_task).value_or(Hit<Scalar>{});
+                 const std::optional<Hit<Scalar>> hit = detail::first_hit(asked, Path<Scalar>(paths[i]));
+                 hits[i] = hit ? *hit : Hit<Scalar>{};
                }
              }
            });
@@ -205,8 +207,9 @@ void Collider<Scalar>::find_each_any(std::span<const AnyPath> paths, std::span<s
                detail::any_hits(query(nullptr, options, nullptr, of_task), paths.subspan(first, count),
                                 &blocked[first]);
              } else {
+               const detail::Query<Scalar> asked = query(nullptr, options, nullptr, of_task);
                for (std::size_t i = first; i < first + count; ++i) {
-                 blocked[i] = find_any(paths[i], nullptr, options, &of_task) ? 1 : 0;
+                 blocked[i] = detail::any_hit(asked, Path<Scalar>(paths[i])) ? 1 : 0;
                }
              }
            });

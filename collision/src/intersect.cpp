@@ -15,7 +15,7 @@ std::optional<Hit<Scalar>> intersect(const std::type_identity_t<Path<Scalar>>& p
   if (!detail::is_finite(whole) || range.is_empty() || !detail::is_finite(triangle)) return std::nullopt;
   const detail::Narrowphase<Scalar> narrowphase(whole, options, range, statistics);
   detail::Candidate<Scalar> candidate{0, triangle, {}};
-  if (!narrowphase.find_contact(triangle, candidate.bounded)) return std::nullopt;
+  if (!narrowphase.find_contact(triangle, candidate.contact)) return std::nullopt;
   return narrowphase.hit(candidate);
 }
 

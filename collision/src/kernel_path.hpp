@@ -15,10 +15,9 @@ struct KernelPath {
   Scalar start[3];
   Scalar d[3];
   Scalar d_size;  ///< D's largest component; infinite where sizes might overflow, so that nothing is certain
-  const RangeWeights<Scalar>& range;
 
-  /// The weights outlive the path.
-  KernelPath(const Path<Scalar>& path, const RangeWeights<Scalar>& weights) : range(weights) {
+  KernelPath() = default;
+  explicit KernelPath(const Path<Scalar>& path) {
     Scalar start_size = 0;
     d_size = 0;
     for (int axis = 0; axis < 3; ++axis) {

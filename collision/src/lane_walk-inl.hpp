@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "kernel_path.hpp"
 #include "lane_bits-inl.hpp"
 #include "surehit/grid_traversal.hpp"
 
@@ -73,6 +74,23 @@ struct alignas(most_lanes * sizeof(float)) WalkingPaths {
   }
 };
 
+/// The same paths as the kernel takes them.
+struct alignas(most_lanes * sizeof(float)) KernelLanes {
+  std::array<LaneFloats, 3> start;
+  std::array<LaneFloats, 3> d;
+  LaneFloats d_size;
+
+  [[nodiscard]] KernelPath<float> at(std::size_t lane) const {
+    KernelPath<float> path;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      path.start[axis] = start[axis][lane];
+      path.d[axis] = d[axis][lane];
+    }
+    path.d_size = d_size[lane];
+    return path;
+  }
+};
+
 /// What places and walks the lanes of one grid, whose frame must be one of floats.
 class LaneWalk {
  public:
@@ -95,7 +113,7 @@ class LaneWalk {
   /// Places paths of six floats each, start and end or direction, of which all lanes' can be read and `count` are
   /// there. The bound is derived in grid_traversal.cpp: starts within one width of the grid, in float.
   HWY_INLINE Placed place(const float* paths, bool is_segment, float first_t, float last_t, std::size_t count,
-                          WalkingPaths& placed) const {
+                          WalkingPaths& placed, KernelLanes& kernel_paths) const {
     const FloatTag d;
     const BitsTag du;
     // Each half holds starts and ends by turns.
@@ -107,6 +125,8 @@ class LaneWalk {
     Floats enters = hn::Set(d, first_t);
     Floats leaves = hn::Set(d, last_t);
     Floats fastest = zero;
+    Floats start_size = zero;
+    Floats way_size = zero;
     Floats first_cell = zero;
     Words octant = hn::Zero(du);
     Floats from[3];
@@ -118,10 +138,15 @@ class LaneWalk {
       const Floats stop = hn::Set(d, stop_[k]);
       const Floats start = hn::ConcatEven(d, far_half[k], near_half[k]);
       const Floats toward = hn::ConcatOdd(d, far_half[k], near_half[k]);
-      const Floats move = hn::Mul(is_segment ? hn::Sub(toward, start) : toward, scale);
+      const Floats way = is_segment ? hn::Sub(toward, start) : toward;
+      const Floats move = hn::Mul(way, scale);
       const Floats place =
           hn::MulAdd(hn::Sub(start, hn::Set(d, frame.float_low[k])), scale, hn::Set(d, frame.margin[k]));
       is_near = hn::And(is_near, hn::And(hn::Ge(place, hn::Neg(stop)), hn::Le(place, hn::Add(stop, stop))));
+      hn::Store(start, d, kernel_paths.start[k].data());
+      hn::Store(way, d, kernel_paths.d[k].data());
+      start_size = hn::Max(start_size, hn::Abs(start));
+      way_size = hn::Max(way_size, hn::Abs(way));
       const auto falls = hn::Lt(move, zero);
       from[k] = hn::IfThenElse(falls, hn::Sub(stop, place), place);
       const Floats speed = hn::Abs(move);
@@ -142,6 +167,10 @@ class LaneWalk {
       first_cell = hn::IfThenElse(falls, hn::Add(first_cell, turned), first_cell);
       octant = hn::Or(octant, hn::IfThenElseZero(hn::RebindMask(du, falls), hn::Set(du, 1U << k)));
     }
+    const auto fits = hn::And(hn::Le(start_size, hn::Set(d, KernelBound<float>::largest_size / 2)),
+                              hn::Le(way_size, hn::Set(d, KernelBound<float>::largest_size)));
+    hn::Store(hn::IfThenElse(fits, way_size, hn::Set(d, std::numeric_limits<float>::infinity())), d,
+              kernel_paths.d_size.data());
     auto is_plain = is_near;
     if (!is_segment) is_plain = hn::And(is_plain, hn::Ge(fastest, hn::Set(d, PlacedPath::slow)));
     const auto taken = hn::FirstN(d, count);
@@ -161,6 +190,33 @@ class LaneWalk {
     hn::Store(octant, du, placed.octant.data());
     return {static_cast<std::uint32_t>(bits_of(d, inside)),
             static_cast<std::uint32_t>(bits_of(d, hn::AndNot(is_plain, taken)))};
+  }
+
+  /// Cuts a path into pieces, one after the other, one for each lane. To begin a walk at some tau is to go on with it
+  /// there: the place is rounded as in any step.
+  HWY_INLINE void cut(const PlacedPath& path, WalkingPaths& pieces) const {
+    const FloatTag d;
+    const std::size_t last_lane = hn::Lanes(d) - 1;
+    const Floats length = hn::Set(d, std::min(path.end, path.exit) / static_cast<float>(last_lane + 1));
+    const Floats whole = hn::Set(d, path.end);
+    const Floats begin = hn::Mul(hn::Iota(d, 0.0F), length);
+    const Floats end = hn::Mul(hn::Iota(d, 1.0F), length);  // where the next one begins
+    hn::Store(hn::IfThenElse(hn::FirstN(d, last_lane), hn::Min(end, whole), whole), d, pieces.end.data());
+    float first_cell = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool falls = (path.octant >> axis & 1) != 0;
+      const Floats start = hn::Set(d, path.start[axis]);
+      const Floats rate = hn::Set(d, path.rate[axis]);
+      const Floats last = hn::Set(d, stop_[axis] * (1 - 0x1p-24F));
+      hn::Store(start, d, pieces.start[axis].data());
+      hn::Store(rate, d, pieces.rate[axis].data());
+      hn::Store(hn::Set(d, path.inverse_rate[axis]), d, pieces.inverse_rate[axis].data());
+      hn::Store(hn::Floor(hn::Min(hn::MulAdd(begin, rate, start), last)), d, pieces.finest[axis].data());
+      hn::Store(hn::Set(d, falls ? -pitch_[axis] : pitch_[axis]), d, pieces.pitch[axis].data());
+      if (falls) first_cell += pitch_[axis] * static_cast<float>(grid_.frame().cells[axis] - 1);
+    }
+    hn::Store(hn::Set(d, first_cell), d, pieces.first_cell.data());
+    hn::Store(hn::Set(BitsTag(), path.octant), BitsTag(), pieces.octant.data());
   }
 
   /// What the cells hold in which the walking lanes stand, undivided ones, and these cells' low corners and edges.
@@ -216,6 +272,42 @@ class LaneWalk {
       }
     }
     return cells;
+  }
+
+  /// Of lanes that stand in cells with lists, those whose path passes through the box that the list's triangles take up
+  /// there; as `GridTraversal::meets_box`.
+  HWY_INLINE std::uint32_t meet_boxes(const Cells& cells, std::uint32_t standing, const WalkingPaths& paths) const {
+    const FloatTag d;
+    const IntTag di;
+    const BitsTag du;
+    const auto stands = mask_of(du, standing);
+    const auto* boxes = reinterpret_cast<const std::uint32_t*>(grid_.boxes().data());
+    const Words offset = hn::IfThenElseZero(stands, hn::ShiftRight<9>(cells.word));
+    const Words box = hn::GatherIndex(du, boxes, hn::BitCast(di, offset));
+    const Words octant = hn::Load(du, paths.octant.data());
+    const Words last_part = hn::Set(du, CellBox::parts - 1);
+    const Floats part = hn::Mul(cells.size, hn::Set(d, 1.0F / CellBox::parts));
+    Floats enters = hn::Zero(d);
+    Floats leaves = hn::Load(d, paths.end.data());
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<std::size_t>(axis);
+      const auto falls = hn::Ne(hn::And(octant, hn::Set(du, 1U << axis)), hn::Zero(du));
+      const Words low = hn::And(hn::ShiftRightSame(box, 10 * axis), last_part);
+      const Words high = hn::And(hn::ShiftRightSame(box, 10 * axis + 5), last_part);
+      const Words first = hn::IfThenElse(falls, hn::Xor(high, last_part), low);
+      const Words last = hn::IfThenElse(falls, hn::Xor(low, last_part), high);
+      const auto place = [&](Words sides, Floats from) {
+        return hn::MulAdd(hn::ConvertTo(d, hn::BitCast(di, sides)), part, from);
+      };
+      const Floats padding = hn::Set(d, grid_.frame().padding(k));
+      const Floats start = hn::Load(d, paths.start[k].data());
+      const Floats inverse = hn::Load(d, paths.inverse_rate[k].data());
+      const Floats near = place(first, hn::Sub(cells.low[k], padding));
+      const Floats far = place(last, hn::Add(cells.low[k], hn::Add(part, padding)));
+      enters = hn::Max(enters, hn::Mul(hn::Sub(near, start), inverse));
+      leaves = hn::Min(leaves, hn::Mul(hn::Sub(far, start), inverse));
+    }
+    return static_cast<std::uint32_t>(bits_of(d, hn::Le(enters, leaves))) & standing;
   }
 
   /// Steps the walking lanes beyond their cells, or beyond the cubes of empty cells that begin with them. Returns those

@@ -36,8 +36,7 @@ void MeshBlocks<Scalar>::rebuild(const TriangleMeshView<Scalar>& mesh, const Gri
 
 template <typename Scalar>
 void MeshBlocks<Scalar>::fill_blocks(const Grid& grid, const Executor* executor) {
-  blocks_.resize(coordinates * grid.entries().size() + slack);
-  edge_sizes_.resize(grid.entries().size() / 4);
+  blocks_.resize(grid.entries().size() / granule * granule_size + slack);
   Scalar largest = 0;
   for (const Vector3<Scalar>& vertex : vertices_) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
   const bool too_large = !(largest <= detail::KernelBound<Scalar>::largest_size / 2);
@@ -47,7 +46,8 @@ void MeshBlocks<Scalar>::fill_blocks(const Grid& grid, const Executor* executor)
     if (word.is_empty() || word.is_divided()) return;
     const std::span<const std::uint32_t> ids = grid.triangles(word);
     const std::size_t first = grid.first_entry(word);
-    Scalar* block = blocks_.data() + coordinates * first;
+    Scalar* edge_size = blocks_.data() + first / granule * granule_size;
+    Scalar* list = edge_size + 1;
     Four longest = Four::Zero();
     for (std::size_t i = 0; i < ids.size(); i += 4) {
       std::array<FourPoints, 3> corners;
@@ -61,7 +61,7 @@ void MeshBlocks<Scalar>::fill_blocks(const Grid& grid, const Executor* executor)
       for (std::size_t corner = 0; corner < 3; ++corner) {
         corners[corner].transposeInPlace();
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          Eigen::Map<Four>(block + (3 * corner + axis) * ids.size() + i) =
+          Eigen::Map<Four>(list + (3 * corner + axis) * ids.size() + i) =
               corners[corner].col(static_cast<Eigen::Index>(axis));
         }
       }
@@ -71,7 +71,7 @@ void MeshBlocks<Scalar>::fill_blocks(const Grid& grid, const Executor* executor)
         }
       }
     }
-    edge_sizes_[first / 4] = too_large ? std::numeric_limits<Scalar>::infinity() : longest.maxCoeff();
+    *edge_size = too_large ? std::numeric_limits<Scalar>::infinity() : longest.maxCoeff();
   };
   for (const std::span<const CellWord> words : {grid.top(), grid.bricks()}) {
     detail::in_parts(executor, words.size(), cells_in_a_part, [&](std::size_t first, std::size_t last) {
@@ -94,7 +94,7 @@ TriangleMeshView<Scalar> MeshBlocks<Scalar>::view_with(const VertexView<Scalar>&
 template <typename Scalar>
 std::size_t MeshBlocks<Scalar>::memory_bytes() const noexcept {
   return vertices_.capacity() * sizeof(Vector3<Scalar>) + corners_.capacity() * sizeof(corners_.front()) +
-         (blocks_.capacity() + edge_sizes_.capacity()) * sizeof(Scalar);
+         blocks_.capacity() * sizeof(Scalar);
 }
 
 template class MeshBlocks<float>;

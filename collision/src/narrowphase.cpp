@@ -1,5 +1,6 @@
 #include "narrowphase.hpp"
 
+#include "bounded_contact.hpp"
 #include "exact_contact.hpp"
 
 namespace surehit::detail {
@@ -37,22 +38,23 @@ bool try_round(const BoundedContact& bounded, Hit<Scalar>& hit) {
 }  // namespace
 
 template <typename Scalar>
-bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, BoundedContact& found) const {
-  found = double_contact(path_, triangle, range_);
-  if (found.verdict == Verdict::miss) return false;
-  if (found.verdict == Verdict::undecided && !find_exactly(triangle, found)) return false;
-  return admits(found.contact);
+bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact& found) const {
+  const BoundedContact bounded = double_contact(path_, triangle, range_);
+  if (bounded.verdict == Verdict::miss) return false;
+  found = bounded.contact;
+  if (bounded.verdict == Verdict::undecided && !find_exactly(triangle, found)) return false;
+  return admits(found);
 }
 
 // Apart, and so are the other two exact steps: their frames are large, and those of the grid's walk lie above them.
 template <typename Scalar>
-[[gnu::noinline]] bool Narrowphase<Scalar>::find_exactly(const Triangle<Scalar>& triangle,
-                                                         BoundedContact& found) const {
-  found = bounded_contact(path_, triangle, range_);
-  if (found.verdict != Verdict::undecided) return found.verdict == Verdict::hit;
+[[gnu::noinline]] bool Narrowphase<Scalar>::find_exactly(const Triangle<Scalar>& triangle, Contact& found) const {
+  const BoundedContact bounded = bounded_contact(path_, triangle, range_);
+  found = bounded.contact;
+  if (bounded.verdict != Verdict::undecided) return bounded.verdict == Verdict::hit;
   ++statistics_.exact_decisions;
   const std::optional<Contact> contact = exact_contact(path_, triangle, range_);
-  if (contact) found.contact = *contact;
+  if (contact) found = *contact;
   return contact.has_value();
 }
 
@@ -67,11 +69,10 @@ bool Narrowphase<Scalar>::admits(const Contact& contact) const {
 
 template <typename Scalar>
 bool Narrowphase<Scalar>::comes_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const {
-  if (x.contact().t_upper < y.contact().t_lower) return true;
-  if (y.contact().t_upper < x.contact().t_lower) return false;
+  if (x.contact.t_upper < y.contact.t_lower) return true;
+  if (y.contact.t_upper < x.contact.t_lower) return false;
   // The usual tie in a level: floors that lie on floors. Where both sides are certain, both are crossed.
-  if (x.contact().side != Side::edge_on && y.contact().side != Side::edge_on &&
-      share_axis_plane(x.triangle, y.triangle)) {
+  if (x.contact.side != Side::edge_on && y.contact.side != Side::edge_on && share_axis_plane(x.triangle, y.triangle)) {
     return x.id < y.id;
   }
   return exactly_before(x, y);
@@ -89,8 +90,8 @@ template <typename Scalar>
 Hit<Scalar> Narrowphase<Scalar>::hit(const Candidate<Scalar>& candidate) const {
   Hit<Scalar> hit;
   hit.triangle = candidate.id;
-  hit.side = candidate.contact().side;
-  if (!try_round(candidate.bounded, hit)) round_exactly(candidate, hit);
+  hit.side = candidate.contact.side;
+  if (!try_round(double_contact(path_, candidate.triangle, range_), hit)) round_exactly(candidate, hit);
   return hit;
 }
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "bounded_contact.hpp"
 #include "contact.hpp"
 #include "path_range.hpp"
 #include "surehit/hit.hpp"
@@ -19,9 +18,7 @@ template <typename Scalar>
 struct Candidate {
   std::uint32_t id = no_triangle;
   Triangle<Scalar> triangle;
-  BoundedContact bounded;  ///< its verdict is a hit, unless only the exact stage could tell
-
-  [[nodiscard]] const Contact& contact() const { return bounded.contact; }
+  Contact contact;
 };
 
 /// One path, asked against triangles that the kernel did not call misses: in double first, what that leaves undecided
@@ -34,7 +31,7 @@ class Narrowphase {
       : path_(path), options_(options), range_(range), statistics_(statistics) {}
 
   /// Fills in the contact, unless there is none or the options leave it out.
-  [[nodiscard]] bool find_contact(const Triangle<Scalar>& triangle, BoundedContact& found) const;
+  [[nodiscard]] bool find_contact(const Triangle<Scalar>& triangle, Contact& found) const;
 
   /// By exact t, then by id.
   [[nodiscard]] bool comes_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const;
@@ -44,7 +41,7 @@ class Narrowphase {
 
  private:
   [[nodiscard]] bool admits(const Contact& contact) const;
-  [[nodiscard]] bool find_exactly(const Triangle<Scalar>& triangle, BoundedContact& found) const;
+  [[nodiscard]] bool find_exactly(const Triangle<Scalar>& triangle, Contact& found) const;
   [[nodiscard]] bool exactly_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const;
   void round_exactly(const Candidate<Scalar>& candidate, Hit<Scalar>& hit) const;
 

@@ -11,10 +11,18 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <type_traits>
+#include <vector>
 
 #include "block_kernel-inl.hpp"
+#include "hit_rounding-inl.hpp"
 #include "kernel_path.hpp"
+#if HWY_TARGET != HWY_SCALAR  // which has no lanes
+#include "lane_walk-inl.hpp"
+#endif
 #include "narrowphase.hpp"
 #include "query.hpp"
 #include "surehit/grid_traversal.hpp"
@@ -22,65 +30,181 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// Keeps the first of the hits that it is shown.
+/// Whether no option, mask or filter can leave out a hit that the kernel is certain of.
+template <typename Scalar>
+bool counts_every_hit(const Query<Scalar>& query) {
+  const QueryOptions<Scalar>& options = query.options;
+  return query.filter == nullptr && query.masks.empty() && options.mask != 0 &&
+         options.ignored_triangle == no_triangle && options.culling == Culling::none && !options.ignore_start_contact &&
+         !options.ignore_end_contact;
+}
+
+/// Triangles of a list that the kernel does not say the path misses. `AnyPath` is what a Path is made of.
+template <typename Scalar, typename AnyPath>
+struct Meeting {
+  const Query<Scalar>& query;
+  const PathRange<Scalar>& range;
+  const AnyPath& path;
+  const KernelPath<Scalar>& kernel_path;
+  const TriangleList<Scalar>& list;
+  std::size_t from;  ///< the triangle of lane 0
+  Lanes lanes;
+  FirstLanes<Scalar> first;  ///< of the certain ones, where the visitor asks for it
+
+  [[nodiscard]] std::size_t entry(std::size_t lane) const { return list.first_entry + from + lane; }
+  [[nodiscard]] Triangle<Scalar> triangle(std::size_t lane) const {
+    return MeshBlocks<Scalar>::triangle(list.corners, list.count, from + lane);
+  }
+  /// Returns whether the path is shorter now.
+  template <typename Visitor>
+  HWY_NOINLINE bool show(std::uint64_t shown, Visitor& visitor) const {
+    const auto& shown_path = as_path(path);
+    const Narrowphase<Scalar> narrowphase(shown_path, query.options, range, query.statistics);
+    bool shorter = false;
+    for (; shown != 0 && !visitor.is_done(); shown &= shown - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(shown));
+      Candidate<Scalar> candidate{query.grid.entries()[entry(lane)], triangle(lane), {}};
+      shorter |= visitor.meet(query, narrowphase, candidate);
+    }
+    return shorter;
+  }
+
+ private:
+  static const Path<Scalar>& as_path(const Path<Scalar>& path) { return path; }
+  template <typename Other>
+  static Path<Scalar> as_path(const Other& path) {
+    return path;
+  }
+};
+
+/// Keeps the first of the hits that it is shown. Where the kernel is certain of a hit and of its place among the
+/// others, that is all it takes; the narrowphase sees the rest.
 template <typename Scalar>
 class FirstHit {
  public:
-  FirstHit(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase)
-      : query_(query), narrowphase_(narrowphase) {}
+  using Kernel = BlockKernel<Scalar>;
+  static constexpr bool wants_order = true;  ///< `Meeting::first`
 
-  /// Of a triangle that the kernel does not say the path misses: whether the path is of interest up to `limit()` only
-  /// now. `triangle()` fetches it.
-  HWY_NOINLINE bool meet(std::uint32_t id, bool /*certain*/, const auto& triangle) {
-    if (id == best_.id || !query_.takes_part(id)) return false;
-    Candidate<Scalar> candidate{id, triangle(), {}};
-    if (!narrowphase_.find_contact(candidate.triangle, candidate.bounded)) return false;
-    if (is_found() && !narrowphase_.comes_before(candidate, best_)) return false;
-    if (query_.filter != nullptr && !(*query_.filter)(narrowphase_.hit(candidate))) return false;
+  explicit FirstHit(const Query<Scalar>& query) : trusts_kernel_(counts_every_hit(query)) {}
+  void reset() {
+    state_ = State::none;
+    t_lower_ = t_upper_ = std::numeric_limits<Scalar>::infinity();
+  }
+
+  /// Whether the path is of interest up to `limit()` only now.
+  template <typename AnyPath>
+  HWY_INLINE bool meet(const Meeting<Scalar, AnyPath>& meeting) {
+    const FirstLanes<Scalar>& first = meeting.first;
+    std::uint64_t open = meeting.lanes.possible;
+    bool is_nearer = false;
+    if (trusts_kernel_) {
+      open &= ~meeting.lanes.certain;
+      const bool is_alone = std::has_single_bit(first.lanes);
+      const auto lane = static_cast<std::size_t>(std::countr_zero(first.lanes));
+      is_nearer = is_alone && first.t_upper < t_lower_;
+      if (is_nearer) {
+        state_ = State::located;
+        entry_ = meeting.entry(lane);
+        best_.triangle = meeting.triangle(lane);
+        t_lower_ = first.t_lower;
+        t_upper_ = first.t_upper;
+        hwy::Prefetch(meeting.query.grid.entries().data() + entry_);  // wanted when the path ends
+      } else if (first.t_lower <= t_upper_ && !(is_alone && is_best(meeting.query, meeting.entry(lane)))) {
+        open |= first.lanes;
+      }
+    }
+    return open != 0 ? is_nearer | meeting.show(open, *this) : is_nearer;
+  }
+
+  HWY_NOINLINE bool meet(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase,
+                         Candidate<Scalar>& candidate) {
+    if (!query.takes_part(candidate.id) || (is_found() && candidate.id == id(query))) return false;
+    if (!narrowphase.find_contact(candidate.triangle, candidate.contact)) return false;
+    if (is_found() && !narrowphase.comes_before(candidate, best(query, narrowphase))) return false;
+    if (query.filter != nullptr && !(*query.filter)(narrowphase.hit(candidate))) return false;
+    state_ = State::weighed;
     best_ = candidate;
+    t_lower_ = -beyond(-best_.contact.t_lower);
+    t_upper_ = beyond(best_.contact.t_upper);
     return true;
   }
-  [[nodiscard]] double limit() const { return best_.contact().t_upper; }
+  /// Nothing that begins after this t is of interest.
+  [[nodiscard]] Scalar t_upper() const { return t_upper_; }
+  [[nodiscard]] double limit() const { return state_ == State::weighed ? best_.contact.t_upper : double{t_upper_}; }
   [[nodiscard]] bool is_done() const { return false; }
 
-  [[nodiscard]] bool is_found() const { return best_.id != no_triangle; }
-  [[nodiscard]] Hit<Scalar> hit() const { return narrowphase_.hit(best_); }
+  [[nodiscard]] bool is_found() const { return state_ != State::none; }
+  /// Whether only the kernel has judged the best one.
+  [[nodiscard]] bool is_located_only() const { return state_ == State::located; }
+  [[nodiscard]] std::uint32_t id(const Query<Scalar>& query) const {
+    return state_ == State::weighed ? best_.id : query.grid.entries()[entry_];
+  }
+  [[nodiscard]] const Triangle<Scalar>& triangle() const { return best_.triangle; }
+  [[nodiscard]] Hit<Scalar> hit(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase) {
+    return narrowphase.hit(best(query, narrowphase));
+  }
 
  private:
-  const Query<Scalar>& query_;
-  const Narrowphase<Scalar>& narrowphase_;
-  Candidate<Scalar> best_;
+  enum class State : std::uint8_t {
+    none,
+    located,  ///< by the kernel alone
+    weighed,  ///< by the narrowphase
+  };
+
+  /// Most triangles are met again in the next cell.
+  [[nodiscard]] bool is_best(const Query<Scalar>& query, std::size_t entry) const {
+    return is_found() && query.grid.entries()[entry] == id(query);
+  }
+  const Candidate<Scalar>& best(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase) {
+    if (state_ == State::located && narrowphase.find_contact(best_.triangle, best_.contact)) {
+      best_.id = query.grid.entries()[entry_];
+      state_ = State::weighed;
+    }
+    return best_;
+  }
+  /// The same, rounded upward.
+  static Scalar beyond(double t) {
+    const auto rounded = static_cast<Scalar>(t);
+    return double{rounded} < t ? std::nextafter(rounded, std::numeric_limits<Scalar>::infinity()) : rounded;
+  }
+
+  State state_ = State::none;
+  bool trusts_kernel_;
+  std::size_t entry_ = 0;                                     ///< of a located one
+  Scalar t_lower_ = std::numeric_limits<Scalar>::infinity();  ///< the best one's t is in [t_lower_, t_upper_]
+  Scalar t_upper_ = std::numeric_limits<Scalar>::infinity();  //
+  /// Of a located one the triangle alone.
+  Candidate<Scalar> best_ = {
+      no_triangle, {Vector3<Scalar>::Zero(), Vector3<Scalar>::Zero(), Vector3<Scalar>::Zero()}, {}};
 };
 
 /// Is content with any hit.
 template <typename Scalar>
 class AnyHit {
  public:
-  AnyHit(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase)
-      : query_(query), narrowphase_(narrowphase), counts_certain_(counts_every_hit(query)) {}
+  using Kernel = BlockKernel<Scalar>;
+  static constexpr bool wants_order = false;
 
-  HWY_NOINLINE bool meet(std::uint32_t id, bool certain, const auto& triangle) {
-    if (certain && counts_certain_) return is_done_ = true;
-    if (!query_.takes_part(id)) return false;
-    Candidate<Scalar> candidate{id, triangle(), {}};
-    if (!narrowphase_.find_contact(candidate.triangle, candidate.bounded)) return false;
-    return is_done_ = query_.filter == nullptr || (*query_.filter)(narrowphase_.hit(candidate));
+  explicit AnyHit(const Query<Scalar>& query) : trusts_kernel_(counts_every_hit(query)) {}
+  void reset() { is_done_ = false; }
+
+  template <typename AnyPath>
+  HWY_INLINE bool meet(const Meeting<Scalar, AnyPath>& meeting) {
+    if (trusts_kernel_ && meeting.lanes.certain != 0) return is_done_ = true;
+    return meeting.show(meeting.lanes.possible, *this);
+  }
+
+  HWY_NOINLINE bool meet(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase,
+                         Candidate<Scalar>& candidate) {
+    if (!query.takes_part(candidate.id)) return false;
+    if (!narrowphase.find_contact(candidate.triangle, candidate.contact)) return false;
+    return is_done_ = query.filter == nullptr || (*query.filter)(narrowphase.hit(candidate));
   }
   [[nodiscard]] double limit() const { return 0; }
   [[nodiscard]] bool is_done() const { return is_done_; }
 
  private:
-  /// Whether no option, mask or filter can leave out a hit that the kernel is certain of.
-  static bool counts_every_hit(const Query<Scalar>& query) {
-    const QueryOptions<Scalar>& options = query.options;
-    return query.filter == nullptr && query.masks.empty() && options.mask != 0 &&
-           options.ignored_triangle == no_triangle && options.culling == Culling::none &&
-           !options.ignore_start_contact && !options.ignore_end_contact;
-  }
-
-  const Query<Scalar>& query_;
-  const Narrowphase<Scalar>& narrowphase_;
-  bool counts_certain_;
+  bool trusts_kernel_;
   bool is_done_ = false;
 };
 
@@ -88,75 +212,138 @@ class AnyHit {
 template <typename Scalar>
 class AllHits {
  public:
-  AllHits(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase)
-      : query_(query), narrowphase_(narrowphase) {}
+  using Kernel = BlockKernel<Scalar>;
+  static constexpr bool wants_order = false;
 
-  HWY_NOINLINE bool meet(std::uint32_t id, bool /*certain*/, const auto& triangle) {
-    if (!query_.takes_part(id)) return false;
-    Candidate<Scalar> candidate{id, triangle(), {}};
-    if (narrowphase_.find_contact(candidate.triangle, candidate.bounded)) found_.push_back(candidate);
+  template <typename AnyPath>
+  HWY_INLINE bool meet(const Meeting<Scalar, AnyPath>& meeting) {
+    return meeting.show(meeting.lanes.possible, *this);
+  }
+
+  HWY_NOINLINE bool meet(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase,
+                         Candidate<Scalar>& candidate) {
+    if (!query.takes_part(candidate.id)) return false;
+    if (narrowphase.find_contact(candidate.triangle, candidate.contact)) found_.push_back(candidate);
     return false;
   }
   [[nodiscard]] double limit() const { return 0; }
   [[nodiscard]] bool is_done() const { return false; }
 
   /// Those that the filter accepts, in order, each once.
-  void append_to(std::vector<Hit<Scalar>>& hits) {
+  void append_to(std::vector<Hit<Scalar>>& hits, const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase) {
     const auto same_id = [](const Candidate<Scalar>& x, const Candidate<Scalar>& y) { return x.id == y.id; };
     const auto by_id = [](const Candidate<Scalar>& x, const Candidate<Scalar>& y) { return x.id < y.id; };
     // A triangle is found once in every cell that lists it.
     std::sort(found_.begin(), found_.end(), by_id);
     found_.erase(std::unique(found_.begin(), found_.end(), same_id), found_.end());
     std::sort(found_.begin(), found_.end(),
-              [&](const Candidate<Scalar>& x, const Candidate<Scalar>& y) { return narrowphase_.comes_before(x, y); });
+              [&](const Candidate<Scalar>& x, const Candidate<Scalar>& y) { return narrowphase.comes_before(x, y); });
     for (const Candidate<Scalar>& candidate : found_) {
-      const Hit<Scalar> hit = narrowphase_.hit(candidate);
-      if (query_.filter == nullptr || (*query_.filter)(hit)) hits.push_back(hit);
+      const Hit<Scalar> hit = narrowphase.hit(candidate);
+      if (query.filter == nullptr || (*query.filter)(hit)) hits.push_back(hit);
     }
   }
 
  private:
-  const Query<Scalar>& query_;
-  const Narrowphase<Scalar>& narrowphase_;
   std::vector<Candidate<Scalar>> found_;
 };
 
-/// Fetches a cell's list into the cache.
+template <typename Scalar>
+HWY_INLINE TriangleList<Scalar> list_of(const Query<Scalar>& query, CellWord word) {
+  const std::size_t first = query.grid.first_entry(word);
+  return {query.mesh.corners(first), query.grid.entry_count(word), first, query.mesh.edge_size(first)};
+}
+
+/// Fetches the beginning of a list into the cache.
 template <typename Scalar>
 HWY_INLINE void prefetch_list(const Query<Scalar>& query, CellWord word) {
   constexpr std::size_t line = 64;
-  constexpr std::size_t most_lines = 16;
-  const std::size_t first = query.grid.first_entry(word);
-  const auto* block = reinterpret_cast<const std::uint8_t*>(query.mesh.block(first));
-  const std::size_t bytes = MeshBlocks<Scalar>::coordinates * query.grid.listed_entries(word) * sizeof(Scalar);
-  for (std::size_t i = 0; i < std::min(bytes, most_lines * line); i += line) hwy::Prefetch(block + i);
-  hwy::Prefetch(query.grid.entries().data() + first);
+  constexpr std::size_t lines = MeshBlocks<float>::coordinates * 16 * sizeof(float) / line;
+  const Scalar* corners = query.mesh.corners(query.grid.first_entry(word));
+  const std::size_t end = MeshBlocks<float>::coordinates * query.grid.listed_entries(word);
+  for (std::size_t i = 0; i < lines; ++i) hwy::Prefetch(corners + std::min(i * (line / sizeof(Scalar)), end));
 }
 
-/// Shows the visitor the triangles of a cell's list that the path may meet. Returns whether the path is shorter now.
-template <typename Scalar, typename Visitor>
-HWY_INLINE bool meet_list(const Query<Scalar>& query, const KernelPath<Scalar>& path, CellWord word, Visitor& visitor) {
-  const hn::ScalableTag<Scalar> d;
-  const std::size_t lane_count = hn::Lanes(d);
-  const std::size_t first = query.grid.first_entry(word);
-  const std::size_t count = query.grid.entry_count(word);
-  const Scalar* block = query.mesh.block(first);
-  const Scalar edge_size = query.mesh.edge_size(first);
+/// Shows the visitor the triangles of a list, from one of them on, that the path may meet. Returns whether the path is
+/// shorter now.
+template <typename Scalar, typename AnyPath, typename Visitor>
+HWY_INLINE bool meet_list(const Query<Scalar>& query, const PathRange<Scalar>& range, const AnyPath& path,
+                          const KernelPath<Scalar>& kernel_path, const RangeWeights<Scalar>& weights,
+                          const TriangleList<Scalar>& list, std::size_t from, Visitor& visitor) {
   bool shorter = false;
-  query.statistics.candidates += count;
-  for (std::size_t i = 0; i < count; i += lane_count) {
-    const std::size_t left = std::min(count - i, lane_count);
-    Lanes lanes = classify(path, block + i, count, left, edge_size);
-    query.statistics.undecided += static_cast<std::uint64_t>(std::popcount(lanes.possible & ~lanes.certain));
-    for (; lanes.possible != 0; lanes.possible &= lanes.possible - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes.possible));
-      const bool certain = (lanes.certain >> lane & 1) != 0;
-      shorter |= visitor.meet(query.grid.entries()[first + i + lane], certain,
-                              [&] { return MeshBlocks<Scalar>::triangle(block, count, i + lane); });
-      if (visitor.is_done()) return true;
+  for (; from < list.count; from += hn::Lanes(hn::ScalableTag<Scalar>())) {
+    FirstLanes<Scalar> first = {};
+    Lanes lanes;
+    if constexpr (Visitor::wants_order) {
+      lanes = classify<typename Visitor::Kernel>(kernel_path, weights, list, from, visitor.t_upper(), first);
+    } else {
+      lanes = classify<typename Visitor::Kernel>(kernel_path, weights, list, from);
     }
+    if (lanes.possible == 0) continue;
+    query.statistics.undecided += static_cast<std::uint64_t>(std::popcount(lanes.possible & ~lanes.certain));
+    shorter |= visitor.meet(Meeting<Scalar, AnyPath>{query, range, path, kernel_path, list, from, lanes, first});
+    if (visitor.is_done()) return true;
   }
   return shorter;
+}
+
+/// What the kernel needs besides a list; most short paths meet none at all.
+template <typename Scalar>
+struct ForKernel {
+  ForKernel(const Path<Scalar>& any_path, const PathRange<Scalar>& range) : path(any_path), weights(range) {}
+  KernelPath<Scalar> path;
+  RangeWeights<Scalar> weights;
+};
+
+#if HWY_TARGET != HWY_SCALAR
+/// Walks a long path in pieces side by side, for a visitor that is content with any hit: some piece soon meets one, and
+/// no step has to wait for the cell that the step before it loads. Where the first hit is wanted, what the later pieces
+/// find would be in vain.
+template <bool has_levels, typename Visitor>
+HWY_NOINLINE void walk_pieces(const Query<float>& query, const Path<float>& path, const PathRange<float>& range,
+                              const PlacedPath& placed, Visitor& visitor) {
+  const BitsTag du;
+  const LaneWalk lanes(query.grid);
+  WalkingPaths pieces;
+  lanes.cut(placed, pieces);
+  const ForKernel<float> for_kernel(path, range);
+  auto walking = static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(du)) - 1);
+  while (walking != 0) {
+    query.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking));
+    const LaneWalk::Cells cells = lanes.look<has_levels>(pieces, walking);
+    const auto lists = hn::Eq(hn::And(cells.word, hn::Set(du, 15U)), hn::Zero(du));
+    auto arriving = static_cast<std::uint32_t>(bits_of(du, lists)) & walking;
+    if (arriving != 0) arriving = lanes.meet_boxes(cells, arriving, pieces);
+    if (arriving != 0) {
+      alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_lanes> words;
+      hn::Store(cells.word, du, words.data());
+      for (std::uint32_t left = arriving; left != 0; left &= left - 1) {
+        prefetch_list(query, CellWord(words[static_cast<std::size_t>(std::countr_zero(left))]));
+      }
+      for (; arriving != 0; arriving &= arriving - 1) {
+        const TriangleList<float> list =
+            list_of(query, CellWord(words[static_cast<std::size_t>(std::countr_zero(arriving))]));
+        query.statistics.candidates += list.count;
+        meet_list(query, range, path, for_kernel.path, for_kernel.weights, list, 0, visitor);
+        if (visitor.is_done()) return;
+      }
+    }
+    walking = lanes.advance(cells, walking, pieces);
+  }
+}
+#endif
+
+/// Shows the visitor all triangles, until it is done.
+template <typename Scalar, typename Visitor>
+HWY_NOINLINE void meet_all(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
+                           Visitor& visitor) {
+  ++query.statistics.unclipped;
+  query.statistics.candidates += query.mesh.triangle_count();
+  const Narrowphase<Scalar> narrowphase(path, query.options, range, query.statistics);
+  for (std::uint32_t id = 0; id < query.mesh.triangle_count() && !visitor.is_done(); ++id) {
+    Candidate<Scalar> candidate{id, query.mesh.triangle(id), {}};
+    visitor.meet(query, narrowphase, candidate);
+  }
 }
 
 /// Shows the visitor the triangles that the path may meet, cell by cell, until it is done or the walk ends.
@@ -168,20 +355,32 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
   const PlacedPath placed(query.grid, path, range.first, range.last);
   if (placed.place == PlacedPath::Place::outside) return;
   if (placed.place == PlacedPath::Place::unclipped) {
-    ++query.statistics.unclipped;
-    query.statistics.candidates += query.mesh.triangle_count();
-    for (std::uint32_t id = 0; id < query.mesh.triangle_count() && !visitor.is_done(); ++id) {
-      visitor.meet(id, false, [&] { return query.mesh.triangle(id); });
-    }
+    meet_all(query, path, range, visitor);
     return;
   }
-  const RangeWeights<Scalar> weights(range);
-  std::optional<KernelPath<Scalar>> kernel_path;  // most short paths meet no list at all
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (std::is_same_v<Visitor, AnyHit<float>>) {
+    constexpr float least_cells = 12;  // that are worth it
+    const float rate = placed.rate[0] + placed.rate[1] + placed.rate[2];
+    const float way = std::min(placed.end, placed.exit) * rate;
+    if (way >= least_cells * static_cast<float>(query.grid.frame().division) && way < 0x1p20F) {
+      if (query.grid.levels() > 0) {
+        walk_pieces<true>(query, path, range, placed, visitor);
+      } else {
+        walk_pieces<false>(query, path, range, placed, visitor);
+      }
+      return;
+    }
+  }
+#endif
+  std::optional<ForKernel<Scalar>> for_kernel;
   for (GridTraversal traversal(query.grid, placed); !traversal.at_end(); traversal.advance()) {
     ++query.statistics.cells;
-    if (traversal.word().is_empty()) continue;
-    if (!kernel_path) kernel_path.emplace(path, weights);
-    if (!meet_list(query, *kernel_path, traversal.word(), visitor)) continue;
+    if (traversal.word().is_empty() || !traversal.meets_box()) continue;
+    if (!for_kernel) for_kernel.emplace(path, range);
+    const TriangleList<Scalar> list = list_of(query, traversal.word());
+    query.statistics.candidates += list.count;
+    if (!meet_list(query, range, path, for_kernel->path, for_kernel->weights, list, 0, visitor)) continue;
     if (visitor.is_done()) return;
     traversal.shorten(visitor.limit());
   }
@@ -190,17 +389,23 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
 template <typename Scalar>
 std::optional<Hit<Scalar>> find_first(const Query<Scalar>& query, const Path<Scalar>& path) {
   const PathRange<Scalar> range(path, query.options);
-  const Narrowphase<Scalar> narrowphase(path, query.options, range, query.statistics);
-  FirstHit<Scalar> first(query, narrowphase);
+  FirstHit<Scalar> first(query);
   walk(query, path, range, first);
-  return first.is_found() ? std::optional(first.hit()) : std::nullopt;
+  if (!first.is_found()) return std::nullopt;
+  Hit<Scalar> hit;
+  if constexpr (std::is_same_v<Scalar, float>) {
+    if (first.is_located_only() && try_round(path, first.triangle(), hit)) {
+      hit.triangle = first.id(query);
+      return hit;
+    }
+  }
+  return first.hit(query, Narrowphase<Scalar>(path, query.options, range, query.statistics));
 }
 
 template <typename Scalar>
 bool find_any(const Query<Scalar>& query, const Path<Scalar>& path) {
   const PathRange<Scalar> range(path, query.options);
-  const Narrowphase<Scalar> narrowphase(path, query.options, range, query.statistics);
-  AnyHit<Scalar> any(query, narrowphase);
+  AnyHit<Scalar> any(query);
   walk(query, path, range, any);
   return any.is_done();
 }
@@ -208,10 +413,10 @@ bool find_any(const Query<Scalar>& query, const Path<Scalar>& path) {
 template <typename Scalar>
 void find_all(const Query<Scalar>& query, const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits) {
   const PathRange<Scalar> range(path, query.options);
-  const Narrowphase<Scalar> narrowphase(path, query.options, range, query.statistics);
-  AllHits<Scalar> all(query, narrowphase);
+  AllHits<Scalar> all;
   walk(query, path, range, all);
-  all.append_to(hits);
+  const Narrowphase<Scalar> narrowphase(path, query.options, range, query.statistics);
+  all.append_to(hits, query, narrowphase);
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE

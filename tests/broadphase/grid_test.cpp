@@ -50,6 +50,44 @@ class GridTest : public testing::Test {
     }
   }
 
+  /// What a list's triangles have within reach of a path that goes through the cell lies in the list's box, as far as
+  /// such a path may be wrong; and the box is no larger than rounding to its parts makes it.
+  static void expect_boxed(const GeneratedMesh<Scalar>& mesh, const GridOptions& options) {
+    const Grid grid = grid_of(mesh, options);
+    const GridFrame& frame = grid.frame();
+    const Growth error_of_paths = growth_by(frame, 16 * 0x1p-24);
+    const LeafCells leaves(grid);
+    for (const LeafCell& leaf : leaves) {
+      if (leaf.word.is_empty()) continue;
+      const ExactBox box = leaf.listed_box(grid).grown(error_of_paths);
+      ExactBox taken = {leaf.box().high, leaf.box().low};
+      for (const std::uint32_t id : grid.triangles(leaf.word)) {
+        const ExactPolygon polygon = in_frame(frame, mesh.view().triangle(id));
+        for (const ExactPoint& corner : part_in(leaf.box().grown(error_of_paths), polygon)) {
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            EXPECT_LE(box.low[axis], corner[axis]) << id << " on axis " << axis;
+            EXPECT_GE(box.high[axis], corner[axis]) << id << " on axis " << axis;
+          }
+        }
+        for (const ExactPoint& corner : polygon) {
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            taken.low[axis] = std::min(taken.low[axis], corner[axis]);
+            taken.high[axis] = std::max(taken.high[axis], corner[axis]);
+          }
+        }
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const CellBox parts = grid.box(leaf.word);
+        const mpq_class part(leaf.size / double{CellBox::parts});
+        const mpq_class slack(2 * frame.padding(axis));
+        EXPECT_LT(parts.low(axis), parts.high(axis));
+        EXPECT_TRUE(parts.low(axis) + 1 == CellBox::parts ||
+                    leaf.low[axis] + (parts.low(axis) + 1) * part + slack > taken.low[axis]);
+        EXPECT_TRUE(parts.high(axis) == 1 || leaf.low[axis] + (parts.high(axis) - 1) * part - slack < taken.high[axis]);
+      }
+    }
+  }
+
   /// Ids rise until the last one, which alone is repeated, to a multiple of 4; the lists take up all entries, but for
   /// the counts of long ones.
   static void expect_well_formed(const Grid& grid) {
@@ -161,6 +199,40 @@ TYPED_TEST(GridTest, ListsPointsAsFarAsThePaddingReaches) {
         EXPECT_TRUE(is_listed || !std::binary_search(must.begin(), must.end(), leaf)) << id;
         EXPECT_TRUE(!is_listed || std::binary_search(may.begin(), may.end(), leaf)) << id;
       }
+    }
+  }
+}
+
+TYPED_TEST(GridTest, BoxesWhatItsListsTakeUpOfTheirCells) {
+  const auto triangles = scattered_triangles<TypeParam>(100, 0.5F, this->random_);
+  const auto small = scattered_triangles<TypeParam>(100, 0.05F, this->random_);
+  this->expect_boxed(triangles, this->odd());
+  this->expect_boxed(small, this->odd());
+  this->expect_boxed(small, {.resolution = {2, 1, 1}, .crowded = 1});
+  this->expect_boxed(lattice_cube<TypeParam>(4), {.resolution = {8, 8, 8}});
+  this->expect_boxed(lattice_cube<TypeParam>(4), {.resolution = {2, 2, 2}, .crowded = 2});
+  this->expect_boxed(line_of_needles<TypeParam>(100, this->random_), {.resolution = {20, 5, 5}});
+  this->expect_boxed(flattened<TypeParam>(small, 1, 7), this->odd(3));
+  this->expect_boxed(placed<TypeParam>(small, std::numeric_limits<TypeParam>::max() / 2, {0, 0, 0}), this->odd(3));
+  this->expect_boxed(placed<TypeParam>(small, 64 * std::numeric_limits<TypeParam>::denorm_min(), {0, 0, 0}),
+                     this->odd(3));
+}
+
+TEST(CellBox, HoldsEverySide) {
+  const auto expect_held = [](const std::array<std::uint32_t, 3>& low, const std::array<std::uint32_t, 3>& high) {
+    const CellBox box = CellBox::around(low, high);
+    const CellBox same(box.bits());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      ASSERT_EQ(same.low(axis), low[axis]);
+      ASSERT_EQ(same.high(axis), high[axis]);
+    }
+  };
+  for (std::uint32_t low = 0; low < CellBox::parts; ++low) {
+    for (std::uint32_t high = low + 1; high <= CellBox::parts; ++high) {
+      const std::uint32_t other = (low * 7 + high) % CellBox::parts;
+      expect_held({low, other, 0}, {high, other + 1, CellBox::parts});
+      expect_held({other, low, CellBox::parts - 1}, {CellBox::parts, high, CellBox::parts});
+      expect_held({0, other, low}, {1, CellBox::parts, high});
     }
   }
 }

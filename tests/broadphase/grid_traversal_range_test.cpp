@@ -49,7 +49,7 @@ TYPED_TEST(GridTraversalRange, FindsAllThatIsNotOutOfReach) {
     }
     const auto whole = this->walk(path, range);
     const auto cells = this->walk_shortened(path, range, drawer.random().below(4), limit);
-    if (cells.size() < whole.size()) ++shortened_walks;
+    if (cells.visited.size() < whole.visited.size()) ++shortened_walks;
     this->met_ += this->expect_listed(path, range, cells);
   }
   EXPECT_GT(this->met_, 0U);
@@ -107,8 +107,8 @@ TYPED_TEST(GridTraversalRange, ShortenNeverLengthens) {
   const Segment<TypeParam> segment = {{-2, 0.1F, 0.3F}, {2, 0.2F, 0.3F}};
   Range range{Path<TypeParam>(segment)};
   range.last = 0.5;
-  const auto cells = this->walk(segment, range);
-  EXPECT_EQ(this->walk_shortened(segment, range, 0, 0.75), cells);
+  const auto cells = this->walk(segment, range).visited;
+  EXPECT_EQ(this->walk_shortened(segment, range, 0, 0.75).visited, cells);
 }
 
 }  // namespace

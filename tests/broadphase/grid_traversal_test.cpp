@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "grid_walk.hpp"
+#include "support/box_sides.hpp"
 #include "support/scalars.hpp"
 
 namespace surehit::test {
@@ -124,11 +125,11 @@ TYPED_TEST(GridTraversalTest, PointHasOneCellInsideAndNoneOutside) {
   for (const Path<TypeParam>& path : {Path<TypeParam>(Segment<TypeParam>{{0, 0, 0.3F}, {0, 0, 0.3F}}),
                                       Path<TypeParam>(Ray<TypeParam>{{0, 0, 0.3F}, {0, 0, 0}}),
                                       Path<TypeParam>(Line<TypeParam>{{0, 0, 0.3F}, {0, 0, 0}})}) {
-    EXPECT_EQ(this->walk(path, Range(path)).size(), 1U);
+    EXPECT_EQ(this->walk(path, Range(path)).visited.size(), 1U);
     Path<TypeParam> far = path;
     far.start[0] = 1e9F;
     if (far.has_end()) far.toward[0] = 1e9F;
-    EXPECT_TRUE(this->walk(far, Range(far)).empty());
+    EXPECT_TRUE(this->walk(far, Range(far)).visited.empty());
   }
 }
 
@@ -147,9 +148,103 @@ TYPED_TEST(GridTraversalTest, WalksThroughEveryCellOfARow) {
     const Segment<TypeParam> along_x = {{-end, 0.01F, 0.3F}, {end, 0.01F, 0.3F}};
     const Segment<TypeParam> along_y = {{0.01F, -end, 0.01F}, {0.01F, end, 0.01F}};
     const Segment<TypeParam> along_z = {{0.01F, 0.01F, -end}, {0.01F, 0.01F, end}};
-    EXPECT_EQ(this->walk(along_x, Range{Path<TypeParam>(along_x)}).size(), 9U);
-    EXPECT_EQ(this->walk(along_y, Range{Path<TypeParam>(along_y)}).size(), 8U);
-    EXPECT_EQ(this->walk(along_z, Range{Path<TypeParam>(along_z)}).size(), 5U);
+    EXPECT_EQ(this->walk(along_x, Range{Path<TypeParam>(along_x)}).visited.size(), 9U);
+    EXPECT_EQ(this->walk(along_y, Range{Path<TypeParam>(along_y)}).visited.size(), 8U);
+    EXPECT_EQ(this->walk(along_z, Range{Path<TypeParam>(along_z)}).visited.size(), 5U);
+  }
+}
+
+/// On cell planes, and where the grid has no width, triangles touch the sides of their cells' boxes.
+TYPED_TEST(GridTraversalTest, FindsAllInFlatMeshes) {
+  Random random(7);
+  for (const int axis : {0, 1, 2}) {
+    for (const std::uint32_t crowded : {0U, 3U}) {
+      this->build(flattened<TypeParam>(scattered_triangles<TypeParam>(80, 0.2F, random), axis, 3),
+                  {.resolution = {4, 3, 5}, .crowded = crowded});
+      this->scan(200);
+      PathDrawer<TypeParam> drawer(this->mesh_.view(), 7);
+      for (std::size_t i = 0; i < case_count(100); ++i) {
+        this->expect_found(drawer.draw_axis_parallel());
+        this->expect_found(drawer.draw_from_afar(TypeParam{1e6F}));
+      }
+    }
+  }
+}
+
+/// Too slow on one axis or two to cross a plane there, or just not.
+TYPED_TEST(GridTraversalTest, FindsAllWhereThePathHardlyMoves) {
+  for (const GridOptions& options : {this->uniform(), this->nested()}) {
+    this->place_ground(1, {0, 0, 0}, options);
+    PathDrawer<TypeParam> drawer(this->mesh_.view(), 7);
+    Random& random = drawer.random();
+    for (std::size_t i = 0; i < case_count(400); ++i) {
+      const Vector3<TypeParam> through = drawer.point_on_mesh();
+      Vector3<TypeParam> direction = drawer.point_on_mesh() - through;
+      const std::size_t kept = random.below(3);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (axis == kept && random.one_in(2)) continue;
+        TypeParam& rate = direction[static_cast<Eigen::Index>(axis)];
+        rate = std::ldexp(rate, -static_cast<int>(random.below(100)));
+      }
+      this->expect_found(Ray<TypeParam>{through - direction / 2, direction});
+      this->expect_found(Line<TypeParam>{through - direction / 4, direction});
+      this->expect_found(Segment<TypeParam>{through - direction / 2, through + direction});
+    }
+  }
+  EXPECT_GT(this->met_, 0U);
+}
+
+/// Aimed at corners, paths touch the boxes of their lists just there.
+TYPED_TEST(GridTraversalTest, FindsAllOnTheSidesOfBoxes) {
+  Random random(7);
+  for (const GridOptions& options : {GridOptions{.resolution = {9, 7, 11}, .crowded = 0},
+                                     GridOptions{.resolution = {150, 130, 170}, .crowded = 0}}) {
+    this->build(triangles_on_box_sides<TypeParam>(100, options, random), options);
+    PathDrawer<TypeParam> drawer(this->mesh_.view(), 7);
+    for (std::size_t i = 0; i < case_count(400); ++i) {
+      this->expect_found(drawer.draw_axis_parallel());
+      const Vector3<TypeParam>& corner = this->mesh_.vertices[random.below(this->mesh_.vertices.size())];
+      const Vector3<TypeParam> start = drawer.point_around_mesh();
+      this->expect_found(Segment<TypeParam>{start, corner});
+      this->expect_found(Ray<TypeParam>{corner, start - corner});
+    }
+  }
+  EXPECT_GT(this->met_, 0U);
+}
+
+/// Triangles in the far corner of each cell leave most of it to paths that pass them by.
+TYPED_TEST(GridTraversalTest, PassesByListsThatTakeUpLittleOfTheirCells) {
+  GeneratedMesh<TypeParam> mesh;
+  for (const TypeParam x : {TypeParam{0}, TypeParam{8}}) mesh.add({{x, x, x}, {x, x, x}, {x, x, x}});
+  Random random(7);
+  for (int i = 0; i < 60; ++i) {
+    Vector3<TypeParam> corner;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      corner[axis] = static_cast<TypeParam>(random.below(8)) + TypeParam{0.25} + random.unit<TypeParam>() / 2;
+    }
+    const auto near = [&] {
+      return Vector3<TypeParam>(corner + Vector3<TypeParam>::NullaryExpr([&] { return random.unit<TypeParam>() / 4; }));
+    };
+    mesh.add({near(), near(), near()});
+  }
+  for (const GridOptions& options :
+       {GridOptions{.resolution = {8, 8, 8}}, GridOptions{.resolution = {2, 2, 2}, .crowded = 1}}) {
+    this->build(mesh, options);
+    const auto anywhere = [&]() -> Vector3<TypeParam> {
+      return Vector3<TypeParam>::NullaryExpr([&] { return 8 * random.unit<TypeParam>(); });
+    };
+    std::size_t lists = 0;
+    std::size_t met = 0;
+    for (std::size_t i = 0; i < case_count(500); ++i) {
+      const Path<TypeParam> path = Segment<TypeParam>{anywhere(), anywhere()};
+      const Walk walk = this->walk(path, Range(path));
+      this->expect_listed(path, Range(path), walk);
+      met += walk.met.size();
+      lists += static_cast<std::size_t>(std::ranges::count_if(
+          walk.visited, [&](std::size_t leaf) { return !(*this->leaves_)[leaf].word.is_empty(); }));
+    }
+    EXPECT_GT(met, 0U);
+    EXPECT_LT(met, lists / 2);
   }
 }
 
@@ -160,7 +255,7 @@ TYPED_TEST(GridTraversalTest, LeapsThroughEmptySpace) {
   for (const Segment<TypeParam>& segment : {Segment<TypeParam>{{0.5F, 0, 0.01F}, {0.52F, 1, 0.99F}},
                                             Segment<TypeParam>{{0.5F, 0.9F, 0.01F}, {0.1F, 0.9F, 0.99F}}}) {
     const Path<TypeParam> path = segment;
-    const auto visited = this->walk(path, Range(path));
+    const auto visited = this->walk(path, Range(path)).visited;
     EXPECT_LE(visited.size(), 20U) << "60 cells or more, and up to 15 at once";
   }
 }

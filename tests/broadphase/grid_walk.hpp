@@ -55,6 +55,12 @@ Range widened(const Grid& grid, const Path<Scalar>& path, Range range) {
   return range;
 }
 
+/// The leaves that a walk visits, and those of them with lists whose boxes it meets.
+struct Walk {
+  std::vector<std::size_t> visited;
+  std::vector<std::size_t> met;
+};
+
 /// Walks of paths through the grid of a mesh, each step of which is checked.
 template <typename Scalar>
 class GridWalk : public testing::Test {
@@ -78,27 +84,49 @@ class GridWalk : public testing::Test {
   }
 
   /// Walks all the way, and checks each cell against the exact path: the walk goes where the path goes, and nowhere
-  /// else. Returns the leaves visited.
-  std::vector<std::size_t> walk(const Path<Scalar>& path, Range range) {
+  /// else.
+  Walk walk(const Path<Scalar>& path, Range range) {
     return walk_shortened(path, range, std::numeric_limits<std::size_t>::max(), infinity);
   }
 
   /// The same, where the path is made shorter on the way.
-  std::vector<std::size_t> walk_shortened(const Path<Scalar>& path, Range& range, std::size_t steps, double t) {
+  Walk walk_shortened(const Path<Scalar>& path, Range& range, std::size_t steps, double t) {
     const PlacedPath placed(grid_, path, range.first, range.last);
     EXPECT_NE(placed.place, PlacedPath::Place::unclipped) << hex_text(path);
-    std::vector<std::size_t> visited;
+    Walk walk;
     for (GridTraversal traversal(grid_, placed); !traversal.at_end(); traversal.advance()) {
-      visited.push_back(expect_on_path(path, range, placed, traversal));
-      if (visited.size() > most_steps()) {
+      const std::size_t leaf = expect_on_path(path, range, placed, traversal);
+      walk.visited.push_back(leaf);
+      if (!traversal.word().is_empty()) {
+        expect_box_on_path(path, range, (*leaves_)[leaf], traversal.meets_box());
+        if (traversal.meets_box()) walk.met.push_back(leaf);
+      }
+      if (walk.visited.size() > most_steps()) {
         ADD_FAILURE() << "no end to the walk of " << hex_text(path);
         break;
       }
-      if (visited.size() != steps + 1) continue;
+      if (walk.visited.size() != steps + 1) continue;
       traversal.shorten(t);
       range.last = std::min(range.last, t);
     }
-    return visited;
+    return walk;
+  }
+
+  /// The box of a list is met if the path passes through it, and only if it comes near.
+  void expect_box_on_path(const Path<Scalar>& path, const Range& range, const LeafCell& leaf, bool is_met) const {
+    constexpr double rounding_share = 16 * 0x1p-24;
+    const ExactBox box = leaf.listed_box(grid_);
+    if (is_met) {
+      const Range wide = widened(grid_, path, range);
+      const Growth growth = growth_by(grid_.frame(), GridFrame::padding_share + rounding_share);
+      EXPECT_TRUE(meets_box(grid_.frame(), path, wide.first, wide.last, box.grown(growth)))
+          << hex_text(path) << " is not near the box in the cell at " << leaf.low[0] << ", " << leaf.low[1] << ", "
+          << leaf.low[2];
+    } else {
+      EXPECT_FALSE(meets_box(grid_.frame(), path, range.first, range.last, box))
+          << hex_text(path) << " passes through the box in the cell at " << leaf.low[0] << ", " << leaf.low[1] << ", "
+          << leaf.low[2];
+    }
   }
 
   /// Returns the leaf in which the walk stands.
@@ -118,7 +146,7 @@ class GridWalk : public testing::Test {
     }
     EXPECT_EQ((*leaves_)[*leaf].size, size);
     EXPECT_EQ((*leaves_)[*leaf].word.bits(), traversal.word().bits());
-    const CellBox box = (*leaves_)[*leaf].box().grown(growth_by(grid_.frame(), GridFrame::padding_share));
+    const ExactBox box = (*leaves_)[*leaf].box().grown(growth_by(grid_.frame(), GridFrame::padding_share));
     const Range wide = widened(grid_, path, range);
     EXPECT_TRUE(meets_box(grid_.frame(), path, wide.first, wide.last, box))
         << hex_text(path) << " is not in the cell at " << low[0] << ", " << low[1] << ", " << low[2];
@@ -131,13 +159,12 @@ class GridWalk : public testing::Test {
     return std::size_t{frame.resolution(0)} + frame.resolution(1) + frame.resolution(2) - 2;
   }
 
-  /// Every triangle that the path exactly meets in the range is listed in one of the leaves. Returns how many it meets.
-  std::size_t expect_listed(const Path<Scalar>& path, const Range& range,
-                            const std::vector<std::size_t>& visited) const {
+  /// Every triangle that the path exactly meets in the range is in a list whose box is met. Returns how many it meets.
+  std::size_t expect_listed(const Path<Scalar>& path, const Range& range, const Walk& walk) const {
     std::set<std::uint32_t> listed;
-    for (const std::size_t leaf : visited) {
+    for (const std::size_t leaf : walk.met) {
       const CellWord word = (*leaves_)[leaf].word;
-      if (!word.is_empty()) listed.insert(grid_.triangles(word).begin(), grid_.triangles(word).end());
+      listed.insert(grid_.triangles(word).begin(), grid_.triangles(word).end());
     }
     std::size_t met = 0;
     for (std::uint32_t id = 0; id < mesh_.triangles.size(); ++id) {

@@ -61,7 +61,7 @@ class OverlapLanesIn : public CellPointDraws, public testing::WithParamInterface
     const double least = padding_ - 8 * 0x1p-24 * width;
     const double most = padding_ + listing_slack(polygon, width);
     for (int cell = 0; cell < 8; ++cell) {
-      CellBox box;
+      ExactBox box;
       bool is_asked = true;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::int64_t offset = cell >> axis & 1;

@@ -23,7 +23,7 @@ class TriangleOverlapIn : public CellPointDraws, public testing::WithParamInterf
   void expect_right(const Corners& corners, const detail::CellPoint& low, const detail::CellPoint& high) {
     ExactPolygon polygon;
     for (const auto& corner : corners) polygon.push_back({corner[0], corner[1], corner[2]});
-    const CellBox box = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+    const ExactBox box = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
     const double size = resolution_;
     const double least = padding_ - 8 * 0x1p-24 * size;
     const double most = padding_ + listing_slack(polygon, size);

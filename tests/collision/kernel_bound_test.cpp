@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "coordinate_changes.hpp"
 #include "rational_determinants.hpp"
 #include "support/case_count.hpp"
 #include "support/neighbour.hpp"
@@ -94,32 +95,15 @@ class KernelBoundOf : public testing::Test {
     Scalar limit;
   };
 
-  static Scalar draw_coordinate(Random& random) {
-    const Scalar x = random.symmetric<Scalar>();
-    return random.one_in(4) ? std::ldexp(x, static_cast<int>(random.between(-30, 5))) : x;
-  }
-
   static Case draw(Random& random) {
     Case drawn{{}, random.one_in(2) ? Scalar{1} : std::ldexp(random.symmetric<Scalar>(), 16)};
-    for (Scalar& coordinate : drawn.coordinates) coordinate = draw_coordinate(random);
+    for (Scalar& coordinate : drawn.coordinates) coordinate = draw_coordinate<Scalar>(random);
     return drawn;
   }
 
   static Case changed(Random& random, Case x) {
     Scalar& coordinate = x.coordinates[random.below(x.coordinates.size())];
-    switch (random.below(4)) {
-      case 0:
-        coordinate = draw_coordinate(random);
-        break;
-      case 1:
-        coordinate = -coordinate;
-        break;
-      case 2:
-        coordinate *= 1 + random.symmetric<Scalar>() / 16;
-        break;
-      default:
-        coordinate = neighbour(coordinate, static_cast<int>(random.between(-4, 4)));
-    }
+    coordinate = changed_coordinate(random, coordinate);
     return x;
   }
 

@@ -21,35 +21,42 @@ class KernelList {
     for (const Triangle<Scalar>& triangle : triangles) mesh.add(triangle);
     grid_ = Grid(mesh.view(), box_of(mesh.view()), {.resolution = {1, 1, 1}, .crowded = 0});
     blocks_ = MeshBlocks<Scalar>(mesh.view(), grid_);
-    first_ = grid_.first_entry(grid_.top()[0]);
-    pitch_ = grid_.entry_count(grid_.top()[0]);
+    const CellWord word = grid_.top()[0];
+    const std::size_t first = grid_.first_entry(word);
+    list_ = {blocks_.corners(first), grid_.entry_count(word), blocks_.edge_size(first)};
   }
   explicit KernelList(const Triangle<Scalar>& triangle) : KernelList(std::span(&triangle, 1)) {}
 
   [[nodiscard]] std::size_t size() const { return count_; }
+
+  /// With those that repeat the last one, to a multiple of 4.
+  [[nodiscard]] std::size_t entries() const { return list_.count; }
 
   /// Of triangle i, the first of the lanes or a later one; the range is not empty.
   [[nodiscard]] detail::Verdict verdict(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
                                         std::size_t i) const {
     const std::size_t lanes = kernel_lanes<Scalar>();
     const std::size_t from = i / lanes * lanes;
-    const KernelVerdicts verdicts = verdicts_from(path, range, from, std::min(count_ - from, lanes));
+    const KernelVerdicts verdicts = verdicts_from(path, range, from);
     if ((verdicts.possible >> (i - from) & 1) == 0) return detail::Verdict::miss;
     return (verdicts.certain >> (i - from) & 1) != 0 ? detail::Verdict::hit : detail::Verdict::undecided;
   }
 
   [[nodiscard]] KernelVerdicts verdicts_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
-                                             std::size_t from, std::size_t count) const {
-    return classify(detail::KernelPath<Scalar>(path, detail::RangeWeights<Scalar>(range)), blocks_.block(first_) + from,
-                    pitch_, count, blocks_.edge_size(first_));
+                                             std::size_t from) const {
+    return classify(detail::KernelPath<Scalar>(path), detail::RangeWeights<Scalar>(range), list_, from);
+  }
+
+  [[nodiscard]] KernelFirst<Scalar> first_from(const Path<Scalar>& path, std::size_t from, std::uint64_t certain,
+                                               Scalar limit) const {
+    return first_of(detail::KernelPath<Scalar>(path), list_, from, certain, limit);
   }
 
  private:
   std::size_t count_;
   Grid grid_;
   MeshBlocks<Scalar> blocks_;
-  std::size_t first_;
-  std::size_t pitch_;
+  KernelTriangles<Scalar> list_;
 };
 
 }  // namespace surehit::test

@@ -10,12 +10,23 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-#define SUREHIT_DEFINE(Scalar)                                                                                  \
-  test::KernelVerdicts verdicts_##Scalar(const KernelPath<Scalar>& path, const Scalar* list, std::size_t pitch, \
-                                         std::size_t count, Scalar edge_size) {                                 \
-    const Lanes lanes = classify(path, list, pitch, count, edge_size);                                          \
-    return {lanes.possible, lanes.certain};                                                                     \
-  }                                                                                                             \
+template <typename Scalar>
+TriangleList<Scalar> list_of(const test::KernelTriangles<Scalar>& list) {
+  return {list.corners, list.count, 0, list.edge_size};
+}
+
+#define SUREHIT_DEFINE(Scalar)                                                                                        \
+  test::KernelVerdicts verdicts_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,           \
+                                         const test::KernelTriangles<Scalar>& list, std::size_t from) {               \
+    const Lanes lanes = classify<BlockKernel<Scalar>>(path, range, list_of(list), from);                              \
+    return {lanes.possible, lanes.certain};                                                                           \
+  }                                                                                                                   \
+  test::KernelFirst<Scalar> first_##Scalar(const KernelPath<Scalar>& path, const test::KernelTriangles<Scalar>& list, \
+                                           std::size_t from, std::uint64_t certain, Scalar limit) {                   \
+    const BlockKernel<Scalar> kernel(path, list_of(list), from);                                                      \
+    const FirstLanes<Scalar> first = BlockKernel<Scalar>::first_of(kernel.crossing(), certain, limit);                \
+    return {first.lanes, first.t_lower, first.t_upper};                                                               \
+  }                                                                                                                   \
   std::size_t lanes_##Scalar() { return hn::Lanes(hn::ScalableTag<Scalar>()); }
 SUREHIT_DEFINE(float)
 SUREHIT_DEFINE(double)
@@ -29,10 +40,15 @@ namespace surehit::detail {
 
 #define SUREHIT_EXPORT(Scalar)                                                                                   \
   HWY_EXPORT(verdicts_##Scalar);                                                                                 \
+  HWY_EXPORT(first_##Scalar);                                                                                    \
   HWY_EXPORT(lanes_##Scalar);                                                                                    \
-  auto chosen_verdicts(const KernelPath<Scalar>& path, const Scalar* list, std::size_t pitch, std::size_t count, \
-                       Scalar edge_size) {                                                                       \
-    return HWY_DYNAMIC_DISPATCH(verdicts_##Scalar)(path, list, pitch, count, edge_size);                         \
+  auto chosen_verdicts(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                        \
+                       const test::KernelTriangles<Scalar>& list, std::size_t from) {                            \
+    return HWY_DYNAMIC_DISPATCH(verdicts_##Scalar)(path, range, list, from);                                     \
+  }                                                                                                              \
+  auto chosen_first(const KernelPath<Scalar>& path, const test::KernelTriangles<Scalar>& list, std::size_t from, \
+                    std::uint64_t certain, Scalar limit) {                                                       \
+    return HWY_DYNAMIC_DISPATCH(first_##Scalar)(path, list, from, certain, limit);                               \
   }                                                                                                              \
   auto chosen_lanes(Scalar) { return HWY_DYNAMIC_DISPATCH(lanes_##Scalar)(); }
 SUREHIT_EXPORT(float)
@@ -44,9 +60,15 @@ SUREHIT_EXPORT(double)
 namespace surehit::test {
 
 template <typename Scalar>
-KernelVerdicts classify(const detail::KernelPath<Scalar>& path, const Scalar* list, std::size_t pitch,
-                        std::size_t count, Scalar edge_size) {
-  return detail::chosen_verdicts(path, list, pitch, count, edge_size);
+KernelVerdicts classify(const detail::KernelPath<Scalar>& path, const detail::RangeWeights<Scalar>& range,
+                        const KernelTriangles<Scalar>& list, std::size_t from) {
+  return detail::chosen_verdicts(path, range, list, from);
+}
+
+template <typename Scalar>
+KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>& path, const KernelTriangles<Scalar>& list,
+                             std::size_t from, std::uint64_t certain, Scalar limit) {
+  return detail::chosen_first(path, list, from, certain, limit);
 }
 
 template <typename Scalar>
@@ -54,9 +76,11 @@ std::size_t kernel_lanes() {
   return detail::chosen_lanes(Scalar{});
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                            \
-  template KernelVerdicts classify(const detail::KernelPath<Scalar>&, const Scalar*, std::size_t, std::size_t, \
-                                   Scalar);                                                                    \
+#define SUREHIT_INSTANTIATE(Scalar)                                                                        \
+  template KernelVerdicts classify(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&, \
+                                   const KernelTriangles<Scalar>&, std::size_t);                           \
+  template KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>&, const KernelTriangles<Scalar>&, \
+                                        std::size_t, std::uint64_t, Scalar);                               \
   template std::size_t kernel_lanes<Scalar>();
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

@@ -7,18 +7,39 @@
 
 namespace surehit::test {
 
+/// `detail::TriangleList`, whatever the instruction set is.
+template <typename Scalar>
+struct KernelTriangles {
+  const Scalar* corners;
+  std::size_t count;
+  Scalar edge_size;
+};
+
 /// What the kernel says of a list's triangles, a bit for each.
 struct KernelVerdicts {
   std::uint64_t possible;
   std::uint64_t certain;
 };
 
+/// And of certain hits, which may be the first one, and where that is.
+template <typename Scalar>
+struct KernelFirst {
+  std::uint64_t lanes;
+  Scalar t_lower;
+  Scalar t_upper;
+};
+
 /// `detail::classify` on the instruction set that is chosen at the moment.
 template <typename Scalar>
-[[nodiscard]] KernelVerdicts classify(const detail::KernelPath<Scalar>& path, const Scalar* list, std::size_t pitch,
-                                      std::size_t count, Scalar edge_size);
+[[nodiscard]] KernelVerdicts classify(const detail::KernelPath<Scalar>& path, const detail::RangeWeights<Scalar>& range,
+                                      const KernelTriangles<Scalar>& list, std::size_t from);
 
-/// Triangles that it takes at once.
+/// `detail::first_of` there.
+template <typename Scalar>
+[[nodiscard]] KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>& path, const KernelTriangles<Scalar>& list,
+                                           std::size_t from, std::uint64_t certain, Scalar limit);
+
+/// Triangles that they take at once.
 template <typename Scalar>
 [[nodiscard]] std::size_t kernel_lanes();
 

@@ -25,7 +25,6 @@ using detail::Candidate;
 using detail::Contact;
 using detail::Narrowphase;
 using detail::PathRange;
-using detail::Verdict;
 
 class NarrowphaseOfFamily : public testing::TestWithParam<PairFamily> {
  protected:
@@ -47,11 +46,11 @@ class NarrowphaseOfFamily : public testing::TestWithParam<PairFamily> {
     QueryStatistics statistics;
     const Narrowphase<Scalar> narrowphase(path, options, range, statistics);
     Candidate<Scalar> candidate{5, triangle, {}};
-    const bool found = narrowphase.find_contact(triangle, candidate.bounded);
+    const bool found = narrowphase.find_contact(triangle, candidate.contact);
     EXPECT_EQ(found, truth.has_value());
     EXPECT_LE(statistics.exact_decisions, 1u);
     if (!found || !truth) return;
-    const Contact& contact = candidate.contact();
+    const Contact& contact = candidate.contact;
     EXPECT_EQ(contact.side, truth->side);
     if (std::isfinite(contact.t_lower)) {
       EXPECT_LE(mpq_class(contact.t_lower), truth->t);
@@ -77,7 +76,7 @@ class NarrowphaseOf : public testing::Test {
 
   [[nodiscard]] Candidate<Scalar> candidate_of(const Triangle<Scalar>& triangle, std::uint32_t id) {
     Candidate<Scalar> candidate{id, triangle, {}};
-    EXPECT_TRUE(narrowphase_.find_contact(triangle, candidate.bounded));
+    EXPECT_TRUE(narrowphase_.find_contact(triangle, candidate.contact));
     return candidate;
   }
 
@@ -93,7 +92,6 @@ TYPED_TEST(NarrowphaseOf, clear_hit_takes_no_exact_decision) {
   this->path_ =
       Segment<TypeParam>{{TypeParam{0.21875}, TypeParam{0.3125}, -1}, {TypeParam{0.3125}, TypeParam{0.21875}, 2}};
   const auto candidate = this->candidate_of(unit_triangle<TypeParam>(), 0);
-  EXPECT_EQ(candidate.bounded.verdict, Verdict::hit);
   static_cast<void>(this->narrowphase_.hit(candidate));
   EXPECT_EQ(this->statistics_.exact_decisions, 0u);
   EXPECT_EQ(this->statistics_.exact_orders, 0u);
@@ -111,7 +109,6 @@ TYPED_TEST(NarrowphaseOf, edge_of_small_integers_takes_no_exact_decision) {
 TYPED_TEST(NarrowphaseOf, contact_in_the_plane_takes_exact_arithmetic) {
   this->path_ = Segment<TypeParam>{{-1, TypeParam{0.25}, 0}, {2, TypeParam{0.25}, 0}};
   const auto candidate = this->candidate_of(unit_triangle<TypeParam>(), 0);
-  EXPECT_NE(candidate.bounded.verdict, Verdict::hit);
   static_cast<void>(this->narrowphase_.hit(candidate));
   EXPECT_EQ(this->statistics_.exact_decisions, 1u);
   EXPECT_EQ(this->statistics_.exact_roundings, 1u);

@@ -79,11 +79,15 @@ void expect_same_in(const FloatingPointMode& mode, const Path<Scalar>& path, con
       << "\nanswered: " << (answer ? hex_text(*answer) : "a miss");
 }
 
+/// A third of the pairs: each is answered twice, in three modes.
 template <typename Scalar>
 void check_pairs(const FloatingPointMode& mode) {
   for (const PairFamily family : all_pair_families) {
     SCOPED_TRACE(name_of(family));
-    const auto visit = [&](const auto&... pair) { expect_same_in<Scalar>(mode, pair...); };
+    std::size_t number = 0;
+    const auto visit = [&](const auto&... pair) {
+      if (number++ % 3 == 0) expect_same_in<Scalar>(mode, pair...);
+    };
     visit_segments<Scalar>(family, visit);
     visit_rays_and_lines<Scalar>(family, visit);
     visit_options<Scalar>(family, visit);

@@ -61,8 +61,8 @@ Growth growth_by(const GridFrame& frame, double share, double more_cells) {
   return growth;
 }
 
-CellBox CellBox::grown(const Growth& growth) const {
-  CellBox box = *this;
+ExactBox ExactBox::grown(const Growth& growth) const {
+  ExactBox box = *this;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     box.low[axis] -= growth[axis];
     box.high[axis] += growth[axis];
@@ -70,11 +70,23 @@ CellBox CellBox::grown(const Growth& growth) const {
   return box;
 }
 
-CellBox LeafCell::box() const {
-  CellBox box;
+ExactBox LeafCell::box() const {
+  ExactBox box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     box.low[axis] = low[axis];
     box.high[axis] = low[axis] + size;
+  }
+  return box;
+}
+
+ExactBox LeafCell::listed_box(const Grid& grid) const {
+  const CellBox listed = grid.box(word);
+  ExactBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = low[axis] + mpq_class(size * listed.low(axis), CellBox::parts);
+    box.high[axis] = low[axis] + mpq_class(size * listed.high(axis), CellBox::parts);
+    box.low[axis].canonicalize();
+    box.high[axis].canonicalize();
   }
   return box;
 }
@@ -130,16 +142,18 @@ std::vector<std::size_t> LeafCells::met_by(const ExactPolygon& polygon, const Gr
   return met;
 }
 
-bool meets_box(const ExactPolygon& polygon, const CellBox& box) {
+ExactPolygon part_in(const ExactBox& box, const ExactPolygon& polygon) {
   ExactPolygon part = polygon;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     part = cut(cut(part, axis, box.low[axis], 1), axis, box.high[axis], -1);
   }
-  return !part.empty();
+  return part;
 }
 
+bool meets_box(const ExactPolygon& polygon, const ExactBox& box) { return !part_in(box, polygon).empty(); }
+
 template <typename Scalar>
-bool meets_box(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t, const CellBox& box) {
+bool meets_box(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t, const ExactBox& box) {
   const ExactPoint start = in_frame(frame, path.start);
   std::optional<mpq_class> first;
   std::optional<mpq_class> last;
@@ -166,7 +180,7 @@ bool meets_box(const GridFrame& frame, const Path<Scalar>& path, double first_t,
 #define SUREHIT_INSTANTIATE(Scalar)                                          \
   template ExactPoint in_frame(const GridFrame&, const Vector3<Scalar>&);    \
   template ExactPolygon in_frame(const GridFrame&, const Triangle<Scalar>&); \
-  template bool meets_box(const GridFrame&, const Path<Scalar>&, double, double, const CellBox&);
+  template bool meets_box(const GridFrame&, const Path<Scalar>&, double, double, const ExactBox&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)
 #undef SUREHIT_INSTANTIATE

@@ -35,11 +35,11 @@ using Growth = std::array<double, 3>;
 [[nodiscard]] Growth growth_by(const GridFrame& frame, double share, double more_cells = 0);
 
 /// A box, closed, in finest cells.
-struct CellBox {
+struct ExactBox {
   ExactPoint low;
   ExactPoint high;
 
-  [[nodiscard]] CellBox grown(const Growth& growth) const;
+  [[nodiscard]] ExactBox grown(const Growth& growth) const;
 };
 
 /// A cell that is not divided.
@@ -48,7 +48,9 @@ struct LeafCell {
   std::uint32_t size;
   CellWord word;
 
-  [[nodiscard]] CellBox box() const;
+  [[nodiscard]] ExactBox box() const;
+  /// What its list, which is not empty, takes up of it.
+  [[nodiscard]] ExactBox listed_box(const Grid& grid) const;
 };
 
 /// All cells of a grid that are not divided: they fill it without overlap.
@@ -73,12 +75,14 @@ class LeafCells {
   std::map<std::array<std::uint32_t, 3>, std::size_t> by_low_;
 };
 
+/// The part of a convex polygon that lies in the box.
+[[nodiscard]] ExactPolygon part_in(const ExactBox& box, const ExactPolygon& polygon);
 /// Whether a convex polygon meets the box.
-[[nodiscard]] bool meets_box(const ExactPolygon& polygon, const CellBox& box);
+[[nodiscard]] bool meets_box(const ExactPolygon& polygon, const ExactBox& box);
 
 /// Whether the path, between two parameters, meets the box. The parameters may be infinite.
 template <typename Scalar>
 [[nodiscard]] bool meets_box(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t,
-                             const CellBox& box);
+                             const ExactBox& box);
 
 }  // namespace surehit::test

@@ -10,6 +10,7 @@
 #include "surehit/box.hpp"
 #include "surehit/default_init_allocator.hpp"
 #include "surehit/executor.hpp"
+#include "surehit/float4.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 
 namespace surehit {
@@ -20,9 +21,9 @@ struct GridOptions {
   /// `cells_per_triangle` cubic cells in all. Whatever is asked for is made coarser where it would break the grid's
   /// budget of memory or its bound on rounding.
   std::array<std::uint32_t, 3> resolution = {0, 0, 0};
-  double cells_per_triangle = 1.0;
+  double cells_per_triangle = 0.7;
   /// Cells that list more triangles than this are divided into 4 × 4 × 4, if that parts the triangles. 0: never.
-  std::uint32_t crowded = 96;
+  std::uint32_t crowded = 128;
 };
 
 /// Where the cells are. A coordinate x stands at X = (x 2^exponent - origin) scale + margin, counted in the finest
@@ -37,9 +38,12 @@ struct GridFrame {
   std::array<std::uint32_t, 3> cells = {0, 0, 0};  ///< top cells on each axis
   std::uint32_t division = 1;                      ///< finest cells along an edge of a top cell
   /// For coordinates in float, X = (x - float_low) float_scale + margin: the same frame, where floats hold its numbers.
+  /// The fourth lane moves nothing: its place is 1, between 0 and 2.
   bool has_floats = false;
-  std::array<float, 3> float_low = {0, 0, 0};
-  std::array<float, 3> float_scale = {0, 0, 0};
+  detail::Float4 float_low = {0, 0, 0, 0};
+  detail::Float4 float_scale = {0, 0, 0, 0};
+  detail::Float4 float_margin = {0, 0, 0, 1};
+  detail::Float4 float_stop = {0, 0, 0, 2};  ///< the resolution
 
   /// Of the grid's width on an axis: by so much is a cell's box grown on each side when triangles are listed.
   static constexpr float padding_share = 0x1p-19F;
@@ -95,10 +99,37 @@ class CellWord {
   std::uint32_t bits_ = 0;
 };
 
+/// The box of what a list's triangles take up of their cell, in 32nds of the cell's edge, in 32 bits: on each axis five
+/// bits for the low side and five for the high one. Rounded outward, and to the cell where they reach beyond it.
+class CellBox {
+ public:
+  static constexpr std::uint32_t parts = 32;  ///< of an edge
+
+  CellBox() = default;
+  explicit CellBox(std::uint32_t bits) : bits_(bits) {}
+
+  /// Of a box in such parts, above the cell's low corner: sides in [0, parts], low ones below high ones.
+  static CellBox around(const std::array<std::uint32_t, 3>& low, const std::array<std::uint32_t, 3>& high) {
+    std::uint32_t bits = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) bits |= (low[axis] | (high[axis] - 1) << 5) << 10 * axis;
+    return CellBox(bits);
+  }
+
+  [[nodiscard]] std::uint32_t bits() const { return bits_; }
+  [[nodiscard]] std::uint32_t low(std::size_t axis) const { return bits_ >> 10 * axis & (parts - 1); }
+  [[nodiscard]] std::uint32_t high(std::size_t axis) const { return (bits_ >> (10 * axis + 5) & (parts - 1)) + 1; }
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
 namespace detail {
 
 /// A point counted in finest cells, as long as a vector load; its fourth number is 0.
 using PaddedPoint = Eigen::Array4f;
+struct PaddedBox {
+  PaddedPoint low, high;
+};
 
 /// Which triangles meet which cells, of all triangles in turn.
 struct CellEntries {
@@ -133,11 +164,12 @@ class GridScratch {
   template <typename Scalar>
   friend class GridBuild;
 
-  std::vector<detail::PaddedPoint> points_;  ///< the vertices
-  std::array<detail::CellLists, 3> lists_;   ///< of the top cells, and of the brick of each level that is being made
-  std::vector<detail::CellEntries> parts_;   ///< of the top cells, where parts of the mesh are listed at once
-  std::vector<std::uint32_t> words_;         ///< the top cells' words
-  std::vector<std::uint8_t> distances_;      ///< through empty cells
+  std::vector<detail::PaddedPoint> points_;       ///< the vertices
+  detail::UnsetVector<detail::PaddedBox> boxes_;  ///< the triangles'
+  std::array<detail::CellLists, 3> lists_;  ///< of the top cells, and of the brick of each level that is being made
+  std::vector<detail::CellEntries> parts_;  ///< of the top cells, where parts of the mesh are listed at once
+  std::vector<std::uint32_t> words_;        ///< the top cells' words
+  std::vector<std::uint8_t> distances_;     ///< through empty cells
 };
 
 /// A uniform grid over a mesh's box, in which crowded cells hold a brick of 4 × 4 × 4 cells of their own, and so on for
@@ -177,7 +209,8 @@ class Grid {
   /// Entries of all cells' lists together, repetitions included.
   [[nodiscard]] std::size_t entry_count() const noexcept { return entries_.size(); }
   [[nodiscard]] std::size_t memory_bytes() const noexcept {
-    return (top_.capacity() + bricks_.capacity()) * sizeof(CellWord) + entries_.capacity() * sizeof(std::uint32_t);
+    return (top_.capacity() + bricks_.capacity()) * sizeof(CellWord) + boxes_.capacity() * sizeof(CellBox) +
+           entries_.capacity() * sizeof(std::uint32_t);
   }
 
   /// Words of the top cells, x fastest, then y, then z.
@@ -196,6 +229,10 @@ class Grid {
   }
   /// The same as the word alone tells it, no more than `CellWord::most_granules` of them.
   [[nodiscard]] std::uint32_t listed_entries(CellWord word) const noexcept { return word.granules() * granule_; }
+  /// The part of the cell that its list's triangles take up.
+  [[nodiscard]] CellBox box(CellWord word) const noexcept { return boxes_[word.offset()]; }
+  /// By the lists' offsets.
+  [[nodiscard]] std::span<const CellBox> boxes() const noexcept { return boxes_; }
   /// Ids of the triangles that a cell lists, ascending but for the repetitions.
   [[nodiscard]] std::span<const std::uint32_t> triangles(CellWord word) const noexcept {
     return {entries_.data() + first_entry(word), entry_count(word)};
@@ -211,6 +248,7 @@ class Grid {
   std::size_t top_count_ = 0;
   std::vector<CellWord> top_;  ///< and as many more as one vector load may read beyond the last
   std::vector<CellWord> bricks_;
+  std::vector<CellBox> boxes_;
   std::vector<std::uint32_t> entries_;
 };
 

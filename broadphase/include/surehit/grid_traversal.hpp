@@ -33,11 +33,12 @@ struct PlacedPath {
   static constexpr float greatest_inverse = 0x1p100F;
 
   Place place = Place::outside;
-  std::uint32_t octant = 0;           ///< bit k: mirrored on axis k
-  std::array<float, 3> start;         ///< where the walk begins
-  std::array<float, 3> rate;          ///< cells a unit of the walk's parameter tau
-  std::array<float, 3> inverse_rate;  ///< finite
-  float end = 0;                      ///< tau beyond which nothing counts
+  std::uint32_t octant = 0;     ///< bit k: mirrored on axis k
+  detail::Float4 start;         ///< where the walk begins
+  detail::Float4 rate;          ///< cells a unit of the walk's parameter tau
+  detail::Float4 inverse_rate;  ///< finite
+  float end = 0;                ///< tau beyond which nothing counts
+  float exit = 0;               ///< tau at which the path leaves the grid, about
   /// tau = t unit[0] unit[1] unit[2] - origin[0] - origin[1] - origin[2]
   std::array<double, 3> unit = {1, 1, 1};
   std::array<double, 3> origin = {0, 0, 0};
@@ -71,39 +72,32 @@ template <typename Scalar>
 /// For most paths: near and neither slow nor fast. Without branches on the direction, which nobody could foretell.
 [[gnu::always_inline]] inline bool PlacedPath::try_place_in_float(const GridFrame& frame, const Path<float>& path,
                                                                   float first_t, float last_t) noexcept {
+  using namespace detail;
   if (!frame.has_floats) return false;
-  std::array<float, 3> from;
-  float enters = first_t;
-  float leaves = last_t;
-  float fastest = 0;
-  bool is_plain = true;
-  std::uint32_t falls = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<Eigen::Index>(axis);
-    const auto stop = static_cast<float>(static_cast<std::int32_t>(frame.resolution(axis)));
-    const float move = (path.has_end() ? path.toward[i] - path.start[i] : path.toward[i]) * frame.float_scale[axis];
-    const float place = (path.start[i] - frame.float_low[axis]) * frame.float_scale[axis] + frame.margin[axis];
-    const float speed = std::fabs(move);
-    is_plain &= (-stop <= place) & (place <= 2 * stop) & (speed <= fast);
-    fastest = std::max(fastest, speed);
-    const std::uint32_t falling = move < 0 ? 1 : 0;
-    falls |= falling << axis;
-    from[axis] = std::array<float, 2>{place, stop - place}[falling];
-    rate[axis] = speed < least_rate ? 0 : speed;
-    inverse_rate[axis] = speed < least_rate ? greatest_inverse : 1 / speed;
-    enters = std::max(enters, -from[axis] * inverse_rate[axis]);
-    leaves = std::min(leaves, (stop - from[axis]) * inverse_rate[axis]);
-  }
-  if (!is_plain || !(fastest >= slow || path.has_end())) return false;
+  const Float4 path_start = {path.start[0], path.start[1], path.start[2], 0};
+  const Float4 path_toward = {path.toward[0], path.toward[1], path.toward[2], 0};
+  const Float4 stop = frame.float_stop;
+  const Float4 move = (path.has_end() ? path_toward - path_start : path_toward) * frame.float_scale;
+  const Float4 at = (path_start - frame.float_low) * frame.float_scale + frame.float_margin;
+  const Float4 speed = absolute(move);
+  const Int4 is_near = (-stop <= at) & (at <= stop + stop) & (speed <= all_lanes(fast));
+  const Int4 falls = move < all_lanes(0.0F);
+  const Int4 stands = speed < all_lanes(least_rate);
+  const Float4 from = falls ? stop - at : at;
+  rate = stands ? all_lanes(0.0F) : speed;
+  inverse_rate = stands ? all_lanes(greatest_inverse) : 1 / speed;
+  const Float4 limits = greatest_lanes(-from * inverse_rate, (from - stop) * inverse_rate, speed,
+                                       is_near ? all_lanes(0.0F) : all_lanes(1.0F));
+  if (limits[3] != 0 || !(limits[2] >= slow || path.has_end())) return false;
+  const float enters = std::max(first_t, limits[0]);
+  const float leaves = std::min(last_t, -limits[1]);
   if (!(enters <= leaves)) return true;
   place = Place::inside;
-  octant = falls;
+  octant = static_cast<std::uint32_t>((falls[0] & 1) | (falls[1] & 2) | (falls[2] & 4));
   origin[2] = double{enters};
   end = (last_t - enters) + (std::fabs(last_t) + std::fabs(enters)) * 0x1p-22F + std::numeric_limits<float>::min();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto stop = static_cast<float>(static_cast<std::int32_t>(frame.resolution(axis)));
-    start[axis] = std::min(std::max(from[axis] + enters * rate[axis], 0.0F), stop * (1 - 0x1p-24F));
-  }
+  exit = leaves - enters;
+  start = least(greatest(from + enters * rate, all_lanes(0.0F)), stop * (1 - 0x1p-24F));
   return true;
 }
 
@@ -122,14 +116,14 @@ class GridTraversal {
     std::int32_t pitch = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto cells = static_cast<std::int32_t>(frame.cells[axis]);
-      stop_[axis] = cells * static_cast<std::int32_t>(frame.division);
-      finest_[axis] = static_cast<std::int32_t>(path.start[axis]);
       const std::int32_t falls = -static_cast<std::int32_t>(path.octant >> axis & 1);  // all bits, or none
       pitch_[axis] = (pitch ^ falls) - falls;
       first_ += (cells - 1) * pitch & falls;
       flip_[axis] = falls & static_cast<std::int32_t>(Grid::brick_edge - 1);
       pitch *= cells;
     }
+    finest_ = detail::to_int(path.start);
+    stop_ = detail::to_int(frame.float_stop);
     at_end_ = false;
     look();
   }
@@ -145,25 +139,37 @@ class GridTraversal {
 
   /// Steps beyond the cell, or beyond the cube of empty cells that begins with it.
   [[gnu::always_inline]] void advance() noexcept {
+    using namespace detail;
     const std::int32_t leap =
         word_.is_empty() ? size_ * static_cast<std::int32_t>(word_.distance(path_.octant)) : size_;
-    std::array<std::int32_t, 3> plane;
-    std::array<float, 3> crossing;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      plane[axis] = (finest_[axis] & -size_) + leap;
-      crossing[axis] = (static_cast<float>(plane[axis]) - path_.start[axis]) * path_.inverse_rate[axis];
-    }
-    const float tau = std::min(std::min(crossing[0], crossing[1]), crossing[2]);
-    bool inside = tau < end_;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // No farther than the plane but for roundings, so that it fits.
-      const auto place = static_cast<std::int32_t>(path_.start[axis] + tau * path_.rate[axis]);
-      const std::int32_t cell = std::min(std::max(place, finest_[axis]), plane[axis] - 1);
-      finest_[axis] = crossing[axis] == tau ? plane[axis] : cell;
-      inside &= finest_[axis] < stop_[axis];
-    }
-    at_end_ = !inside;
-    if (inside) look();
+    const Int4 plane = (finest_ & -size_) + leap;
+    const Float4 crossing = (to_float(plane) - path_.start) * path_.inverse_rate;
+    const Float4 tau = least_lane(crossing);
+    // No farther than the plane but for roundings, so that it fits.
+    const Int4 place = to_int(path_.start + tau * path_.rate);
+    const Int4 cell = least(greatest(place, finest_), plane - 1);
+    finest_ = crossing == tau ? plane : cell;
+    at_end_ = !(tau[0] < end_) || any_lane(finest_ >= stop_);
+    if (!at_end_) look();
+  }
+
+  /// Whether the path may meet a triangle of the cell's list: it passes through the box that they take up there.
+  [[gnu::always_inline]] [[nodiscard]] bool meets_box() const noexcept {
+    using namespace detail;
+    const auto bits = static_cast<std::int32_t>(grid_.box(word_).bits());
+    constexpr std::int32_t last_part = CellBox::parts - 1;
+    const Int4 low = all_lanes(bits) >> Int4{0, 10, 20, 0} & last_part;
+    const Int4 high = all_lanes(bits) >> Int4{5, 15, 25, 5} & last_part;
+    const Int4 falls = flip_ != all_lanes(0);
+    const Int4 first = falls ? last_part - high : low;
+    const Int4 last = falls ? last_part - low : high;
+    const float part = static_cast<float>(size_) * (1.0F / CellBox::parts);
+    const Float4 padding = GridFrame::padding_share * grid_.frame().float_stop;
+    const Float4 corner = to_float(finest_ & -size_) - path_.start;
+    const Float4 enters = without_fourth((corner + (to_float(first) * part - padding)) * path_.inverse_rate);
+    const Float4 leaves = without_fourth((corner + (to_float(last + 1) * part + padding)) * path_.inverse_rate);
+    const Float4 limits = greatest_lanes(enters, -leaves, enters, -leaves);
+    return std::max(limits[0], 0.0F) <= std::min(-limits[1], end_);
   }
 
   /// What the path meets beyond parameter t is of no interest any more.
@@ -190,10 +196,10 @@ class GridTraversal {
 
   const Grid& grid_;
   const PlacedPath& path_;
-  std::array<std::int32_t, 3> finest_ = {0, 0, 0};  ///< the finest cell in which the walk stands
-  std::array<std::int32_t, 3> stop_ = {0, 0, 0};
+  detail::Int4 finest_ = {0, 0, 0, 0};  ///< the finest cell in which the walk stands
+  detail::Int4 stop_ = {0, 0, 0, 0};
+  detail::Int4 flip_ = {0, 0, 0, 0};
   std::array<std::int32_t, 3> pitch_ = {0, 0, 0};
-  std::array<std::int32_t, 3> flip_ = {0, 0, 0};
   std::int32_t first_ = 0;
   std::int32_t size_ = 1;
   float end_;

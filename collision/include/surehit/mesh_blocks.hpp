@@ -28,9 +28,9 @@ class MeshBlocks {
     const auto& [a, b, c] = corners_[id];
     return {vertices_[a], vertices_[b], vertices_[c]};
   }
-  /// The triangle at `index` of a list's block.
-  [[nodiscard]] static Triangle<Scalar> triangle(const Scalar* block, std::size_t count, std::size_t index) noexcept {
-    const auto at = [&](std::size_t k) { return block[k * count + index]; };
+  /// The triangle at `index` of a list of `count`.
+  [[nodiscard]] static Triangle<Scalar> triangle(const Scalar* corners, std::size_t count, std::size_t index) noexcept {
+    const auto at = [&](std::size_t k) { return corners[k * count + index]; };
     return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, {at(6), at(7), at(8)}};
   }
   /// Of the mesh as it was given, in the memory of this copy.
@@ -42,20 +42,25 @@ class MeshBlocks {
   static constexpr std::size_t coordinates = 9;
   /// Of a list that begins at `first_entry` of the grid and has `count` entries: coordinate k of triangle i is at
   /// k count + i. A vector load may read beyond the last.
-  [[nodiscard]] const Scalar* block(std::size_t first_entry) const noexcept {
-    return blocks_.data() + coordinates * first_entry;
-  }
+  [[nodiscard]] const Scalar* corners(std::size_t first_entry) const noexcept { return block(first_entry) + 1; }
   /// The greatest component of the list's edges b - a and c - a; infinite where coordinates are too large for the
   /// kernel.
-  [[nodiscard]] Scalar edge_size(std::size_t first_entry) const noexcept { return edge_sizes_[first_entry / 4]; }
+  [[nodiscard]] Scalar edge_size(std::size_t first_entry) const noexcept { return *block(first_entry); }
 
  private:
+  /// Lists begin at multiples of so many entries,
+  static constexpr std::size_t granule = 4;
+  /// which take so much room with the edge size before them.
+  static constexpr std::size_t granule_size = 1 + coordinates * granule;
+
+  [[nodiscard]] const Scalar* block(std::size_t first_entry) const noexcept {
+    return blocks_.data() + granule_size * (first_entry / granule);
+  }
   void fill_blocks(const Grid& grid, const Executor* executor);
 
   detail::UnsetVector<Vector3<Scalar>> vertices_;  ///< and one more, for a vector load of the last
   detail::UnsetVector<std::array<std::uint32_t, 3>> corners_;
   detail::UnsetVector<Scalar> blocks_;
-  detail::UnsetVector<Scalar> edge_sizes_;
 };
 
 }  // namespace surehit

@@ -8,7 +8,7 @@ namespace surehit {
 struct QueryStatistics {
   std::uint64_t paths = 0;       ///< paths asked
   std::uint64_t cells = 0;       ///< grid cells, and leaps through empty ones, walked through
-  std::uint64_t candidates = 0;  ///< entries of the lists met, a triangle in each cell and for padding; unclipped: all
+  std::uint64_t candidates = 0;  ///< entries of the lists met, a triangle for each cell; of unclipped paths: all
   std::uint64_t undecided = 0;   ///< of lists, those that the kernel's bounds could not call a miss or a hit
   std::uint64_t exact_decisions = 0;  ///< pairs that only exact arithmetic decided
   std::uint64_t exact_orders = 0;     ///< pairs of hits whose order only exact arithmetic told

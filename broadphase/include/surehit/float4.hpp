@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace surehit::detail {
+
+// x, y and z side by side, and a fourth lane whose numbers are chosen so that it is in nobody's way. GCC and Clang
+// compile these for whatever vectors the target has.
+
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a lane is all ones or zero
+
+/// In every lane.
+[[gnu::always_inline]] inline Float4 all_lanes(float x) { return Float4{x, x, x, x}; }
+[[gnu::always_inline]] inline Int4 all_lanes(std::int32_t x) { return Int4{x, x, x, x}; }
+
+[[gnu::always_inline]] inline Float4 least(Float4 a, Float4 b) { return a < b ? a : b; }
+[[gnu::always_inline]] inline Float4 greatest(Float4 a, Float4 b) { return a > b ? a : b; }
+[[gnu::always_inline]] inline Int4 least(Int4 a, Int4 b) { return a < b ? a : b; }
+[[gnu::always_inline]] inline Int4 greatest(Int4 a, Int4 b) { return a > b ? a : b; }
+
+[[gnu::always_inline]] inline Float4 to_float(Int4 x) { return __builtin_convertvector(x, Float4); }
+/// Toward zero; of a number that no integer holds, any integer.
+[[gnu::always_inline]] inline Int4 to_int(Float4 x) { return __builtin_convertvector(x, Int4); }
+
+[[gnu::always_inline]] inline Float4 absolute(Float4 x) {
+  return reinterpret_cast<Float4>(reinterpret_cast<Int4>(x) & 0x7fffffff);
+}
+
+/// The third lane instead of the fourth one.
+[[gnu::always_inline]] inline Float4 without_fourth(Float4 x) { return __builtin_shufflevector(x, x, 0, 1, 2, 2); }
+
+/// The greatest lane of each of four vectors.
+[[gnu::always_inline]] inline Float4 greatest_lanes(Float4 a, Float4 b, Float4 c, Float4 d) {
+  const Float4 ab = greatest(__builtin_shufflevector(a, b, 0, 4, 1, 5), __builtin_shufflevector(a, b, 2, 6, 3, 7));
+  const Float4 cd = greatest(__builtin_shufflevector(c, d, 0, 4, 1, 5), __builtin_shufflevector(c, d, 2, 6, 3, 7));
+  return greatest(__builtin_shufflevector(ab, cd, 0, 1, 4, 5), __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
+}
+
+/// The least lane, in every lane.
+[[gnu::always_inline]] inline Float4 least_lane(Float4 x) {
+  const Float4 pairs = least(x, __builtin_shufflevector(x, x, 1, 0, 3, 2));
+  return least(pairs, __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1));
+}
+
+[[gnu::always_inline]] inline bool any_lane(Int4 mask) {
+  using Long2 = std::int64_t __attribute__((vector_size(16)));
+  const auto halves = reinterpret_cast<Long2>(mask);
+  return (halves[0] | halves[1]) != 0;
+}
+
+}  // namespace surehit::detail

@@ -1,0 +1,96 @@
+#include "surehit/float4.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "support/random.hpp"
+
+namespace surehit::detail {
+namespace {
+
+using test::Random;
+
+Float4 draw(Random& random) {
+  return Float4{random.symmetric<float>(), random.symmetric<float>(), random.symmetric<float>(),
+                random.symmetric<float>()};
+}
+
+float greatest_of(Float4 x) { return std::max({x[0], x[1], x[2], x[3]}); }
+float least_of(Float4 x) { return std::min({x[0], x[1], x[2], x[3]}); }
+
+TEST(Float4, GreatestLanesAreThoseOfEachVector) {
+  Random random(7);
+  for (int i = 0; i < 1000; ++i) {
+    const Float4 a = draw(random);
+    const Float4 b = draw(random);
+    const Float4 c = draw(random);
+    const Float4 d = draw(random);
+    const Float4 greatest = greatest_lanes(a, b, c, d);
+    EXPECT_EQ(greatest[0], greatest_of(a));
+    EXPECT_EQ(greatest[1], greatest_of(b));
+    EXPECT_EQ(greatest[2], greatest_of(c));
+    EXPECT_EQ(greatest[3], greatest_of(d));
+  }
+}
+
+TEST(Float4, LeastLaneIsInEveryLane) {
+  Random random(7);
+  for (int i = 0; i < 1000; ++i) {
+    const Float4 x = draw(random);
+    const Float4 least = least_lane(x);
+    for (int lane = 0; lane < 4; ++lane) EXPECT_EQ(least[lane], least_of(x));
+  }
+  const Float4 with_infinity = least_lane(Float4{std::numeric_limits<float>::infinity(), 3, 2, 5});
+  for (int lane = 0; lane < 4; ++lane) EXPECT_EQ(with_infinity[lane], 2);
+}
+
+TEST(Float4, AnyLaneSeesEachOne) {
+  EXPECT_FALSE(any_lane(Int4{0, 0, 0, 0}));
+  for (int lane = 0; lane < 4; ++lane) {
+    Int4 mask = {0, 0, 0, 0};
+    mask[lane] = -1;
+    EXPECT_TRUE(any_lane(mask)) << lane;
+  }
+  EXPECT_TRUE(any_lane(Float4{1, 2, 3, 4} < Float4{1, 2, 3, 5}));
+  EXPECT_FALSE(any_lane(Float4{1, 2, 3, 4} < Float4{1, 2, 3, 4}));
+}
+
+TEST(Float4, ToIntGoesTowardZero) {
+  const Int4 whole = to_int(Float4{0.99F, 1.0F, -0.99F, -1.5F});
+  EXPECT_EQ(whole[0], 0);
+  EXPECT_EQ(whole[1], 1);
+  EXPECT_EQ(whole[2], 0);
+  EXPECT_EQ(whole[3], -1);
+  // The largest float below the most finest cells, and that number itself.
+  const Int4 large = to_int(Float4{32767.998F, 32768, 0, 16777216});
+  EXPECT_EQ(large[0], 32767);
+  EXPECT_EQ(large[1], 32768);
+  EXPECT_EQ(large[3], 16777216);
+}
+
+TEST(Float4, LanesAreComparedAndConvertedOneByOne) {
+  Random random(7);
+  for (int i = 0; i < 1000; ++i) {
+    const Float4 a = draw(random);
+    const Float4 b = draw(random);
+    const Int4 whole = to_int(100 * a);
+    for (int lane = 0; lane < 4; ++lane) {
+      EXPECT_EQ(least(a, b)[lane], std::min(a[lane], b[lane]));
+      EXPECT_EQ(greatest(a, b)[lane], std::max(a[lane], b[lane]));
+      EXPECT_EQ(absolute(a)[lane], a[lane] < 0 ? -a[lane] : a[lane]);
+      EXPECT_EQ(to_float(whole)[lane], static_cast<float>(whole[lane]));
+      EXPECT_EQ(without_fourth(a)[lane], a[std::min(lane, 2)]);
+    }
+    const Int4 other = to_int(100 * b);
+    for (int lane = 0; lane < 4; ++lane) {
+      EXPECT_EQ(least(whole, other)[lane], std::min<std::int32_t>(whole[lane], other[lane]));
+      EXPECT_EQ(greatest(whole, other)[lane], std::max<std::int32_t>(whole[lane], other[lane]));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace surehit::detail

@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/brute_force.hpp"
+#include "support/case_count.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/instruction_sets.hpp"
+#include "support/pair_families.hpp"
+#include "support/pair_text.hpp"
+#include "support/same_bits.hpp"
+#include "support/scalars.hpp"
+#include "surehit/collider.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// Hits that are closer to each other than the kernel can tell apart: the first one is still the one of least exact t,
+/// then of least id.
+template <typename Scalar>
+class FirstHitOrder : public testing::Test {
+ protected:
+  static constexpr std::size_t paths_at_once = 19;
+
+  static Vector3<Scalar> draw_vector(Random& random) {
+    return Vector3<Scalar>::NullaryExpr([&] { return random.symmetric<Scalar>(); });
+  }
+
+  /// Around the point, so that it is hit there but for rounding.
+  static Triangle<Scalar> draw_around(Random& random, const Vector3<Scalar>& point, Scalar size) {
+    const Vector3<Scalar> a = size * draw_vector(random);
+    const Vector3<Scalar> b = size * draw_vector(random);
+    return {point + a, point + b, point - (a + b)};
+  }
+
+  static void shuffle(std::vector<Triangle<Scalar>>& triangles, Random& random) {
+    for (std::size_t i = triangles.size(); i > 1; --i) std::swap(triangles[i - 1], triangles[random.below(i)]);
+  }
+
+  /// On every instruction set, one by one and in a batch, in one cell and in many.
+  void expect_first(const std::vector<Triangle<Scalar>>& triangles, const std::vector<Segment<Scalar>>& segments) {
+    GeneratedMesh<Scalar> mesh;
+    for (const Triangle<Scalar>& triangle : triangles) mesh.add(triangle);
+    std::vector<Hit<Scalar>> expected;
+    for (const Segment<Scalar>& segment : segments) {
+      const auto all = brute_force_hits<Scalar>(mesh.view(), segment);
+      expected.push_back(all.empty() ? Hit<Scalar>{} : all.front());
+      hits_ += all.empty() ? 0 : 1;
+      if (all.size() > 1 && all[1].t == all[0].t) ++ties_;
+    }
+    for (const GridOptions& grid :
+         {GridOptions{.resolution = {1, 1, 1}, .crowded = 0}, GridOptions{.resolution = {3, 4, 5}, .crowded = 8}}) {
+      const Collider<Scalar> collider(mesh.view(), BuildOptions{grid, {}});
+      for (const std::int64_t target : instruction_sets()) {
+        const ForcedInstructionSet forced(target);
+        SCOPED_TRACE(name_of_instruction_set(target));
+        std::vector<Hit<Scalar>> hits(segments.size());
+        collider.first_hits(std::span<const Segment<Scalar>>(segments), std::span<Hit<Scalar>>(hits));
+        for (std::size_t i = 0; i < segments.size(); ++i) {
+          SCOPED_TRACE(hex_text(Path<Scalar>(segments[i])) + " through " + std::to_string(triangles.size()) +
+                       " triangles in " + std::to_string(grid.resolution[0]));
+          EXPECT_TRUE(same_bits(hits[i], expected[i])) << hex_text(hits[i]) << " and not " << hex_text(expected[i]);
+          const Hit<Scalar> single = collider.first_hit(segments[i]).value_or(Hit<Scalar>{});
+          EXPECT_TRUE(same_bits(single, expected[i])) << hex_text(single) << " and not " << hex_text(expected[i]);
+        }
+      }
+    }
+  }
+
+  std::size_t hits_ = 0;
+  std::size_t ties_ = 0;
+};
+TYPED_TEST_SUITE(FirstHitOrder, Scalars, ScalarNames);
+
+/// All paths start at one point and all triangles lie around another one, or at a distance of some ulps.
+TYPED_TEST(FirstHitOrder, of_triangles_within_the_kernels_bound) {
+  Random random(81);
+  for (std::size_t i = case_count(60); i > 0 && !this->HasFailure(); --i) {
+    const Vector3<TypeParam> target = this->draw_vector(random);
+    const TypeParam apart = random.one_in(3) ? 0 : std::ldexp(TypeParam{1}, -static_cast<int>(10 + random.below(50)));
+    std::vector<Triangle<TypeParam>> triangles(2 + random.below(90));
+    for (Triangle<TypeParam>& triangle : triangles) {
+      const Vector3<TypeParam> point = target + apart * this->draw_vector(random);
+      triangle = random.one_in(4) ? triangles.front() : this->draw_around(random, point, TypeParam{1});
+    }
+    this->shuffle(triangles, random);
+    std::vector<Segment<TypeParam>> segments;
+    for (std::size_t k = 0; k < this->paths_at_once; ++k) {
+      const Vector3<TypeParam> start = TypeParam{2} * this->draw_vector(random);
+      segments.push_back({start, start + TypeParam{2} * (target - start)});
+    }
+    this->expect_first(triangles, segments);
+  }
+  EXPECT_GT(this->hits_, case_count(60) * this->paths_at_once / 2);
+  EXPECT_GT(this->ties_, case_count(60));
+}
+
+/// Planes square to an axis, one ulp or none apart, in any order of their ids: more than become jobs at once.
+TYPED_TEST(FirstHitOrder, of_long_stacks_an_ulp_apart) {
+  Random random(82);
+  for (std::size_t i = case_count(40); i > 0 && !this->HasFailure(); --i) {
+    std::vector<Triangle<TypeParam>> triangles;
+    const auto axis = static_cast<Eigen::Index>(random.below(3));
+    TypeParam height = 1 + random.template unit<TypeParam>();
+    for (std::size_t k = 0; k < 2 + random.below(120); ++k) {
+      if (random.one_in(2)) height = std::nextafter(height, TypeParam{9});
+      Triangle<TypeParam> triangle{{-1, -1, -1}, {3, -1, -1}, {-1, 3, -1}};
+      if (axis == 0) triangle = {{-1, -1, -1}, {-1, 3, -1}, {-1, -1, 3}};
+      if (axis == 1) triangle = {{-1, -1, -1}, {3, -1, -1}, {-1, -1, 3}};
+      triangle.a[axis] = triangle.b[axis] = triangle.c[axis] = height;
+      triangles.push_back(triangle);
+    }
+    this->shuffle(triangles, random);
+    std::vector<Segment<TypeParam>> segments;
+    for (std::size_t k = 0; k < this->paths_at_once; ++k) {
+      Segment<TypeParam> segment{this->draw_vector(random) / 4, this->draw_vector(random) / 4};
+      segment.start[axis] = random.one_in(2) ? -3 : 5;
+      segment.end[axis] = segment.start[axis] > 0 ? -3 : 5;
+      segments.push_back(segment);
+    }
+    this->expect_first(triangles, segments);
+  }
+  EXPECT_GT(this->ties_, case_count(40));
+}
+
+/// Certain hits, of which many tie exactly, for triangles share corners' coordinates with each other's planes: the
+/// least id wins wherever it is listed.
+TYPED_TEST(FirstHitOrder, of_exact_ties_across_cells) {
+  Random random(83);
+  for (std::size_t i = case_count(60); i > 0 && !this->HasFailure(); --i) {
+    // All planes pass through the whole-numbered point p, in which certain hits of all are.
+    const auto whole = [&](std::int64_t most) -> Vector3<TypeParam> {
+      return Vector3<TypeParam>::NullaryExpr([&] { return static_cast<TypeParam>(random.between(-most, most)); });
+    };
+    const Vector3<TypeParam> p = whole(8);
+    std::vector<Triangle<TypeParam>> triangles(3 + random.below(60));
+    for (Triangle<TypeParam>& triangle : triangles) {
+      const Vector3<TypeParam> a = whole(4);
+      const Vector3<TypeParam> b = whole(4);
+      triangle = random.one_in(5) ? triangles.front() : Triangle<TypeParam>{p + a, p + b, p - (a + b)};
+    }
+    for (std::size_t far = 0; far < 8; ++far) triangles.push_back(this->draw_around(random, 30 * whole(1), 3));
+    this->shuffle(triangles, random);
+    std::vector<Segment<TypeParam>> segments;
+    for (std::size_t k = 0; k < this->paths_at_once; ++k) {
+      const Vector3<TypeParam> way = whole(16);
+      segments.push_back({p - way, p + static_cast<TypeParam>(1 + random.below(4)) * way});
+    }
+    this->expect_first(triangles, segments);
+  }
+  EXPECT_GT(this->ties_, case_count(60) * this->paths_at_once / 4);
+}
+
+/// Through edges and vertices that triangles share, and beside them.
+TYPED_TEST(FirstHitOrder, of_shared_edges) {
+  Random random(84);
+  for (std::size_t i = case_count(30); i > 0 && !this->HasFailure(); --i) {
+    const auto ground = rough_ground<TypeParam>(4, TypeParam{0.5F}, random);
+    std::vector<Triangle<TypeParam>> triangles;
+    for (std::uint32_t id = 0; id < ground.triangles.size(); ++id) triangles.push_back(ground.view().triangle(id));
+    this->shuffle(triangles, random);
+    std::vector<Segment<TypeParam>> segments;
+    for (std::size_t k = 0; k < this->paths_at_once; ++k) {
+      const Triangle<TypeParam>& triangle = triangles[random.below(triangles.size())];
+      const TypeParam weight = random.one_in(3) ? 0 : random.template unit<TypeParam>();
+      const Vector3<TypeParam> on_edge = triangle.a + weight * (triangle.b - triangle.a);
+      const Vector3<TypeParam> way = this->draw_vector(random) + Vector3<TypeParam>{0, 0, 1};
+      segments.push_back({on_edge - way, on_edge + way});
+    }
+    this->expect_first(triangles, segments);
+  }
+  EXPECT_GT(this->ties_, case_count(30));
+}
+
+}  // namespace
+}  // namespace surehit::test
