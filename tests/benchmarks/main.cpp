@@ -24,11 +24,10 @@ struct TableKind {
 };
 
 const std::vector<TableKind>& all_tables() {
-  static const std::vector<TableKind> tables = {{"queries", measure_queries},
-                                                {"build", measure_builds},
-                                                {"size", measure_sizes},
-                                                {"tick", measure_ticks},
-                                                {"threads", measure_threads, false}};
+  static const std::vector<TableKind> tables = {
+      {"queries", measure_queries}, {"build", measure_builds},           {"size", measure_sizes},
+      {"tick", measure_ticks},      {"threads", measure_threads, false}, {"exactness", measure_exactness},
+  };
   return tables;
 }
 

@@ -1,0 +1,196 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <surehit/collider.hpp>
+#include <surehit/floating_point_environment.hpp>
+
+#include "entrants.hpp"
+
+// Compiled once for each instruction set, and chosen with those of the library.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "unfiltered_entrant.cpp"
+#include <hwy/foreach_target.h>
+// Behind foreach_target.h.
+#include "batch-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace surehit::detail::HWY_NAMESPACE {
+
+/// The determinants taken at their word: a hit where all that must be of one sign is as computed. Zero is of either
+/// sign, but a det of zero is a miss, as is usual in inexact tests.
+class UnfilteredKernel : BlockDeterminants<float> {
+ public:
+  HWY_INLINE UnfilteredKernel(const KernelPath<float>& path, const TriangleList<float>& list, std::size_t from)
+      : BlockDeterminants(path, list, from) {}
+
+  [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<float>& range) const {
+    const V zero = hn::Zero(d_);
+    const V w = hn::Sub(hn::Sub(det_, u_), v_);
+    const V first = hn::MulAdd(height_, all(range.t_first), hn::Mul(det_, all(range.det_first)));
+    const V last = hn::MulAdd(height_, all(range.t_last), hn::Mul(det_, all(range.det_last)));
+    const V least = hn::Min(hn::Min(hn::Min(u_, v_), w), hn::Min(first, last));
+    const V greatest = hn::Max(hn::Max(hn::Max(u_, v_), w), hn::Max(first, last));
+    const auto one_sign = hn::Or(hn::Ge(least, zero), hn::Le(greatest, zero));
+    const auto counts = hn::And(hn::Ne(det_, zero), hn::FirstN(d_, left_));
+    const std::uint64_t hits = bits_of(d_, hn::And(one_sign, counts));
+    return {hits, hits};
+  }
+
+  /// Has room for radii since the batch keeps them between two steps.
+  struct Crossing {
+    V height, height_radius, det;
+    float det_radius;
+  };
+  [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, hn::Zero(d_), det_, 0}; }
+
+  [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of(const Crossing& crossing, std::uint64_t hits,
+                                                             float /*limit*/) {
+    const Tag d;
+    const auto taken = mask_of(d, hits);
+    const V t =
+        hn::IfThenElse(taken, hn::Div(crossing.height, crossing.det), all(std::numeric_limits<float>::infinity()));
+    const float least = hn::GetLane(hn::MinOfLanes(d, t));
+    return {bits_of(d, hn::And(taken, hn::Eq(t, all(least)))), least, least};
+  }
+};
+
+/// Keeps the hit of least t as computed; of equal ones the first that it is shown.
+class UnfilteredFirst {
+ public:
+  using Kernel = UnfilteredKernel;
+  static constexpr bool wants_order = true;
+
+  explicit UnfilteredFirst(const Query<float>&) {}
+  void reset() { t_ = std::numeric_limits<float>::infinity(); }
+
+  HWY_INLINE bool meet(const Meeting<float, Segmentf>& meeting) {
+    if (!(meeting.first.t_lower < t_)) return false;
+    const auto lane = static_cast<std::size_t>(std::countr_zero(meeting.first.lanes));
+    t_ = meeting.first.t_lower;
+    entry_ = meeting.entry(lane);
+    triangle_ = meeting.triangle(lane);
+    hwy::Prefetch(meeting.query.grid.entries().data() + entry_);  // wanted when the path ends
+    return true;
+  }
+  [[nodiscard]] float t_upper() const { return t_; }
+  [[nodiscard]] double limit() const { return t_; }
+  [[nodiscard]] bool is_done() const { return false; }
+
+  [[nodiscard]] bool is_found() const { return t_ < std::numeric_limits<float>::infinity(); }
+  [[nodiscard]] HWY_INLINE Hitf hit(const Query<float>& query, const Segmentf& segment) const {
+    const Vector3f direction = segment.end - segment.start;
+    const Vector3f ab = triangle_.b - triangle_.a;
+    const Vector3f ac = triangle_.c - triangle_.a;
+    const Vector3f from_a = segment.start - triangle_.a;
+    const Vector3f normal_of_u = direction.cross(ac);
+    const float det = ab.dot(normal_of_u);
+    return {t_, from_a.dot(normal_of_u) / det, direction.dot(from_a.cross(ab)) / det, query.grid.entries()[entry_],
+            det > 0 ? Side::front : Side::back};
+  }
+
+ private:
+  float t_ = std::numeric_limits<float>::infinity();
+  std::size_t entry_ = 0;
+  Trianglef triangle_ = {Vector3f::Zero(), Vector3f::Zero(), Vector3f::Zero()};
+};
+
+class UnfilteredAny {
+ public:
+  using Kernel = UnfilteredKernel;
+  static constexpr bool wants_order = false;
+
+  explicit UnfilteredAny(const Query<float>&) {}
+  void reset() { is_done_ = false; }
+
+  HWY_INLINE bool meet(const Meeting<float, Segmentf>& meeting) { return is_done_ = meeting.lanes.certain != 0; }
+  [[nodiscard]] double limit() const { return 0; }
+  [[nodiscard]] bool is_done() const { return is_done_; }
+
+ private:
+  bool is_done_ = false;
+};
+
+// Paths that the lanes cannot place are answered as the library does.
+
+void unfiltered_first_hits(const Query<float>& query, std::span<const Segmentf> paths, std::span<Hitf> hits) {
+  std::fill(hits.begin(), hits.end(), Hitf{});
+  const PathRange<float> range(paths.front(), query.options);
+  const auto finish = [&](std::size_t index, const UnfilteredFirst& first) {
+    if (first.is_found()) hits[index] = first.hit(query, paths[index]);
+  };
+  const auto alone = [&](std::size_t index) { hits[index] = first_hit<float>(query, paths[index]).value_or(Hitf{}); };
+  answer_each<UnfilteredFirst>(query, range, paths, finish, alone);
+}
+
+void unfiltered_any_hits(const Query<float>& query, std::span<const Segmentf> paths, std::span<std::uint8_t> blocked) {
+  std::fill(blocked.begin(), blocked.end(), std::uint8_t{0});
+  const PathRange<float> range(paths.front(), query.options);
+  const auto finish = [&](std::size_t index, const UnfilteredAny& any) { blocked[index] = any.is_done() ? 1 : 0; };
+  const auto alone = [&](std::size_t index) { blocked[index] = any_hit<float>(query, paths[index]) ? 1 : 0; };
+  answer_each<UnfilteredAny>(query, range, paths, finish, alone);
+}
+
+}  // namespace surehit::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace surehit::detail {
+
+HWY_EXPORT(unfiltered_first_hits);
+HWY_EXPORT(unfiltered_any_hits);
+
+void chosen_first_hits(const Query<float>& query, std::span<const Segmentf> paths, std::span<Hitf> hits) {
+  HWY_DYNAMIC_DISPATCH(unfiltered_first_hits)(query, paths, hits);
+}
+void chosen_any_hits(const Query<float>& query, std::span<const Segmentf> paths, std::span<std::uint8_t> blocked) {
+  HWY_DYNAMIC_DISPATCH(unfiltered_any_hits)(query, paths, blocked);
+}
+
+}  // namespace surehit::detail
+
+namespace surehit::benchmark {
+namespace {
+
+/// Works on the grid of a collider and on what the collider makes of its mesh for that grid, so that both lie in memory
+/// in the same way.
+class UnfilteredBatch : public Contender {
+ public:
+  void build(const TriangleMeshViewf& mesh) override {
+    collider_ = Colliderf(mesh);
+    blocks_ = MeshBlocks<float>(mesh, collider_.grid());
+  }
+
+  [[nodiscard]] std::size_t memory_bytes() const override {
+    return collider_.grid().memory_bytes() + blocks_.memory_bytes();
+  }
+
+  void first(const PathBatch& paths, std::span<Hitf> hits) const override {
+    answer([&](const detail::Query<float>& query) { detail::chosen_first_hits(query, paths.segments(), hits); });
+  }
+
+  void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
+    answer([&](const detail::Query<float>& query) { detail::chosen_any_hits(query, paths.segments(), blocked); });
+  }
+
+ private:
+  template <typename Answer>
+  void answer(const Answer& answer) const {
+    const FloatingPointEnvironment environment;
+    const QueryOptions<float> options;
+    QueryStatistics unread;
+    answer({collider_.grid(), blocks_, {}, options, nullptr, unread});
+  }
+
+  Colliderf collider_;
+  MeshBlocks<float> blocks_;
+};
+
+}  // namespace
+
+Entrant unfiltered_entrant() {
+  return {"surehit without its filter", "", "", [] { return std::make_unique<UnfilteredBatch>(); }};
+}
+
+}  // namespace surehit::benchmark
+#endif
