@@ -28,4 +28,8 @@ std::vector<InstructionSet> all_instruction_sets() {
   return sets;
 }
 
+std::string instruction_set_in_effect() {
+  return usual_name(test::name_of_instruction_set(hwy::SupportedAndGeneratedTargets().front()));
+}
+
 }  // namespace surehit::benchmark

@@ -11,7 +11,9 @@ struct InstructionSet {
   std::int64_t target;  ///< as Highway numbers it
 };
 
-/// Those that both this machine and this build have, best first, or the one that is forced: surehit runs on the first.
+/// Those that both this machine and this build have, best first.
 [[nodiscard]] std::vector<InstructionSet> all_instruction_sets();
+/// The name of the one that the library would choose now.
+[[nodiscard]] std::string instruction_set_in_effect();
 
 }  // namespace surehit::benchmark

@@ -148,7 +148,7 @@ void write_file(const std::string& path, const std::string& text) {
 
 void measure(const Words& words, const Request& request) {
   const test::ForcedInstructionSet forced(target_of(words.instruction_set));
-  Report report(all_instruction_sets().front().name);  // what is in effect, rather than what was asked for
+  Report report(instruction_set_in_effect());  // rather than what was asked for
   for (const TableKind& table : all_tables()) {
     if (!is_among(table.name, words.tables)) continue;
     std::optional<CorePin> pin;

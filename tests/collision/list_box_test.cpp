@@ -61,9 +61,9 @@ class ListBox : public testing::Test {
         EXPECT_FALSE(collider.any_hit(paths[i], nothing, &in_pieces));
         EXPECT_GE(in_pieces.candidates, bounds[i].least);
         QueryStatistics in_lane;
-        std::uint8_t blocked = 1;
-        collider.any_hits(std::span(&paths[i], 1), std::span(&blocked, 1), nothing, &in_lane);
-        EXPECT_EQ(blocked, 0);
+        Hit<Scalar> hit;
+        collider.first_hits(std::span(&paths[i], 1), std::span(&hit, 1), nothing, &in_lane);
+        EXPECT_EQ(hit.triangle, no_triangle);
         expect_between(in_lane, bounds[i]);
       }
       Bounds of_all;
