@@ -7,8 +7,8 @@
 
 namespace surehit::detail {
 
-/// Asks the system, where it takes such hints, to hold what lies in large memory in large pages: half the time of a fresh
-/// build goes into small ones, and paths that jump about in the lists miss fewer of them.
+/// Asks the system, where it takes such hints, to hold what lies in large memory in large pages: half the time of a
+/// fresh build goes into small ones, and paths that jump about in the lists miss fewer of them.
 void prefer_large_pages(void* memory, std::size_t bytes) noexcept;
 
 /// Leaves numbers as the memory holds them where a vector grows, for those who write all of them anyway.
