@@ -5,6 +5,8 @@
 #include <memory>
 #include <type_traits>
 
+#include "surehit/callable_address.hpp"
+
 namespace surehit {
 
 /// A reference to whatever spreads work over threads: any callable `void(std::size_t count, const Executor::Task&
@@ -33,7 +35,7 @@ class Executor {
   requires(!std::same_as<std::remove_cvref_t<Callable>, Executor> &&
            std::is_invocable_v<Callable&, std::size_t, const Task&>) Executor(Callable&& callable)
   noexcept
-      : callable_(address_of(callable)), call_([](void* target, std::size_t count, const Task& task) {
+      : callable_(detail::callable_address(callable)), call_([](void* target, std::size_t count, const Task& task) {
           (*reinterpret_cast<std::remove_reference_t<Callable>*>(target))(count, task);
         }) {}
 
@@ -44,15 +46,6 @@ class Executor {
   }
 
  private:
-  template <typename Callable>
-  static void* address_of(Callable& callable) {
-    if constexpr (std::is_function_v<Callable>) {
-      return reinterpret_cast<void*>(&callable);
-    } else {
-      return const_cast<void*>(static_cast<const void*>(std::addressof(callable)));
-    }
-  }
-
   void* callable_;
   void (*call_)(void*, std::size_t, const Task&);
 };

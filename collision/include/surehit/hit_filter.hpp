@@ -1,9 +1,9 @@
 #pragma once
 
 #include <concepts>
-#include <memory>
 #include <type_traits>
 
+#include "surehit/callable_address.hpp"
 #include "surehit/hit.hpp"
 
 namespace surehit {
@@ -20,22 +20,13 @@ class HitFilter {
   requires(!std::same_as<std::remove_cvref_t<Callable>, HitFilter> &&
            std::is_invocable_r_v<bool, Callable&, const Hit<Scalar>&>) HitFilter(Callable&& callable)
   noexcept
-      : callable_(address_of(callable)), call_([](void* target, const Hit<Scalar>& hit) -> bool {
+      : callable_(detail::callable_address(callable)), call_([](void* target, const Hit<Scalar>& hit) -> bool {
           return (*reinterpret_cast<std::remove_reference_t<Callable>*>(target))(hit);
         }) {}
 
   bool operator()(const Hit<Scalar>& hit) const { return call_(callable_, hit); }
 
  private:
-  template <typename Callable>
-  static void* address_of(Callable& callable) {
-    if constexpr (std::is_function_v<Callable>) {
-      return reinterpret_cast<void*>(&callable);
-    } else {
-      return const_cast<void*>(static_cast<const void*>(std::addressof(callable)));
-    }
-  }
-
   void* callable_;
   bool (*call_)(void*, const Hit<Scalar>&);
 };
