@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -44,6 +45,31 @@ class CellPointDraws : public testing::Test {
       drawn[axis] = std::clamp(other[axis] + size * random_.symmetric<float>(), 0.0F, static_cast<float>(resolution_));
     }
     return drawn;
+  }
+
+  /// With corners anywhere, from as wide as the grid to far within a finest cell.
+  Corners triangle_of_any_size() {
+    const float size = std::ldexp(static_cast<float>(resolution_), -static_cast<int>(random_.below(24)));
+    const detail::CellPoint a = point();
+    return {a, near(a, size), near(a, size)};
+  }
+
+  Corners triangle_in_a_cell_plane() {
+    Corners corners = {point(), point(), point()};
+    const std::size_t axis = random_.below(3);
+    corners[1][axis] = corners[2][axis] = corners[0][axis];
+    return corners;
+  }
+
+  /// Two slivers, a segment and a point.
+  std::array<Corners, 4> slivers_and_degenerate_triangles() {
+    const detail::CellPoint a = point();
+    const detail::CellPoint b = point();
+    detail::CellPoint between;
+    const float weight = random_.unit<float>();
+    for (std::size_t axis = 0; axis < 3; ++axis) between[axis] = a[axis] + weight * (b[axis] - a[axis]);
+    const detail::CellPoint beside = near(between, std::ldexp(static_cast<float>(resolution_), -10));
+    return {Corners{a, b, between}, Corners{a, b, beside}, Corners{a, b, a}, Corners{a, a, a}};
   }
 
   const std::uint32_t resolution_;

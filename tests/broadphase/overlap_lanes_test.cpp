@@ -114,11 +114,7 @@ class OverlapLanesIn : public CellPointDraws, public testing::WithParamInterface
 };
 
 TEST_P(OverlapLanesIn, TrianglesOfAllSizes) {
-  for (std::size_t i = 0; i < case_count(4000); ++i) {
-    const float size = std::ldexp(static_cast<float>(resolution_), -static_cast<int>(random_.below(24)));
-    const detail::CellPoint a = point();
-    add({a, near(a, size), near(a, size)});
-  }
+  for (std::size_t i = 0; i < case_count(4000); ++i) add(triangle_of_any_size());
 }
 
 TEST_P(OverlapLanesIn, TrianglesWithCornersOnPlanesAndWherePaddingEnds) {
@@ -126,25 +122,12 @@ TEST_P(OverlapLanesIn, TrianglesWithCornersOnPlanesAndWherePaddingEnds) {
 }
 
 TEST_P(OverlapLanesIn, TrianglesInCellPlanes) {
-  for (std::size_t i = 0; i < case_count(2000); ++i) {
-    Corners corners = {point(), point(), point()};
-    const std::size_t axis = random_.below(3);
-    corners[1][axis] = corners[2][axis] = corners[0][axis];
-    add(corners);
-  }
+  for (std::size_t i = 0; i < case_count(2000); ++i) add(triangle_in_a_cell_plane());
 }
 
 TEST_P(OverlapLanesIn, SliversAndDegenerateTriangles) {
   for (std::size_t i = 0; i < case_count(1500); ++i) {
-    const detail::CellPoint a = point();
-    const detail::CellPoint b = point();
-    detail::CellPoint between;
-    const float weight = random_.unit<float>();
-    for (std::size_t axis = 0; axis < 3; ++axis) between[axis] = a[axis] + weight * (b[axis] - a[axis]);
-    add({a, b, between});
-    add({a, b, near(between, std::ldexp(static_cast<float>(resolution_), -10))});
-    add({a, b, a});
-    add({a, a, a});
+    for (const Corners& corners : slivers_and_degenerate_triangles()) add(corners);
   }
 }
 

@@ -76,11 +76,7 @@ class TriangleOverlapIn : public CellPointDraws, public testing::WithParamInterf
 };
 
 TEST_P(TriangleOverlapIn, BoxesOfTrianglesOfAllSizes) {
-  for (std::size_t i = 0; i < case_count(3000); ++i) {
-    const float size = std::ldexp(static_cast<float>(resolution_), -static_cast<int>(random_.below(24)));
-    const detail::CellPoint a = point();
-    expect_right({a, near(a, size), near(a, size)});
-  }
+  for (std::size_t i = 0; i < case_count(3000); ++i) expect_right(triangle_of_any_size());
 }
 
 TEST_P(TriangleOverlapIn, BoxesOfTrianglesWithCornersOnPlanesAndWherePaddingEnds) {
@@ -88,25 +84,12 @@ TEST_P(TriangleOverlapIn, BoxesOfTrianglesWithCornersOnPlanesAndWherePaddingEnds
 }
 
 TEST_P(TriangleOverlapIn, BoxesOfTrianglesInCellPlanes) {
-  for (std::size_t i = 0; i < case_count(1500); ++i) {
-    Corners corners = {point(), point(), point()};
-    const std::size_t axis = random_.below(3);
-    corners[1][axis] = corners[2][axis] = corners[0][axis];
-    expect_right(corners);
-  }
+  for (std::size_t i = 0; i < case_count(1500); ++i) expect_right(triangle_in_a_cell_plane());
 }
 
 TEST_P(TriangleOverlapIn, BoxesOfSliversAndDegenerateTriangles) {
   for (std::size_t i = 0; i < case_count(1500); ++i) {
-    const detail::CellPoint a = point();
-    const detail::CellPoint b = point();
-    detail::CellPoint between;
-    const float weight = random_.unit<float>();
-    for (std::size_t axis = 0; axis < 3; ++axis) between[axis] = a[axis] + weight * (b[axis] - a[axis]);
-    expect_right({a, b, between});
-    expect_right({a, b, near(between, std::ldexp(static_cast<float>(resolution_), -10))});
-    expect_right({a, b, a});
-    expect_right({a, a, a});
+    for (const Corners& corners : slivers_and_degenerate_triangles()) expect_right(corners);
   }
 }
 
