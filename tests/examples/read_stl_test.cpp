@@ -52,7 +52,7 @@ TEST(ReadStl, TakesCapitalsSeveralSolidsAndMeaninglessNormals) {
   const std::string capitals =
       "SOLID\nFACET NORMAL nan nan nan\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1 "
       "0\nENDLOOP\nENDFACET\nENDSOLID\n";
-  EXPECT_EQ(read_stl<float>(capitals + "\n" + "solid b\n" + facet + "endsolid b\n").triangles.size(), 2u);
+  EXPECT_EQ(read_stl<float>(capitals + "\nsolid b\n" + facet + "endsolid b\n").triangles.size(), 2u);
 }
 
 TEST(ReadStl, ReadsBytes) {
