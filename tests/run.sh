@@ -6,7 +6,7 @@ usage() {
   cat <<USAGE
 usage: $0 [--quick | --clang]
 
-Without options: all tests in Release with GCC, a tenth of the cases under AddressSanitizer and
+Without options: all tests in Release with GCC, a twentieth of the cases under AddressSanitizer and
 UndefinedBehaviorSanitizer, and the library and the examples built with Clang.
 
   --quick   Release with GCC alone, a tenth of the cases
@@ -90,7 +90,7 @@ if $quick; then finish; fi
 
 stage "GCC, AddressSanitizer and UndefinedBehaviorSanitizer: building"
 if CXX=g++ build asan-ubsan; then
-  stage "GCC, AddressSanitizer and UndefinedBehaviorSanitizer: testing a tenth of the cases"
+  stage "GCC, AddressSanitizer and UndefinedBehaviorSanitizer: testing a twentieth of the cases"
   run_tests asan-ubsan
 fi
 

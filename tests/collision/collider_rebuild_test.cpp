@@ -128,7 +128,7 @@ TYPED_TEST(ColliderRebuild, keeps_masks_and_grid_options) {
     const Collider<TypeParam> expected(moved.view(), options);
     expect_same_mesh(collider, expected);
     for (const std::uint32_t mask : {1U, 2U, 4U, 5U, 8U}) {
-      expect_same_answers(collider, expected, paths_around(moved, 20, mask), {.mask = mask});
+      expect_same_answers(collider, expected, paths_around(moved, case_count(20), mask), {.mask = mask});
     }
   }
 }

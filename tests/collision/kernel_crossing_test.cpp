@@ -240,7 +240,7 @@ class KernelCrossing : public testing::Test {
         for (Scalar& coordinate : best) coordinate = draw_coordinate<Scalar>(random);
         best_share = share_of(best, is_line);
       }
-      for (std::size_t step = case_count(steps); step > 0; --step) {
+      for (std::size_t step = steps; step > 0; --step) {
         Coordinates next = best;
         Scalar& coordinate = next[random.below(next.size())];
         coordinate = changed_coordinate(random, coordinate);
@@ -312,8 +312,8 @@ TYPED_TEST(KernelCrossing, holds_at_sizes_at_which_products_overflow_or_underflo
 TYPED_TEST(KernelCrossing, holds_where_hill_climbing_makes_the_error_worst) {
   this->on_every_instruction_set([&] {
     const std::string name = name_of_instruction_set(hwy::SupportedTargets());
-    this->expect_below_one("of_segments_" + name, this->climb(6, 1'000, false));
-    this->expect_below_one("of_lines_" + name, this->climb(6, 1'000, true));
+    this->expect_below_one("of_segments_" + name, this->climb(6, case_count(1'000), false));
+    this->expect_below_one("of_lines_" + name, this->climb(6, case_count(1'000), true));
   });
 }
 

@@ -127,7 +127,7 @@ TYPED_TEST(ListBox, IsMetByPathsThatPassThroughIt) {
   this->scan(placed<TypeParam>(small, 100, {1e5F, -1e5F, 1e5F}), {.resolution = {3, 4, 2}, .crowded = 3}, 100);
   for (const GridOptions& options :
        {GridOptions{.resolution = {9, 7, 11}, .crowded = 0}, GridOptions{.resolution = {5, 6, 4}, .crowded = 2}}) {
-    this->scan(triangles_on_box_sides<TypeParam>(60, options, random), options, 400);
+    this->scan(triangles_on_box_sides<TypeParam>(60, options, random), options, 1000);
   }
   EXPECT_GT(this->passed_by_, 0U);
   EXPECT_GT(this->met_, 0U);

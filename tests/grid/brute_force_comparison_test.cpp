@@ -115,26 +115,28 @@ TYPED_TEST(BruteForceComparison, LongPathsFromFarOutside) {
 TYPED_TEST(BruteForceComparison, LongPathsToTheirOwnNegative) {
   const auto mesh = placed<TypeParam>(lattice_cube<TypeParam>(4), TypeParam{1} / 4, {-0.5, -0.5, -0.5});
   GridComparison<TypeParam> comparison(mesh.view());
-  for (std::size_t i = 0; i < 50; ++i) {
+  const std::size_t paths = case_count(50);
+  for (std::size_t i = 0; i < paths; ++i) {
     Vector3<TypeParam> start;
     for (auto& x : start) x = TypeParam{1e18F} * this->random_.template symmetric<TypeParam>();
     comparison.expect_same(Segment<TypeParam>{start, -start});
     comparison.expect_same(Ray<TypeParam>{start, -start});
     comparison.expect_same(Line<TypeParam>{start, -start});
   }
-  EXPECT_EQ(comparison.hit_count(), 3 * 50U);
+  EXPECT_EQ(comparison.hit_count(), 3 * paths);
   EXPECT_EQ(comparison.statistics().unclipped, 0U);
 }
 
 TYPED_TEST(BruteForceComparison, LongPathsThroughTheOrigin) {
   const auto mesh = placed<TypeParam>(lattice_cube<TypeParam>(4), TypeParam{1} / 4, {-0.5, -0.5, -0.5});
   GridComparison<TypeParam> comparison(mesh.view());
-  for (std::size_t i = 0; i < 30; ++i) {
+  const std::size_t paths = case_count(30);
+  for (std::size_t i = 0; i < paths; ++i) {
     const auto segment = far_through_origin<TypeParam>(60, this->random_);
     comparison.expect_same(segment);
     comparison.expect_same(Line<TypeParam>{segment.start, segment.end});
   }
-  EXPECT_EQ(comparison.hit_count(), 2 * 30U);
+  EXPECT_EQ(comparison.hit_count(), 2 * paths);
   EXPECT_EQ(comparison.statistics().unclipped, 0U);
 }
 
