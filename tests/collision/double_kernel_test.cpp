@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "coordinate_changes.hpp"
 #include "double_kernel_on_targets.hpp"
 #include "kernel_bound.hpp"
 #include "rational_determinants.hpp"
@@ -173,6 +175,66 @@ void check_all_magnitudes(int least_exponent, int greatest_exponent) {
 TEST(DoubleKernel, holds_at_all_magnitudes_of_float) { check_all_magnitudes<float>(-140, 127); }
 TEST(DoubleKernel, holds_at_all_magnitudes_of_double) { check_all_magnitudes<double>(-1060, 1022); }
 TEST(DoubleKernel, holds_at_the_sizes_up_to_which_it_knows_bounds) { check_all_magnitudes<double>(295, 302); }
+
+/// Of one pair: the worst share of a determinant's bound, and of a quotient's interval.
+struct WorstShares {
+  double determinant = 0;
+  double quotient = 0;
+};
+
+WorstShares worst_shares(const std::array<double, 15>& x) {
+  const Segment<double> segment{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+  const Triangle<double> triangle{{x[6], x[7], x[8]}, {x[9], x[10], x[11]}, {x[12], x[13], x[14]}};
+  const PairCoordinates pair = coordinates_of(Path<double>(segment), triangle);
+  LaneDeterminants of;
+  double_determinants({&pair, 1}, {&of, 1});
+  const RationalDeterminants exact = rational_determinants(Path<double>(segment), triangle);
+  WorstShares worst;
+  worst.determinant = std::max({share_of(of.det, exact.det), share_of(of.height, exact.height), share_of(of.u, exact.u),
+                                share_of(of.v, exact.v)});
+  if (!(std::fabs(of.det.value) > of.det.radius)) return worst;
+  const std::array<Bounded, 3> numerators = {of.height, of.u, of.v};
+  const std::array<Bounded, 3> denominators = {of.det, of.det, of.det};
+  std::array<std::array<double, 2>, 3> results;
+  quotients(numerators, denominators, results);
+  worst.quotient = std::max({share_of(results[0], exact.height / exact.det), share_of(results[1], exact.u / exact.det),
+                             share_of(results[2], exact.v / exact.det)});
+  return worst;
+}
+
+double climb(double WorstShares::*share) {
+  Random random(64);
+  double worst = 0;
+  for (std::size_t start = 0; start < 8; ++start) {
+    std::array<double, 15> best;
+    for (double& coordinate : best) coordinate = draw_coordinate<double>(random);
+    double best_share = worst_shares(best).*share;
+    for (std::size_t step = case_count(1'000); step > 0; --step) {
+      std::array<double, 15> next = best;
+      double& coordinate = next[random.below(next.size())];
+      coordinate = changed_coordinate(random, coordinate);
+      if (const double next_share = worst_shares(next).*share; next_share > best_share) {
+        best = next;
+        best_share = next_share;
+      }
+    }
+    worst = std::max(worst, best_share);
+  }
+  return worst;
+}
+
+TEST(DoubleKernel, holds_where_hill_climbing_makes_the_error_worst) {
+  on_every_instruction_set([] {
+    const std::string name = name_of_instruction_set(hwy::SupportedTargets());
+    for (const auto& [what, share] :
+         {std::pair("determinants_", &WorstShares::determinant), std::pair("quotients_", &WorstShares::quotient)}) {
+      const double worst = climb(share);
+      testing::Test::RecordProperty("worst_share_of_" + (what + name), std::to_string(worst));
+      EXPECT_LT(worst, 1) << what << name;
+      EXPECT_GT(worst, 0.05) << what << name << ": the bound has room to waste";
+    }
+  });
+}
 
 TEST(DoubleKernel, tells_nothing_beyond_the_size_of_its_bounds) {
   const auto of_size = [](double size) { return PairCoordinates{0, 0, -1, 0, 0, 2, -1, -1, 0, size, -1, 0, 0, 1, 0}; };
