@@ -1,42 +1,19 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <optional>
-#include <sstream>
-#include <string>
 
-#include "cgal_oracle.hpp"
 #include "pair_cases.hpp"
-#include "support/exact_oracle.hpp"
-#include "support/pair_text.hpp"
-#include "support/same_bits.hpp"
-#include "surehit/intersect.hpp"
+#include "pair_judge.hpp"
 
 namespace surehit::test {
 namespace {
 
-template <typename Scalar>
-std::string report(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const QueryOptions<Scalar>& options,
-                   const std::optional<ExactContact>& expected, const std::optional<Hit<Scalar>>& answer) {
-  std::ostringstream text;
-  text << hex_text(path) << '\n' << hex_text(triangle) << '\n' << hex_text(options);
-  text << "\nexpected: " << (expected ? hex_text(rounded_hit<Scalar>(*expected)) : "a miss");
-  text << "\nanswered: " << (answer ? hex_text(*answer) : "a miss");
-  return text.str();
-}
-
-/// Three judges, one pair: CGAL says whether they meet, the rationals say that and where, and the library must agree.
 /// Returns whether they meet.
 template <typename Scalar>
 bool check(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const QueryOptions<Scalar>& options) {
-  const std::optional<ExactContact> expected = exact_contact(path, triangle, options);
-  const std::optional<Hit<Scalar>> answer = intersect(path, triangle, options);
-  EXPECT_EQ(cgal_meets(path, triangle, options), expected.has_value())
-      << "CGAL and the rationals disagree\n"
-      << report(path, triangle, options, expected, answer);
-  const bool agrees = expected ? answer && same_bits(*answer, rounded_hit<Scalar>(*expected)) : !answer;
-  EXPECT_TRUE(agrees) << report(path, triangle, options, expected, answer);
-  return expected.has_value();
+  const auto [meets, difference] = judge_pair(path, triangle, options);
+  EXPECT_EQ(difference, "");
+  return meets;
 }
 
 /// A family that turned into hits or misses alone would test little, and nobody would notice.
