@@ -1,0 +1,150 @@
+// surehit-query in this process. The first line of the bytes are its arguments, parted by single spaces; what follows
+// is the mesh file that they name, up to a line --, and then the paths, in the file `paths` and on standard input.
+// Whatever that makes, the program ends as it documents: 0 without a word on standard error; 2 with one line there, and
+// no output; 1 where the output cannot be written.
+
+#include <stdio.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "examples/temporary_folder.hpp"
+#include "finding.hpp"
+
+/// The program's main, compiled under this name.
+int surehit_query_main(int argc, char** argv);
+
+namespace surehit::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a program would have for its standard streams, for as long as this lives. In glibc these are variables.
+class StandardStreams {
+ public:
+  explicit StandardStreams(const std::string& input)
+      : input_file_(input.empty() ? fopen("/dev/null", "rb")
+                                  : fmemopen(const_cast<char*>(input.data()), input.size(), "rb")),
+        output_file_(open_memstream(&output_, &output_size_)),
+        error_file_(open_memstream(&error_, &error_size_)),
+        cout_(std::cout.rdbuf(cout_text_.rdbuf())),
+        cerr_(std::cerr.rdbuf(cerr_text_.rdbuf())) {
+    std::swap(stdin, input_file_);
+    std::swap(stdout, output_file_);
+    std::swap(stderr, error_file_);
+  }
+  ~StandardStreams() {
+    free(output_);
+    free(error_);
+  }
+  StandardStreams(const StandardStreams&) = delete;
+  StandardStreams& operator=(const StandardStreams&) = delete;
+
+  void restore() {
+    std::swap(stdin, input_file_);
+    std::swap(stdout, output_file_);
+    std::swap(stderr, error_file_);
+    std::cout.rdbuf(cout_);
+    std::cerr.rdbuf(cerr_);
+    for (FILE* file : {input_file_, output_file_, error_file_}) fclose(file);
+  }
+  [[nodiscard]] std::string output() const { return std::string(output_, output_size_) + cout_text_.str(); }
+  [[nodiscard]] std::string error() const { return std::string(error_, error_size_) + cerr_text_.str(); }
+
+ private:
+  char* output_ = nullptr;
+  std::size_t output_size_ = 0;
+  char* error_ = nullptr;
+  std::size_t error_size_ = 0;
+  FILE* input_file_;
+  FILE* output_file_;
+  FILE* error_file_;
+  std::ostringstream cout_text_;
+  std::ostringstream cerr_text_;
+  std::streambuf* cout_;
+  std::streambuf* cerr_;
+};
+
+/// Up to the mark, or all; the mark is left out and what follows stays behind in `text`.
+std::string cut_before(std::string_view mark, std::string_view& text) {
+  const std::size_t end = std::min(text.find(mark), text.size());
+  const std::string part(text.substr(0, end));
+  text.remove_prefix(std::min(end + mark.size(), text.size()));
+  return part;
+}
+
+/// No argument leads out of the folder but to these: the program writes where it is told.
+std::string harmless(std::string argument) {
+  if (argument == "/dev/null" || argument == "/dev/full") return argument;
+  std::erase_if(argument, [](char c) { return c == '/' || c == '\0'; });
+  return argument;
+}
+
+std::vector<std::string> split_arguments(const std::string& line) {
+  std::vector<std::string> arguments = {"surehit-query"};
+  std::istringstream words(line);
+  for (std::string word; std::getline(words, word, ' ');) arguments.push_back(harmless(word));
+  return arguments;
+}
+
+void check(std::string_view text) {
+  static const TemporaryFolder folder;
+  fs::current_path(folder.at(""));
+  for (const auto& left : fs::directory_iterator(".")) fs::remove_all(left);
+
+  std::vector<std::string> arguments = split_arguments(cut_before("\n", text));
+  const std::string mesh = cut_before("\n--\n", text);
+  const std::string paths(text);
+  static_cast<void>(folder.write("paths", paths));
+  for (const char* name : {"mesh.obj", "mesh.off", "mesh.ply", "mesh.stl"}) {
+    if (std::find(arguments.begin(), arguments.end(), name) != arguments.end()) {
+      static_cast<void>(folder.write(name, mesh));
+    }
+  }
+  const std::size_t files = folder.file_count();
+
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  const auto count = static_cast<int>(pointers.size());
+  pointers.push_back(nullptr);
+  StandardStreams streams(paths);
+  const int status = surehit_query_main(count, pointers.data());
+  streams.restore();
+
+  const std::string output = streams.output();
+  const std::string error = streams.error();
+  const auto tell = [&](const std::string& finding) {
+    stop_at("exit status " + std::to_string(status) + ": " + finding + "\noutput: " + output + "\nerror: " + error);
+  };
+  if (status == 0) {
+    if (!error.empty()) tell("a success that complains");
+    return;
+  }
+  if (std::count(error.begin(), error.end(), '\n') != 1 || !error.ends_with('\n') ||
+      !error.starts_with("surehit-query: ")) {
+    tell("not an error of one line");
+  }
+  if (folder.file_count() > files) tell("a failure that leaves a file behind");
+  if (status == 1) {
+    if (error.find(": cannot be written: ") == std::string::npos) tell("a failure of another kind");
+  } else if (status != 2) {
+    tell("no status that is documented");
+  } else if (!output.empty()) {
+    tell("bad input, answered all the same");
+  }
+}
+
+}  // namespace
+}  // namespace surehit::test
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  surehit::test::check({reinterpret_cast<const char*>(data), size});
+  return 0;
+}
