@@ -104,7 +104,7 @@ int draw(std::uint64_t cases, std::uint64_t seed, const std::vector<fs::path>& f
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t i = 0; i < cases; ++i) {
     // Each case has a seed of its own, so that it is drawn again without those before.
-    Random random(seed * 0x9e3779b97f4a7c15u + i);
+    Random random(Random(seed).bits() + i);
     run(corpus.empty() || random.one_in(2) ? random_bytes(random) : mutation(corpus, random),
         here / ("finding-" + std::to_string(seed) + "-" + std::to_string(i)));
   }

@@ -6,7 +6,8 @@ usage() {
   cat <<USAGE
 usage: $0 --seconds N [--target T] [--corpus FOLDER]   libFuzzer, with Clang's sanitizers
        $0 --cases N [--seed S] [--target T]            bytes drawn from a seed, with GCC alone
-       $0 --merge FOLDER --target T                    takes from FOLDER what reaches more into the repository's corpus
+       $0 --merge FOLDER --target T                    makes the repository's corpus the fewest files of it and of
+                                                       FOLDER that reach as much as all of them
        $0 --replay FILE --target T                     one input, with GCC alone
 
   T        one of: ${targets[*]}
@@ -103,7 +104,14 @@ run() {
   case "$mode" in
     --cases) "$program" draw "$amount" "$seed" "$given" || { tell_of "$target" "$findings" && return 1; } ;;
     --replay) "$program" replay "$amount" ;;
-    --merge) "$program" -merge=1 -use_counters=0 "$given" "$amount" ;;
+    --merge)
+      local chosen
+      chosen=$(mktemp -d)
+      "$program" -set_cover_merge=1 -use_counters=0 "$chosen" "$given" "$amount" || return 1
+      rm -f "$given"/*
+      mv "$chosen"/* "$given"/
+      rmdir "$chosen"
+      ;;
     --seconds)
       local grown=${corpus:-$root/build/fuzz-corpus/$target} limits
       read -ra limits < <(limits_of "$target")
