@@ -29,26 +29,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is being run, for the handler of a signal.
+/// What is being run, for the handler of a signal: from a file, or drawn and to be kept in one.
 std::string bytes_in_hand;
-std::string finding_path;
+std::string path_in_hand;
+bool is_drawn = false;
 
 /// Calls nothing but what a handler may.
-void keep_finding(int signal) {
-  const int file = open(finding_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  const bool is_kept = file >= 0 && write(file, bytes_in_hand.data(), bytes_in_hand.size()) ==
-                                        static_cast<ssize_t>(bytes_in_hand.size());
-  const std::array<const char*, 3> words = {is_kept ? "the bytes are kept in " : "the bytes cannot be kept in ",
-                                            finding_path.c_str(), "\n"};
+void tell_of_finding(int signal) {
+  bool is_in_file = !is_drawn;
+  if (is_drawn) {
+    const int file = open(path_in_hand.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    is_in_file = file >= 0 &&
+                 write(file, bytes_in_hand.data(), bytes_in_hand.size()) == static_cast<ssize_t>(bytes_in_hand.size());
+  }
+  const std::array<const char*, 3> words = {is_in_file ? "a finding: " : "a finding that cannot be kept in ",
+                                            path_in_hand.c_str(), "\n"};
   for (const char* word : words) {
     if (write(STDERR_FILENO, word, std::strlen(word)) < 0) break;
   }
   _exit(128 + signal);
 }
 
-void run(std::string bytes, std::string name) {
+void run(std::string bytes, std::string path) {
   bytes_in_hand = std::move(bytes);
-  finding_path = std::move(name);
+  path_in_hand = std::move(path);
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes_in_hand.data()), bytes_in_hand.size());
 }
 
@@ -89,10 +93,7 @@ std::string mutation(const std::vector<std::string>& corpus, Random& random) {
 }
 
 int replay(const std::vector<fs::path>& files) {
-  for (const fs::path& file : files) {
-    std::fprintf(stderr, "%s\r", file.filename().c_str());
-    run(read(file), fs::temp_directory_path() / "surehit-finding");
-  }
+  for (const fs::path& file : files) run(read(file), file);
   std::printf("%zu files replayed\n", files.size());
   return files.empty() ? 1 : 0;
 }
@@ -101,6 +102,7 @@ int draw(std::uint64_t cases, std::uint64_t seed, const std::vector<fs::path>& f
   std::vector<std::string> corpus;
   for (const fs::path& file : files) corpus.push_back(read(file));
   const fs::path here = fs::current_path();
+  is_drawn = true;
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t i = 0; i < cases; ++i) {
     // Each case has a seed of its own, so that it is drawn again without those before.
@@ -129,7 +131,7 @@ int usage(const char* program) {
 }
 
 int run_program(int argc, char** argv) {
-  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) std::signal(signal, keep_finding);
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) std::signal(signal, tell_of_finding);
   const std::vector<std::string> words(argv + 1, argv + argc);
   const auto files_from = [&](std::size_t first) {
     return files_of({words.begin() + static_cast<std::ptrdiff_t>(first), words.end()});
