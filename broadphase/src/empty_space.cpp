@@ -93,11 +93,13 @@ class Octants {
   }
 
   void begin_row(Row emptiness, Row b0, Row b1, Row b2, std::ptrdiff_t forward, std::uint8_t* __restrict row) const {
+    const Row ahead0 = b0 + forward;
+    const Row ahead1 = b1 + forward;
+    const Row ahead2 = b2 + forward;
     for (std::size_t first = 0; first < length_; first += row_unit) {
       for (std::size_t x = first; x < first + row_unit; ++x) {
-        const std::size_t next = x + static_cast<std::size_t>(forward);
         const std::uint8_t here = lesser(lesser(b0[x], b1[x]), b2[x]);
-        const std::uint8_t ahead = lesser(lesser(b0[next], b1[next]), b2[next]);
+        const std::uint8_t ahead = lesser(lesser(ahead0[x], ahead1[x]), ahead2[x]);
         const std::uint8_t least = lesser(lesser(here, ahead), farthest - 1);
         row[x] = static_cast<std::uint8_t>((least + 1) & emptiness[x]);
       }
