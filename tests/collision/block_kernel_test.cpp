@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "contact_oracle.hpp"
@@ -154,6 +155,22 @@ TYPED_TEST(BlockKernel, is_never_wrong_at_sizes_at_which_products_overflow_or_un
       expect_never_wrong<TypeParam>(segment, triangle, {});
       expect_never_wrong(path_along(segment, PathKind::ray), triangle, draw_options(random, random.unit<TypeParam>()));
     }
+  }
+}
+
+/// Far shorter than the triangle's edges: the ends are weighed by squares of the edges, not by their length.
+TYPED_TEST(BlockKernel, is_never_wrong_about_short_paths_that_end_in_the_plane) {
+  Random random(27);
+  const auto draw = [&] { return Vector3<TypeParam>::NullaryExpr([&] { return random.symmetric<TypeParam>(); }); };
+  for (std::size_t i = case_count(20'000); i > 0 && !this->HasFailure(); --i) {
+    const Triangle<TypeParam> triangle{draw(), draw(), draw()};
+    const TypeParam u = random.unit<TypeParam>() / 2;
+    const TypeParam v = random.unit<TypeParam>() / 2;
+    Segment<TypeParam> segment;
+    segment.end = triangle.a + u * (triangle.b - triangle.a) + v * (triangle.c - triangle.a);
+    segment.start = segment.end + std::ldexp(TypeParam{1}, -static_cast<int>(random.below(16))) * draw();
+    if (random.one_in(2)) std::swap(segment.start, segment.end);
+    expect_never_wrong<TypeParam>(segment, triangle, {});
   }
 }
 
