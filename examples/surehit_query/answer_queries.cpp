@@ -1,6 +1,7 @@
 #include "surehit_query/answer_queries.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <future>
 #include <string_view>
@@ -13,35 +14,45 @@
 #include "mesh_io/read_mesh.hpp"
 #include "surehit_query/hit_text.hpp"
 #include "surehit_query/number_table.hpp"
+#include "surehit_query/statistics_text.hpp"
 
 namespace surehit::example {
 namespace {
 
-/// The lines of the answers to the paths from `begin` to before `end`. Called from several threads at once.
-using Answer = std::function<std::string(std::size_t begin, std::size_t end)>;
+struct AnsweredBlock {
+  std::string lines;
+  QueryStatistics statistics;
+};
 
-/// Every thread answers one block of a round; the blocks are written in their order, so the output is the same for any
-/// number of threads, and no more than a round of it is held in memory.
-void write_answers(const QueryRequest& request, std::string_view header, std::size_t paths, const Answer& answer) {
+/// The answers to the paths from `begin` to before `end`. Called from several threads at once.
+using Answer = std::function<AnsweredBlock(std::size_t begin, std::size_t end)>;
+
+/// Returns what was done for all of them. Every thread answers one block of a round; the blocks are written in their
+/// order, so the output is the same for any number of threads, and no more than a round of it is held in memory.
+QueryStatistics write_answers(const QueryRequest& request, std::string_view header, std::size_t paths,
+                              const Answer& answer) {
   constexpr std::size_t block = 4096;
   OutputFile output(request.output_path);
   output.write(header);
   ProgressBar progress("Answering", paths);
+  QueryStatistics statistics;
   for (std::size_t begin = 0; begin < paths;) {
-    std::vector<std::future<std::string>> round;
+    std::vector<std::future<AnsweredBlock>> round;
     for (std::size_t thread = 0; thread < request.threads && begin < paths; ++thread) {
       const std::size_t end = std::min(begin + block, paths);
       round.push_back(std::async(std::launch::async, answer, begin, end));
       begin = end;
     }
-    for (auto& lines : round) {
-      const std::string text = lines.get();
+    for (auto& answered : round) {
+      const AnsweredBlock block_of_answers = answered.get();
       if (output.is_terminal()) progress.hide();
-      output.write(text);
+      output.write(block_of_answers.lines);
+      statistics += block_of_answers.statistics;
     }
     progress.show(begin);
   }
   output.finish();
+  return statistics;
 }
 
 template <typename Scalar>
@@ -58,7 +69,8 @@ template <typename Shape, typename Scalar>
 void answer_pairs(const QueryRequest& request, const QueryOptions<Scalar>& options) {
   const auto table = read_number_table<Scalar>(request.input_path, 15);
   write_answers(request, "hit,t,u,v,side\n", table.rows(), [&](std::size_t begin, std::size_t end) {
-    std::string lines;
+    AnsweredBlock answered;
+    std::string& lines = answered.lines;
     for (std::size_t i = begin; i < end; ++i) {
       const Scalar* const row = table.row(i);
       const Triangle<Scalar> triangle{point_at(row + 6), point_at(row + 9), point_at(row + 12)};
@@ -69,7 +81,7 @@ void answer_pairs(const QueryRequest& request, const QueryOptions<Scalar>& optio
         lines += "0,,,,\n";
       }
     }
-    return lines;
+    return answered;
   });
 }
 
@@ -101,10 +113,11 @@ class MeshQueries {
   }
 
  private:
-  using Lines = std::string (MeshQueries::*)(std::size_t, std::size_t) const;
+  using Answers = AnsweredBlock (MeshQueries::*)(std::size_t, std::size_t) const;
 
-  void write(std::string_view header, Lines lines) const {
-    write_answers(request_, header, table_.rows(), std::bind_front(lines, this));
+  void write(std::string_view header, Answers answers) const {
+    const QueryStatistics statistics = write_answers(request_, header, table_.rows(), std::bind_front(answers, this));
+    if (request_.wants_statistics) std::fputs(text_of(statistics).c_str(), stderr);
   }
 
   [[nodiscard]] std::vector<Shape> paths(std::size_t begin, std::size_t end) const {
@@ -113,10 +126,11 @@ class MeshQueries {
     return paths;
   }
 
-  [[nodiscard]] std::string first_hits(std::size_t begin, std::size_t end) const {
+  [[nodiscard]] AnsweredBlock first_hits(std::size_t begin, std::size_t end) const {
     std::vector<Hit<Scalar>> hits(end - begin);
-    collider_.first_hits(paths(begin, end), hits, options_);
-    std::string lines;
+    AnsweredBlock answered;
+    std::string& lines = answered.lines;
+    collider_.first_hits(paths(begin, end), hits, options_, &answered.statistics);
     for (const auto& hit : hits) {
       if (hit.triangle == no_triangle) {
         lines += "-1,,,,\n";
@@ -125,22 +139,23 @@ class MeshQueries {
         append_contact(hit, lines);
       }
     }
-    return lines;
+    return answered;
   }
 
-  [[nodiscard]] std::string any_hits(std::size_t begin, std::size_t end) const {
+  [[nodiscard]] AnsweredBlock any_hits(std::size_t begin, std::size_t end) const {
     std::vector<std::uint8_t> blocked(end - begin);
-    collider_.any_hits(paths(begin, end), blocked, options_);
-    std::string lines;
-    for (const std::uint8_t hit : blocked) lines += hit != 0 ? "1\n" : "0\n";
-    return lines;
+    AnsweredBlock answered;
+    collider_.any_hits(paths(begin, end), blocked, options_, &answered.statistics);
+    for (const std::uint8_t hit : blocked) answered.lines += hit != 0 ? "1\n" : "0\n";
+    return answered;
   }
 
-  [[nodiscard]] std::string all_hits(std::size_t begin, std::size_t end) const {
+  [[nodiscard]] AnsweredBlock all_hits(std::size_t begin, std::size_t end) const {
     std::vector<Hit<Scalar>> hits;
-    std::string lines;
+    AnsweredBlock answered;
+    std::string& lines = answered.lines;
     for (std::size_t i = begin; i < end; ++i) {
-      collider_.all_hits(shape_at<Shape>(table_.row(i)), hits, options_);
+      collider_.all_hits(shape_at<Shape>(table_.row(i)), hits, options_, &answered.statistics);
       for (const auto& hit : hits) {
         append_number(i, lines);
         lines += ',';
@@ -148,7 +163,7 @@ class MeshQueries {
         append_contact(hit, lines);
       }
     }
-    return lines;
+    return answered;
   }
 
   const QueryRequest& request_;

@@ -37,6 +37,9 @@ CLI::App& add_command(CLI::App& app, QueryRequest& request, Question question, c
   command.callback([&request, question] { request.question = question; });
   if (question != Question::pair) {
     command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off")->required()->type_name("");
+    command.add_flag("--statistics", request.wants_statistics,
+                     "Then say on standard error, as CSV, what the queries did: cells walked, candidate triangles, how "
+                     "many of them the filter left undecided, and how often it took exact arithmetic");
   }
   command.add_option("FILE", request.input_path, "The paths, one a line; - is standard input")
       ->required()

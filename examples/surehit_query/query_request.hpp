@@ -22,6 +22,7 @@ struct QueryRequest {
   PathKind path = PathKind::segment;
   Culling culling = Culling::none;
   std::size_t threads = 1;
+  bool wants_statistics = false;  ///< none of `pair`
 };
 
 }  // namespace surehit::example

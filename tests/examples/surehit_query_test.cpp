@@ -2,10 +2,14 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <iomanip>
+#include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "support/random.hpp"
 #include "temporary_folder.hpp"
@@ -68,6 +72,41 @@ class SurehitQuery : public testing::Test {
       text += i % 6 == 5 ? '\n' : ' ';
     }
     return text;
+  }
+
+  struct Statistic {
+    std::string name;
+    std::uint64_t count;
+    std::string per_million_paths;
+    std::string per_million_candidates;
+  };
+
+  /// The lines below the header.
+  static std::vector<Statistic> statistics_of(const std::string& csv) {
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "statistic,count,per_million_paths,per_million_candidates");
+    std::vector<Statistic> statistics;
+    while (std::getline(lines, line)) {
+      std::istringstream cells(line);
+      Statistic statistic;
+      std::string count;
+      std::getline(cells, statistic.name, ',');
+      std::getline(cells, count, ',');
+      std::getline(cells, statistic.per_million_paths, ',');
+      std::getline(cells, statistic.per_million_candidates);
+      statistic.count = std::stoull(count);
+      statistics.push_back(statistic);
+    }
+    return statistics;
+  }
+
+  /// With three digits behind the point.
+  static std::string thousandths(double number) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(3) << number;
+    return text.str();
   }
 
   TemporaryFolder folder_;
@@ -156,6 +195,55 @@ TEST_F(SurehitQuery, AnswersWhereAPathMeetsAMeshAtAll) {
                 "2,0,0.6666667,0,0.5,back\n2,1,0.6666667,0.5,0,back\n");
 }
 
+TEST_F(SurehitQuery, SaysWhatItsQueriesDid) {
+  write_squares();
+  // Three through both squares, one beside them, and four in the plane of one, which only exact arithmetic decides.
+  std::string paths = "9 9 9  8 8 8\n";
+  for (int i = 0; i < 3; ++i) paths += "0.5 0.25 -1  0.5 0.25 3\n";
+  for (int i = 0; i < 4; ++i) paths += "0.25 -1 1  0.75 2 1\n";
+  write("paths", paths);
+  for (const std::string question : {"first", "any", "all"}) {
+    const Outcome silent = run(question + " squares.obj paths");
+    const Outcome outcome = run(question + " squares.obj paths --statistics");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.output, silent.output);
+    EXPECT_EQ(silent.error, "");
+    const std::vector<Statistic> statistics = statistics_of(outcome.error);
+    std::vector<std::string> names;
+    for (const Statistic& statistic : statistics) names.push_back(statistic.name);
+    ASSERT_EQ(names, (std::vector<std::string>{"paths", "cells", "candidates", "undecided", "exact_decisions",
+                                               "exact_orders", "exact_roundings", "unclipped"}));
+    EXPECT_EQ(statistics[0].count, 8u);
+    EXPECT_GE(statistics[1].count, 7u);
+    EXPECT_GE(statistics[2].count, 7u);
+    EXPECT_GE(statistics[3].count, 4u);
+    EXPECT_GE(statistics[4].count, 4u);
+    EXPECT_LT(statistics[4].count, statistics[2].count);
+    EXPECT_EQ(statistics[7].count, 0u);
+    for (const Statistic& statistic : statistics) {
+      EXPECT_EQ(statistic.per_million_paths, thousandths(1e6 * static_cast<double>(statistic.count) / 8));
+      EXPECT_EQ(statistic.per_million_candidates,
+                thousandths(1e6 * static_cast<double>(statistic.count) / static_cast<double>(statistics[2].count)));
+    }
+  }
+}
+
+TEST_F(SurehitQuery, SaysTheSameOfItsQueriesForAnyNumberOfThreads) {
+  write_squares();
+  write("paths", random_paths(20000));
+  const std::string arguments = "first squares.obj paths --path line --statistics -o answers.csv --threads ";
+  const Outcome one = run(arguments + "1");
+  EXPECT_EQ(statistics_of(one.error).front().count, 20000u);
+  EXPECT_EQ(run(arguments + "3").error, one.error);
+}
+
+TEST_F(SurehitQuery, SaysThatQueriesOfNoPathsDidNothing) {
+  write_squares();
+  EXPECT_EQ(run("any squares.obj /dev/null --statistics").error,
+            "statistic,count,per_million_paths,per_million_candidates\npaths,0,,\ncells,0,,\ncandidates,0,,\n"
+            "undecided,0,,\nexact_decisions,0,,\nexact_orders,0,,\nexact_roundings,0,,\nunclipped,0,,\n");
+}
+
 TEST_F(SurehitQuery, ReadsStandardInput) {
   write_squares();
   expect_output("any squares.obj - <<END\n0 0 -1 0 0 1\nEND\n", "hit\n1\n");
@@ -241,7 +329,7 @@ TEST_F(SurehitQuery, RefusesWrongUsageInOneLine) {
   for (const char* arguments :
        {"", "pair", "first", "first squares.obj", "guess pairs", "pair pairs pairs", "pair pairs --scalar half",
         "pair pairs --path curve", "pair pairs --cull both", "pair pairs --threads 0", "pair pairs --threads -1",
-        "pair pairs --threads many", "pair pairs --wrong", "pair pairs -o"}) {
+        "pair pairs --threads many", "pair pairs --statistics", "pair pairs --wrong", "pair pairs -o"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_EQ(outcome.output, "") << arguments;
