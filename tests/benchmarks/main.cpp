@@ -25,8 +25,13 @@ struct TableKind {
 
 const std::vector<TableKind>& all_tables() {
   static const std::vector<TableKind> tables = {
-      {"queries", measure_queries}, {"build", measure_builds},           {"size", measure_sizes},
-      {"tick", measure_ticks},      {"threads", measure_threads, false}, {"exactness", measure_exactness},
+      {"queries", measure_queries},
+      {"build", measure_builds},
+      {"size", measure_sizes},
+      {"tick", measure_ticks},
+      {"threads", measure_threads, false},
+      {"exactness", measure_exactness},
+      {"statistics", measure_statistics},
   };
   return tables;
 }

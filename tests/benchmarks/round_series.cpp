@@ -1,6 +1,7 @@
 #include "round_series.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <functional>
 
 namespace surehit::benchmark {
@@ -16,6 +17,12 @@ RoundSeries ratio(const RoundSeries& over, const RoundSeries& under) {
   RoundSeries ratios(over.size());
   std::transform(over.begin(), over.end(), under.begin(), ratios.begin(), std::divides<>());
   return ratios;
+}
+
+ThreadClock::time_point ThreadClock::now() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return time_point(std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec));
 }
 
 }  // namespace surehit::benchmark

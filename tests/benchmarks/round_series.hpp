@@ -22,10 +22,20 @@ struct Summary {
 /// Round by round.
 [[nodiscard]] RoundSeries ratio(const RoundSeries& over, const RoundSeries& under);
 
-template <typename Work>
+/// The time that this thread has run for: what else the machine does is not in it.
+struct ThreadClock {
+  using duration = std::chrono::nanoseconds;
+  using rep = duration::rep;
+  using period = duration::period;
+  using time_point = std::chrono::time_point<ThreadClock>;
+  static constexpr bool is_steady = true;
+
+  [[nodiscard]] static time_point now();
+};
+
+template <typename Clock = std::chrono::steady_clock, typename Work>
 double nanoseconds_of(const Work& work) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
+  const typename Clock::time_point start = Clock::now();
   work();
   return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
 }

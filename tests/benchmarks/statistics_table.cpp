@@ -1,0 +1,87 @@
+#include <surehit/collider.hpp>
+
+#include "exact_steps.hpp"
+#include "question.hpp"
+#include "tables.hpp"
+
+namespace surehit::benchmark {
+namespace {
+
+QueryStatistics counts_of(const Colliderf& collider, Question question, const PathBatch& paths) {
+  QueryStatistics statistics;
+  Answers answers(paths.size());
+  if (question == Question::closest_hit) {
+    collider.first_hits(paths.segments(), answers.hits, {}, &statistics);
+  } else {
+    collider.any_hits(paths.segments(), answers.blocked, {}, &statistics);
+  }
+  return statistics;
+}
+
+/// Nanoseconds of the thread per path. Other clocks would find interruptions in these times, and none in the far
+/// shorter ones of exact steps, whose share would be too small. Warmed up and built anew each time, as in a contest.
+RoundSeries times_of(const Entrant& entrant, const Scene& scene, Question question, const PathSample& sample,
+                     std::size_t rounds) {
+  RoundSeries times;
+  Answers answers(sample.paths.size());
+  for (std::size_t round = 0; round < rounds; ++round) {
+    const std::unique_ptr<Contender> contender = entrant.make();
+    contender->build(scene.mesh.view());
+    ask(*contender, question, sample.warm_up, answers);
+    const double time = nanoseconds_of<ThreadClock>([&] { ask(*contender, question, sample.paths, answers); });
+    times.push_back(time / static_cast<double>(sample.paths.size()));
+  }
+  return times;
+}
+
+double per_million(std::uint64_t count, std::uint64_t whole) {
+  return whole == 0 ? 0 : 1e6 * static_cast<double>(count) / static_cast<double>(whole);
+}
+
+void add_row(const Place& place, const std::string& contender, const QueryStatistics& counts,
+             const RoundSeries& nanoseconds, const ExactStepTimes& times, MarkdownTable& table, Report& report) {
+  std::vector<std::string> cells = {place.mesh, place.paths, place.question};
+  const auto add = [&](const std::string& measure, const Summary& figure, const char* unit = "") {
+    report.keep(place, contender, measure, figure);
+    cells.push_back(short_number(figure.median) + unit);
+  };
+  add("undecided per million candidates", summary_of(per_million(counts.undecided, counts.candidates)));
+  add("exact decisions per million paths", summary_of(per_million(counts.exact_decisions, counts.paths)));
+  add("exact orders per million paths", summary_of(per_million(counts.exact_orders, counts.paths)));
+  add("exact roundings per million paths", summary_of(per_million(counts.exact_roundings, counts.paths)));
+  const double exact = (static_cast<double>(counts.exact_decisions) * times.decision +
+                        static_cast<double>(counts.exact_orders) * times.order +
+                        static_cast<double>(counts.exact_roundings) * times.rounding) /
+                       static_cast<double>(counts.paths);
+  add("ns per path", summary_of(nanoseconds));
+  add("exact ns per path", summary_of(exact));
+  const RoundSeries percent(nanoseconds.size(), 100 * exact);
+  add("exact share in %", summary_of(ratio(percent, nanoseconds)), "%");
+  table.add_row(std::move(cells));
+}
+
+}  // namespace
+
+void measure_statistics(const Request& request, Report& report) {
+  const Entrant entrant = surehit_entrants().front();
+  MarkdownTable table({"mesh", "paths", "asked", "undecided", "decisions", "orders", "roundings", "ns per path",
+                       "of it exact", "share"},
+                      3);
+  for (const Scene& scene : request.scenes) {
+    const Colliderf collider(scene.mesh.view());
+    for (const PathSet set : request.sets) {
+      const PathSample sample(set, scene, request.paths);
+      const ExactStepTimes times = exact_step_times(collider, sample.paths.segments());
+      for (const Question question : all_questions) {
+        const Place place{"statistics", scene.name, scene.mesh.triangles.size(), name_of(set), name_of(question)};
+        add_row(place, entrant.name(), counts_of(collider, question, sample.paths),
+                times_of(entrant, scene, question, sample, request.rounds), times, table, report);
+      }
+    }
+  }
+  report.show("statistics: " + entrant.name() +
+                  ", undecided per million candidates, exact steps per million paths, and what these take",
+              table);
+}
+
+}  // namespace surehit::benchmark
