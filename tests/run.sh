@@ -58,6 +58,12 @@ build() {
   step cmake --preset "$1" && step cmake --build --preset "$1"
 }
 
+# Of the library that a preset has built, installed and found by another project.
+published_answers() {
+  step cmake -D "SOURCE_FOLDER=$PWD" -D "BUILD_FOLDER=$PWD/build/$1" -D "TEST_FOLDER=$PWD/build/$1/published_answers" \
+    -D GENERATOR=Ninja -D "COMPILER=$2" -D BUILD_TYPE=Release -P tests/package/installed_package_test.cmake
+}
+
 run_tests() {
   local preset=$1 output status counts failed_here total skipped_here
   shift
@@ -95,7 +101,7 @@ if CXX=g++ build asan-ubsan; then
 fi
 
 stage "Clang, Release: building the library and the examples"
-if build clang-library && $clang_too; then
+if build clang-library && published_answers clang-library clang++ && $clang_too; then
   stage "Clang, Release: building the tests"
   if build clang; then
     stage "Clang, Release: testing a tenth of the cases"
