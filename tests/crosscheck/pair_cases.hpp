@@ -14,7 +14,7 @@ namespace surehit::test {
 template <typename Scalar, typename Visit>
 void visit_segments(PairFamily family, const Visit& visit) {
   Random random(1);
-  for (std::size_t i = case_count(100'000); i > 0; --i) {
+  for (std::size_t i = case_count(50'000); i > 0; --i) {
     const auto [segment, triangle] = draw_pair<Scalar>(family, random);
     visit(Path<Scalar>(segment), triangle, QueryOptions<Scalar>{});
   }
@@ -23,7 +23,7 @@ void visit_segments(PairFamily family, const Visit& visit) {
 template <typename Scalar, typename Visit>
 void visit_rays_and_lines(PairFamily family, const Visit& visit) {
   Random random(2);
-  for (std::size_t i = case_count(50'000); i > 0; --i) {
+  for (std::size_t i = case_count(25'000); i > 0; --i) {
     const auto [segment, triangle] = draw_pair<Scalar>(family, random);
     for (const PathKind kind : {PathKind::ray, PathKind::line}) {
       visit(path_along(segment, kind), triangle, QueryOptions<Scalar>{});
@@ -34,7 +34,7 @@ void visit_rays_and_lines(PairFamily family, const Visit& visit) {
 template <typename Scalar, typename Visit>
 void visit_options(PairFamily family, const Visit& visit) {
   Random random(3);
-  for (std::size_t i = case_count(40'000); i > 0; --i) {
+  for (std::size_t i = case_count(20'000); i > 0; --i) {
     const auto [segment, triangle] = draw_pair<Scalar>(family, random);
     for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
       const Path<Scalar> path = path_along(segment, kind);
