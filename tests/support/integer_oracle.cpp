@@ -56,7 +56,7 @@ struct DyadicPair {
   }
 
   /// All coordinates are below two to this.
-  [[nodiscard]] int bits() const { return std::max(high - low, 0); }
+  [[nodiscard]] int bits() const { return high > low ? high - low : 0; }
 };
 
 /// With coordinates below 2^k their differences are below 2^(k+1), a cross product's components below 2^(2k+3), and a
