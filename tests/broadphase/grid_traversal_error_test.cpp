@@ -200,9 +200,11 @@ TYPED_TEST(GridTraversalError, StaysBelowItsBoundOnRandomPaths) { this->expect_b
 
 /// A path of doubles is placed in doubles, which takes up a few of the 16 roundings less.
 TYPED_TEST(GridTraversalError, StaysBelowItsBoundWhereHillClimbingMakesItWorst) {
-  const double worst = this->climb(16, 1'000);
+  const double worst = this->climb(24, 1'000);
   this->expect_below_one(worst);
-  EXPECT_GT(worst, sizeof(TypeParam) == sizeof(float) ? 0.05 : 0.01) << "the bound has room to waste";
+  if (runs_all_cases()) {
+    EXPECT_GT(worst, sizeof(TypeParam) == sizeof(float) ? 0.1 : 0.04) << "room to waste";
+  }
 }
 
 }  // namespace

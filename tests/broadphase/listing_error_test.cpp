@@ -135,7 +135,9 @@ TEST_P(ListingError, OfLanesStaysBelowItsBound) { EXPECT_LT(climb(is_listed_in_l
 TEST_P(ListingError, OfOneTriangleStaysBelowItsBound) {
   const double worst = climb(is_listed_alone);
   EXPECT_LT(worst, 1);
-  EXPECT_GT(worst, 0.02) << "the bound has room to waste";
+  if (runs_all_cases()) {
+    EXPECT_GT(worst, 0.1) << "room to waste";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Resolutions, ListingError, testing::Values(7, 100, 2048),
