@@ -11,6 +11,7 @@
 #include "contact_oracle.hpp"
 #include "family_cases.hpp"
 #include "kernel_list.hpp"
+#include "on_every_instruction_set.hpp"
 #include "support/case_count.hpp"
 #include "support/instruction_sets.hpp"
 #include "support/neighbour.hpp"
@@ -62,13 +63,7 @@ class BlockKernelOnFamily : public testing::TestWithParam<PairFamily> {
   void check_in_lists() {
     Random random(31);
     for (std::size_t i = case_count(150); i > 0 && !HasFailure(); --i) {
-      std::vector<Segment<Scalar>> segments(1 + random.below(35));
-      std::vector<Triangle<Scalar>> triangles(segments.size());
-      for (std::size_t k = 0; k < segments.size(); ++k) {
-        const auto pair = draw_pair<Scalar>(GetParam(), random);
-        segments[k] = pair.segment;
-        triangles[k] = pair.triangle;
-      }
+      const auto [segments, triangles] = FamilyList<Scalar>(GetParam(), random);
       const KernelList<Scalar> list(triangles);
       for (std::size_t k = 0; k < segments.size(); ++k) {
         const auto kind = static_cast<PathKind>(random.below(3));
@@ -102,16 +97,6 @@ class BlockKernel : public testing::Test {
     return KernelList<Scalar>(triangle).verdict(path, PathRange<Scalar>(path, options), 0);
   }
 
-  template <typename Check>
-  static void on_every_instruction_set(const Check& check) {
-    ASSERT_FALSE(instruction_sets().empty());
-    for (const std::int64_t target : instruction_sets()) {
-      const ForcedInstructionSet forced(target);
-      SCOPED_TRACE(name_of_instruction_set(target));
-      check();
-    }
-  }
-
   /// Powers of two around `exponent`, small multiples of which often cancel exactly.
   static Pair<Scalar> draw_near(Random& random, int exponent) {
     std::array<Scalar, 15> x;
@@ -127,7 +112,7 @@ TYPED_TEST_SUITE(BlockKernel, Scalars, ScalarNames);
 /// Else the other tests would look at one alone.
 TYPED_TEST(BlockKernel, runs_on_the_instruction_set_that_is_forced) {
   std::vector<std::size_t> lanes;
-  this->on_every_instruction_set([&] { lanes.push_back(kernel_lanes<TypeParam>()); });
+  on_every_instruction_set([&] { lanes.push_back(kernel_lanes<TypeParam>()); });
   EXPECT_TRUE(std::is_sorted(lanes.rbegin(), lanes.rend())) << "the best first";
   for (const std::size_t count : lanes) EXPECT_LE(count, 64 / sizeof(TypeParam));
   this->RecordProperty("instruction_sets", std::to_string(lanes.size()));
@@ -175,7 +160,7 @@ TYPED_TEST(BlockKernel, is_never_wrong_about_short_paths_that_end_in_the_plane) 
 }
 
 TYPED_TEST(BlockKernel, decides_nearly_every_random_pair) {
-  this->on_every_instruction_set([&] {
+  on_every_instruction_set([&] {
     Random random(24);
     const std::size_t pairs = case_count(20'000);
     std::size_t undecided = 0;
@@ -192,7 +177,7 @@ TYPED_TEST(BlockKernel, decides_nearly_every_random_pair) {
 TYPED_TEST(BlockKernel, leaves_huge_coordinates_undecided) {
   const TypeParam huge = std::numeric_limits<TypeParam>::max();
   const Triangle<TypeParam> unit{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
-  this->on_every_instruction_set([&] {
+  on_every_instruction_set([&] {
     for (const TypeParam x : {huge, -huge}) {
       const Segment<TypeParam> segment{{0, 0, -1}, {0, 0, 1}};
       EXPECT_EQ(this->verdict(segment, {{-1, -1, 0}, {x, -1, 0}, {0, 1, 0}}), Verdict::undecided);
@@ -210,7 +195,7 @@ TYPED_TEST(BlockKernel, leaves_a_list_undecided_if_one_of_its_triangles_is_huge)
   const Triangle<TypeParam> unit{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
   const std::vector<Triangle<TypeParam>> triangles = {unit, {{0, 0, 0}, {huge, 0, 0}, {0, huge, 0}}};
   const Path<TypeParam> path = Segment<TypeParam>{{0, 0, -1}, {0, TypeParam{0.1F}, 1}};
-  this->on_every_instruction_set([&] {
+  on_every_instruction_set([&] {
     EXPECT_EQ(KernelList<TypeParam>(unit).verdict(path, PathRange<TypeParam>(path, {}), 0), Verdict::hit);
     EXPECT_EQ(KernelList<TypeParam>(triangles).verdict(path, PathRange<TypeParam>(path, {}), 0), Verdict::undecided);
   });
@@ -219,7 +204,7 @@ TYPED_TEST(BlockKernel, leaves_a_list_undecided_if_one_of_its_triangles_is_huge)
 TYPED_TEST(BlockKernel, leaves_a_limit_too_large_for_the_bound_open) {
   const Ray<TypeParam> ray{{0, 0, -1}, {0, 0, 1}};
   const Triangle<TypeParam> triangle{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
-  this->on_every_instruction_set([&] {
+  on_every_instruction_set([&] {
     EXPECT_EQ(this->verdict(ray, triangle, {.max_t = 4}), Verdict::hit);
     EXPECT_EQ(this->verdict(ray, triangle, {.max_t = TypeParam{0.5F}}), Verdict::miss);
     EXPECT_EQ(this->verdict(ray, triangle, {.max_t = TypeParam{1e9}}), Verdict::undecided);
@@ -234,7 +219,7 @@ TYPED_TEST(BlockKernel, leaves_an_edge_undecided_and_not_what_is_clear_of_it) {
     return this->verdict(Segment<TypeParam>{{TypeParam{0.25}, y, -1}, {TypeParam{0.25}, y, 1}}, triangle);
   };
   const TypeParam clear = 1000 * std::numeric_limits<TypeParam>::epsilon();
-  this->on_every_instruction_set([&] {
+  on_every_instruction_set([&] {
     EXPECT_EQ(at(0), Verdict::undecided);
     EXPECT_EQ(at(clear), Verdict::hit);
     EXPECT_EQ(at(-clear), Verdict::miss);
@@ -248,7 +233,7 @@ TYPED_TEST(BlockKernel, tells_nothing_of_lanes_beyond_the_count) {
   const Path<TypeParam> hit = Segment<TypeParam>{{0, 0, -1}, {0, TypeParam{0.1F}, 1}};
   const Path<TypeParam> touch = Segment<TypeParam>{{0, -1, -1}, {0, -1, 1}};
   const Path<TypeParam> miss = Segment<TypeParam>{{5, 0, -1}, {5, 0, 1}};
-  this->on_every_instruction_set([&] {
+  on_every_instruction_set([&] {
     for (std::size_t count = 1; count <= kernel_lanes<TypeParam>(); ++count) {
       const std::size_t from = list.entries() - count;
       const std::uint64_t all = (std::uint64_t{1} << count) - 1;
@@ -272,7 +257,7 @@ TYPED_TEST(BlockKernel, keeps_lanes_apart) {
   const Triangle<TypeParam> touch{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
   const Path<TypeParam> path = Segment<TypeParam>{{0, 0, -1}, {0, 0, 1}};
   Random random(27);
-  this->on_every_instruction_set([&] {
+  on_every_instruction_set([&] {
     for (std::size_t i = 0; i < 200; ++i) {
       std::vector<Triangle<TypeParam>> triangles(1 + random.below(40));
       std::vector<Verdict> expected(triangles.size());

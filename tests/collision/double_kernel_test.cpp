@@ -12,6 +12,7 @@
 #include "coordinate_changes.hpp"
 #include "double_kernel_on_targets.hpp"
 #include "kernel_bound.hpp"
+#include "on_every_instruction_set.hpp"
 #include "rational_determinants.hpp"
 #include "support/case_count.hpp"
 #include "support/instruction_sets.hpp"
@@ -22,16 +23,6 @@ namespace surehit::test {
 namespace {
 
 using detail::Bounded;
-
-template <typename Check>
-void on_every_instruction_set(const Check& check) {
-  ASSERT_FALSE(instruction_sets().empty());
-  for (const std::int64_t target : instruction_sets()) {
-    const ForcedInstructionSet forced(target);
-    SCOPED_TRACE(name_of_instruction_set(target));
-    check();
-  }
-}
 
 /// What share of the bound the error takes up; 0 where nothing is claimed.
 double share_of(const Bounded& x, const mpq_class& truth) {
@@ -205,7 +196,7 @@ WorstShares worst_shares(const std::array<double, 15>& x) {
 double climb(double WorstShares::*share) {
   Random random(64);
   double worst = 0;
-  for (std::size_t start = 0; start < 8; ++start) {
+  for (std::size_t start = 0; start < 20; ++start) {
     std::array<double, 15> best;
     for (double& coordinate : best) coordinate = draw_coordinate<double>(random);
     double best_share = worst_shares(best).*share;
@@ -231,7 +222,9 @@ TEST(DoubleKernel, holds_where_hill_climbing_makes_the_error_worst) {
       const double worst = climb(share);
       testing::Test::RecordProperty("worst_share_of_" + (what + name), std::to_string(worst));
       EXPECT_LT(worst, 1) << what << name;
-      EXPECT_GT(worst, 0.02) << what << name << ": the bound has room to waste";
+      if (runs_all_cases()) {
+        EXPECT_GT(worst, 0.05) << what << name << ": room to waste";
+      }
     }
   });
 }

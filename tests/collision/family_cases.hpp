@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "support/case_count.hpp"
 #include "support/pair_families.hpp"
@@ -24,5 +26,20 @@ void visit_family(PairFamily family, std::uint64_t seed, std::size_t pairs, cons
     }
   }
 }
+
+/// Up to 35 pairs of a family: segments, and the triangles that were drawn for them.
+template <typename Scalar>
+struct FamilyList {
+  FamilyList(PairFamily family, Random& random) : segments(1 + random.below(35)), triangles(segments.size()) {
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const auto pair = draw_pair<Scalar>(family, random);
+      segments[i] = pair.segment;
+      triangles[i] = pair.triangle;
+    }
+  }
+
+  std::vector<Segment<Scalar>> segments;
+  std::vector<Triangle<Scalar>> triangles;
+};
 
 }  // namespace surehit::test

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "drawn_triangles.hpp"
 #include "support/brute_force.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
@@ -28,17 +29,6 @@ template <typename Scalar>
 class FirstHitOrder : public testing::Test {
  protected:
   static constexpr std::size_t paths_at_once = 19;
-
-  static Vector3<Scalar> draw_vector(Random& random) {
-    return Vector3<Scalar>::NullaryExpr([&] { return random.symmetric<Scalar>(); });
-  }
-
-  /// Around the point, so that it is hit there but for rounding.
-  static Triangle<Scalar> draw_around(Random& random, const Vector3<Scalar>& point, Scalar size) {
-    const Vector3<Scalar> a = size * draw_vector(random);
-    const Vector3<Scalar> b = size * draw_vector(random);
-    return {point + a, point + b, point - (a + b)};
-  }
 
   static void shuffle(std::vector<Triangle<Scalar>>& triangles, Random& random) {
     for (std::size_t i = triangles.size(); i > 1; --i) std::swap(triangles[i - 1], triangles[random.below(i)]);
@@ -83,17 +73,17 @@ TYPED_TEST_SUITE(FirstHitOrder, Scalars, ScalarNames);
 TYPED_TEST(FirstHitOrder, of_triangles_within_the_kernels_bound) {
   Random random(81);
   for (std::size_t i = case_count(60); i > 0 && !this->HasFailure(); --i) {
-    const Vector3<TypeParam> target = this->draw_vector(random);
+    const Vector3<TypeParam> target = draw_vector<TypeParam>(random);
     const TypeParam apart = random.one_in(3) ? 0 : std::ldexp(TypeParam{1}, -static_cast<int>(10 + random.below(50)));
     std::vector<Triangle<TypeParam>> triangles(2 + random.below(90));
     for (Triangle<TypeParam>& triangle : triangles) {
-      const Vector3<TypeParam> point = target + apart * this->draw_vector(random);
-      triangle = random.one_in(4) ? triangles.front() : this->draw_around(random, point, TypeParam{1});
+      const Vector3<TypeParam> point = target + apart * draw_vector<TypeParam>(random);
+      triangle = random.one_in(4) ? triangles.front() : draw_around<TypeParam>(random, point, TypeParam{1});
     }
     this->shuffle(triangles, random);
     std::vector<Segment<TypeParam>> segments;
     for (std::size_t k = 0; k < this->paths_at_once; ++k) {
-      const Vector3<TypeParam> start = TypeParam{2} * this->draw_vector(random);
+      const Vector3<TypeParam> start = TypeParam{2} * draw_vector<TypeParam>(random);
       segments.push_back({start, start + TypeParam{2} * (target - start)});
     }
     this->expect_first(triangles, segments);
@@ -120,7 +110,7 @@ TYPED_TEST(FirstHitOrder, of_long_stacks_an_ulp_apart) {
     this->shuffle(triangles, random);
     std::vector<Segment<TypeParam>> segments;
     for (std::size_t k = 0; k < this->paths_at_once; ++k) {
-      Segment<TypeParam> segment{this->draw_vector(random) / 4, this->draw_vector(random) / 4};
+      Segment<TypeParam> segment{draw_vector<TypeParam>(random) / 4, draw_vector<TypeParam>(random) / 4};
       segment.start[axis] = random.one_in(2) ? -3 : 5;
       segment.end[axis] = segment.start[axis] > 0 ? -3 : 5;
       segments.push_back(segment);
@@ -146,7 +136,7 @@ TYPED_TEST(FirstHitOrder, of_exact_ties_across_cells) {
       const Vector3<TypeParam> b = whole(4);
       triangle = random.one_in(5) ? triangles.front() : Triangle<TypeParam>{p + a, p + b, p - (a + b)};
     }
-    for (std::size_t far = 0; far < 8; ++far) triangles.push_back(this->draw_around(random, 30 * whole(1), 3));
+    for (std::size_t far = 0; far < 8; ++far) triangles.push_back(draw_around<TypeParam>(random, 30 * whole(1), 3));
     this->shuffle(triangles, random);
     std::vector<Segment<TypeParam>> segments;
     for (std::size_t k = 0; k < this->paths_at_once; ++k) {
@@ -171,7 +161,7 @@ TYPED_TEST(FirstHitOrder, of_shared_edges) {
       const Triangle<TypeParam>& triangle = triangles[random.below(triangles.size())];
       const TypeParam weight = random.one_in(3) ? 0 : random.template unit<TypeParam>();
       const Vector3<TypeParam> on_edge = triangle.a + weight * (triangle.b - triangle.a);
-      const Vector3<TypeParam> way = this->draw_vector(random) + Vector3<TypeParam>{0, 0, 1};
+      const Vector3<TypeParam> way = draw_vector<TypeParam>(random) + Vector3<TypeParam>{0, 0, 1};
       segments.push_back({on_edge - way, on_edge + way});
     }
     this->expect_first(triangles, segments);

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "coordinate_changes.hpp"
+#include "drawn_triangles.hpp"
 #include "family_cases.hpp"
 #include "kernel_list.hpp"
+#include "on_every_instruction_set.hpp"
 #include "rational_determinants.hpp"
 #include "support/case_count.hpp"
 #include "support/exact_oracle.hpp"
@@ -154,13 +156,7 @@ class KernelCrossingOnFamily : public testing::TestWithParam<PairFamily> {
     Random random(53);
     std::size_t hits = 0;
     for (std::size_t i = case_count(100); i > 0 && !HasFailure(); --i) {
-      std::vector<Segment<Scalar>> segments(1 + random.below(35));
-      std::vector<Triangle<Scalar>> triangles(segments.size());
-      for (std::size_t k = 0; k < segments.size(); ++k) {
-        const auto pair = draw_pair<Scalar>(GetParam(), random);
-        segments[k] = pair.segment;
-        triangles[k] = pair.triangle;
-      }
+      const auto [segments, triangles] = FamilyList<Scalar>(GetParam(), random);
       const KernelList<Scalar> list(triangles);
       for (std::size_t k = 0; k < 8; ++k) {
         const Path<Scalar> path =
@@ -184,27 +180,6 @@ template <typename Scalar>
 class KernelCrossing : public testing::Test {
  protected:
   using Coordinates = std::array<Scalar, 15>;
-
-  template <typename Check>
-  static void on_every_instruction_set(const Check& check) {
-    ASSERT_FALSE(instruction_sets().empty());
-    for (const std::int64_t target : instruction_sets()) {
-      const ForcedInstructionSet forced(target);
-      SCOPED_TRACE(name_of_instruction_set(target));
-      check();
-    }
-  }
-
-  static Vector3<Scalar> draw_vector(Random& random) {
-    return Vector3<Scalar>::NullaryExpr([&] { return random.symmetric<Scalar>(); });
-  }
-
-  /// Around a point, which is inside but for rounding.
-  static Triangle<Scalar> draw_around(Random& random, const Vector3<Scalar>& point, Scalar size) {
-    const Vector3<Scalar> a = size * draw_vector(random);
-    const Vector3<Scalar> b = size * draw_vector(random);
-    return {point + a, point + b, point - (a + b)};
-  }
 
   /// Half the width of what a certain hit's t may be, and how much of that the error takes up.
   static double share_of(const Coordinates& x, bool is_line) {
@@ -266,14 +241,14 @@ TYPED_TEST(KernelCrossing, holds_for_all_that_one_path_hits) {
   Random random(55);
   std::size_t hits = 0;
   for (std::size_t i = case_count(400); i > 0 && !this->HasFailure(); --i) {
-    const Segment<TypeParam> segment{this->draw_vector(random), this->draw_vector(random)};
+    const Segment<TypeParam> segment{draw_vector<TypeParam>(random), draw_vector<TypeParam>(random)};
     const Path<TypeParam> path = path_along(segment, static_cast<PathKind>(random.below(3)));
     std::vector<Triangle<TypeParam>> triangles(1 + random.below(40));
     const TypeParam spread = std::ldexp(TypeParam{1}, -static_cast<int>(random.below(60)));
     const TypeParam first = random.template unit<TypeParam>() / 2;
     for (Triangle<TypeParam>& triangle : triangles) {
       const TypeParam t = first + spread * random.template unit<TypeParam>();
-      triangle = this->draw_around(random, segment.start + t * (segment.end - segment.start), TypeParam{0.5});
+      triangle = draw_around<TypeParam>(random, segment.start + t * (segment.end - segment.start), TypeParam{0.5});
       if (random.one_in(4)) triangle = triangles.front();
       if (random.one_in(8)) std::swap(triangle.a, triangle.b);
     }
@@ -294,11 +269,11 @@ TYPED_TEST(KernelCrossing, holds_at_sizes_at_which_products_overflow_or_underflo
       const int least = random.one_in(4) ? Limits::min_exponent : -most;
       return std::ldexp(TypeParam{1}, static_cast<int>(random.between(least, most)));
     };
-    const Vector3<TypeParam> direction = scale() * this->draw_vector(random);
-    const Vector3<TypeParam> start = (random.one_in(2) ? scale() : TypeParam{0}) * this->draw_vector(random);
+    const Vector3<TypeParam> direction = scale() * draw_vector<TypeParam>(random);
+    const Vector3<TypeParam> start = (random.one_in(2) ? scale() : TypeParam{0}) * draw_vector<TypeParam>(random);
     const Vector3<TypeParam> point = start + random.template unit<TypeParam>() * scale() * direction;
     if (!(point.cwiseAbs().maxCoeff() < std::ldexp(TypeParam{1}, most))) continue;
-    const Triangle<TypeParam> triangle = this->draw_around(random, point, scale());
+    const Triangle<TypeParam> triangle = draw_around<TypeParam>(random, point, scale());
     for (const Path<TypeParam>& path :
          {Path<TypeParam>(Ray<TypeParam>{start, direction}), Path<TypeParam>(Line<TypeParam>{start, direction}),
           Path<TypeParam>(Segment<TypeParam>{start, point + point - start})}) {
@@ -310,7 +285,7 @@ TYPED_TEST(KernelCrossing, holds_at_sizes_at_which_products_overflow_or_underflo
 }
 
 TYPED_TEST(KernelCrossing, holds_where_hill_climbing_makes_the_error_worst) {
-  this->on_every_instruction_set([&] {
+  on_every_instruction_set([&] {
     const std::string name = name_of_instruction_set(hwy::SupportedTargets());
     this->expect_below_one("of_segments_" + name, this->climb(6, case_count(1'000), false));
     this->expect_below_one("of_lines_" + name, this->climb(6, case_count(1'000), true));
@@ -330,7 +305,7 @@ TYPED_TEST(KernelCrossing, tells_hits_apart_that_are_not_close) {
   };
   const Path<TypeParam> path = Segment<TypeParam>{{0, 0, -1}, {0, 0, 1}};
   const KernelList<TypeParam> list(std::vector<Triangle<TypeParam>>{at(near), at(0), at(TypeParam{0.5}), at(0)});
-  this->on_every_instruction_set([&] {
+  on_every_instruction_set([&] {
     const std::uint64_t taken = (std::uint64_t{1} << std::min<std::size_t>(4, kernel_lanes<TypeParam>())) - 1;
     const std::uint64_t ties = taken == 1 ? 1 : 0b1010 & taken;
     const auto all = list.first_from(path, 0, taken, no_limit<TypeParam>);
@@ -349,7 +324,7 @@ TYPED_TEST(KernelCrossing, leaves_all_open_where_sizes_are_too_large) {
                                                       {{-huge, -1, 5}, {huge, -1, 5}, {0, 1, 5}}};
   const KernelList<TypeParam> list(triangles);
   const Path<TypeParam> path = Segment<TypeParam>{{0, 0, -1}, {0, 0, 1}};
-  this->on_every_instruction_set([&] {
+  on_every_instruction_set([&] {
     const std::uint64_t taken = (std::uint64_t{1} << std::min<std::size_t>(4, kernel_lanes<TypeParam>())) - 1;
     const auto first = list.first_from(path, 0, taken, TypeParam{-7});
     EXPECT_EQ(first.lanes, taken);
