@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -42,7 +43,8 @@ class Unit {
     const mpz_class significand = std::ldexp(std::frexp(x, &exponent), digits);
     // A float has trailing zeros to shift out.
     const int shift = exponent - digits - exponent_;
-    return shift < 0 ? mpz_class(significand >> -shift) : mpz_class(significand << shift);
+    const auto digits_shifted = static_cast<mp_bitcnt_t>(std::abs(shift));
+    return shift < 0 ? mpz_class(significand >> digits_shifted) : mpz_class(significand << digits_shifted);
   }
 
   int exponent_ = std::numeric_limits<double>::max_exponent;
