@@ -30,13 +30,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// Whether no option, mask or filter can leave out a hit that the kernel is certain of.
+/// Whether no option, mask or filter can leave out a hit that the kernel is certain of. It lies inside the range, so
+/// off the path's ends, whose contacts an option may ignore.
 template <typename Scalar>
 bool counts_every_hit(const Query<Scalar>& query) {
   const QueryOptions<Scalar>& options = query.options;
   return query.filter == nullptr && query.masks.empty() && options.mask != 0 &&
-         options.ignored_triangle == no_triangle && options.culling == Culling::none && !options.ignore_start_contact &&
-         !options.ignore_end_contact;
+         options.ignored_triangle == no_triangle && options.culling == Culling::none;
 }
 
 /// Triangles of a list that the kernel does not say the path misses. `AnyPath` is what a Path is made of.
