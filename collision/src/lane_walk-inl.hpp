@@ -335,8 +335,7 @@ class LaneWalk {
       const Floats place =
           hn::Floor(hn::MulAdd(tau, hn::Load(d, paths.rate[axis].data()), hn::Load(d, paths.start[axis].data())));
       const Floats least = hn::Load(d, paths.finest[axis].data());
-      const Floats cell = hn::Min(hn::Max(place, least), hn::Sub(plane[axis], hn::Set(d, 1.0F)));
-      finest[axis] = hn::IfThenElse(hn::Eq(crossing[axis], tau), plane[axis], cell);
+      finest[axis] = hn::IfThenElse(hn::Eq(crossing[axis], tau), plane[axis], hn::Max(place, least));
       inside = hn::And(inside, hn::Lt(finest[axis], hn::Set(d, stop_[axis])));
     }
     inside = hn::And(inside, walks);

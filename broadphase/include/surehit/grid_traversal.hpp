@@ -147,8 +147,7 @@ class GridTraversal {
     const Float4 tau = least_lane(crossing);
     // No farther than the plane but for roundings, so that it fits.
     const Int4 place = to_int(path_.start + tau * path_.rate);
-    const Int4 cell = least(greatest(place, finest_), plane - 1);
-    finest_ = crossing == tau ? plane : cell;
+    finest_ = crossing == tau ? plane : greatest(place, finest_);
     at_end_ = !(tau[0] < end_) || any_lane(finest_ >= stop_);
     if (!at_end_) look();
   }

@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drawn_triangles.hpp"
+#include "support/brute_force.hpp"
+#include "support/case_count.hpp"
+#include "support/exact_cells.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/instruction_sets.hpp"
+#include "support/pair_text.hpp"
+#include "support/path_drawer.hpp"
+#include "support/same_bits.hpp"
+#include "support/scalars.hpp"
+#include "surehit/collider.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// Batches of paths at the limits of what can be walked in lanes: each is answered as brute force does.
+template <typename Scalar>
+class LaneWalk : public testing::Test {
+ protected:
+  template <typename AnyPath>
+  void expect_found(const GeneratedMesh<Scalar>& mesh, const GridOptions& options, const std::vector<AnyPath>& paths) {
+    const Collider<Scalar> collider(mesh.view(), BuildOptions{options, {}});
+    std::vector<Hit<Scalar>> expected;
+    for (const AnyPath& path : paths) {
+      const auto all = brute_force_hits<Scalar>(mesh.view(), path);
+      expected.push_back(all.empty() ? Hit<Scalar>{} : all.front());
+      hits_ += all.empty() ? 0 : 1;
+    }
+    for (const std::int64_t target : instruction_sets()) {
+      const ForcedInstructionSet forced(target);
+      SCOPED_TRACE(name_of_instruction_set(target));
+      std::vector<Hit<Scalar>> first(paths.size());
+      std::vector<std::uint8_t> any(paths.size());
+      collider.first_hits(std::span<const AnyPath>(paths), std::span(first));
+      collider.any_hits(std::span<const AnyPath>(paths), std::span(any));
+      for (std::size_t i = 0; i < paths.size(); ++i) {
+        SCOPED_TRACE(hex_text(Path<Scalar>(paths[i])));
+        EXPECT_TRUE(same_bits(first[i], expected[i])) << hex_text(first[i]) << " and not " << hex_text(expected[i]);
+        EXPECT_EQ(any[i] != 0, expected[i].triangle != no_triangle);
+        const Hit<Scalar> single = collider.first_hit(paths[i]).value_or(Hit<Scalar>{});
+        EXPECT_TRUE(same_bits(single, expected[i])) << hex_text(single) << " and not " << hex_text(expected[i]);
+      }
+    }
+  }
+
+  std::size_t hits_ = 0;
+};
+TYPED_TEST_SUITE(LaneWalk, Scalars, ScalarNames);
+
+constexpr GridOptions uniform{.resolution = {9, 8, 5}, .crowded = 0};
+constexpr GridOptions nested{.resolution = {3, 2, 1}, .crowded = 4};
+
+/// So slow that the walk's parameter comes to what moves on one axis only.
+TYPED_TEST(LaneWalk, of_slow_rays_and_lines) {
+  Random random(91);
+  const auto mesh = rough_ground<TypeParam>(8, TypeParam{0.5F}, random);
+  PathDrawer<TypeParam> drawer(mesh.view(), 92);
+  std::vector<Ray<TypeParam>> rays;
+  std::vector<Line<TypeParam>> lines;
+  for (std::size_t i = case_count(600); i > 0; --i) {
+    const Vector3<TypeParam> start = drawer.point_around_mesh();
+    Vector3<TypeParam> way = drawer.point_on_mesh() - start;
+    for (TypeParam& rate : way) rate = std::ldexp(rate, -static_cast<int>(10 + random.below(3)));
+    way = way * std::ldexp(TypeParam{1}, -static_cast<int>(random.below(90)));
+    rays.push_back({start, way});
+    lines.push_back({start, way});
+  }
+  for (const GridOptions& options : {uniform, nested}) {
+    this->expect_found(mesh, options, rays);
+    this->expect_found(mesh, options, lines);
+  }
+  EXPECT_GT(this->hits_, case_count(600) / 2);
+}
+
+/// From so far away that floats do not tell a cell from the next where they start, to triangles no larger than a cell:
+/// what is placed in float passes some of them by.
+TYPED_TEST(LaneWalk, of_paths_from_afar) {
+  Random random(93);
+  GeneratedMesh<TypeParam> mesh;
+  for (const TypeParam x : {TypeParam{-1}, TypeParam{1}}) mesh.add({{x, x, x}, {x, x, x}, {x, x, x}});
+  std::vector<Segment<TypeParam>> segments;
+  std::vector<Ray<TypeParam>> rays;
+  for (std::size_t i = case_count(3000); i > 0; --i) {
+    const Vector3<TypeParam> target = draw_vector<TypeParam>(random);
+    mesh.add(draw_around<TypeParam>(random, target, TypeParam{0.004F}));
+    const Vector3<TypeParam> start = target - TypeParam{0x1p16F} * draw_vector<TypeParam>(random);
+    // Slow enough for a lane.
+    rays.push_back({start, (target - start) / std::ldexp(TypeParam{1}, static_cast<int>(5 + random.below(20)))});
+    segments.push_back({start, start + TypeParam{2} * (target - start)});
+  }
+  const GridOptions options{.resolution = {400, 400, 1}, .crowded = 0};
+  this->expect_found(mesh, options, segments);
+  this->expect_found(mesh, options, rays);
+  EXPECT_GT(this->hits_, case_count(1500));
+}
+
+/// A ramp is met in the cell before the one in which the path hits it, and a wall between the two in the latter alone:
+/// the hit on the ramp must not end the walk before that.
+TYPED_TEST(LaneWalk, of_hits_just_behind_a_plane_between_cells) {
+  Random random(95);
+  for (std::size_t i = case_count(200); i > 0 && !this->HasFailure(); --i) {
+    GeneratedMesh<TypeParam> mesh;
+    for (const TypeParam x : {TypeParam{0}, TypeParam{16}})
+      mesh.add({{x, x / 16, x / 16}, {x, x / 16, x / 16}, {x, x / 16, x / 16}});
+    const GridOptions options{.resolution = {16, 1, 1}, .crowded = 0};
+    const GridFrame frame = Grid(mesh.view(), box_of(mesh.view()), options).frame();
+    ASSERT_EQ(frame.resolution(0), 16U);
+    const double plane = out_of_frame(frame, 0, static_cast<double>(random.between(3, 13)));
+    // Beyond the padding, below which the wall is listed before the plane too.
+    const double wall = plane + 1.5 * frame.padding(0) + random.unit<double>() / 512;
+    const double ramp = wall + random.unit<double>() / 512;
+    const auto slope = static_cast<TypeParam>(0.04 * (1 + random.unit<double>()));
+    const auto height = [&](double x) { return static_cast<TypeParam>(0.5 + slope * (x - ramp)); };
+    const auto at = [&](double x, double y) {
+      return Vector3<TypeParam>{static_cast<TypeParam>(x), static_cast<TypeParam>(y), height(x)};
+    };
+    mesh.add({at(plane - 2, 0), at(plane + 2, 0), at(plane, 1)});
+    const auto x = static_cast<TypeParam>(wall);
+    mesh.add({{x, 0, 0.4F}, {x, 0, 0.6F}, {x, 1, 0.5F}});
+    std::vector<Segment<TypeParam>> segments;
+    for (std::size_t k = 0; k < 20; ++k) {
+      const TypeParam y = (1 + random.unit<TypeParam>()) / 4;
+      segments.push_back({{-1, y, 0.5F}, {17, y, 0.5F}});
+      segments.push_back({{1, y, 0.5F}, {TypeParam(15) + random.unit<TypeParam>(), y, 0.5F}});
+    }
+    this->expect_found(mesh, options, segments);
+  }
+  EXPECT_GT(this->hits_, case_count(200) * 30);
+}
+
+/// Through corners of cells by leaps of every length: see GridTraversalTest.NeverTurnsBack.
+TYPED_TEST(LaneWalk, never_turns_back) {
+  Random random(7);
+  GeneratedMesh<TypeParam> dust;
+  for (const TypeParam x : {TypeParam{0}, TypeParam{1}}) dust.add({{x, x, 0}, {x, x, 0}, {x, x, 0}});
+  for (std::size_t i = 0; i < 4000; ++i) {
+    const Vector3<TypeParam> point = {random.unit<TypeParam>(), random.unit<TypeParam>(), 0};
+    dust.add({point, point, point});
+  }
+  const GridOptions options{.resolution = {400, 400, 1}, .crowded = 0};
+  const GridFrame frame = Grid(dust.view(), box_of(dust.view()), options).frame();
+  const Collider<TypeParam> collider(dust.view(), BuildOptions{options, {}});
+  std::vector<Line<TypeParam>> lines;
+  for (std::size_t i = case_count(2000); i > 0; --i) {
+    const auto corner = [&](std::size_t axis) {
+      return static_cast<TypeParam>(
+          out_of_frame(frame, axis, static_cast<double>(random.below(frame.resolution(axis) + 1))));
+    };
+    const auto step = [&] { return static_cast<TypeParam>(1 + random.below(4)); };
+    lines.push_back({{corner(0), corner(1), 0}, {step(), random.one_in(2) ? step() : -step(), 0}});
+  }
+  for (const std::int64_t target : instruction_sets()) {
+    const ForcedInstructionSet forced(target);
+    QueryStatistics statistics;
+    std::vector<Hit<TypeParam>> hits(lines.size());
+    collider.first_hits(std::span<const Line<TypeParam>>(lines), std::span(hits), {.mask = 0}, &statistics);
+    EXPECT_LT(statistics.cells, lines.size() * 800) << name_of_instruction_set(target);
+  }
+}
+
+}  // namespace
+}  // namespace surehit::test
