@@ -150,12 +150,13 @@ class BlockKernel : BlockDeterminants<Scalar> {
   }
 
   /// Of `certain` hits those that may be the first, if none that begins after t = `limit` can be. t is within (r_height
-  /// + |t| r_det) / (|det| - r_det) of the quotient of what is computed, which is three roundings off itself, for which
-  /// t has 4 u; 2^-18 is far more than the radius needs for its own. A certain det is no denormal, so that its inverse
-  /// is finite. Where t or the radius overflows, nothing is known.
+  /// + |t| r_det) / (|det| - r_det) of the quotient of what is computed, where r_height and r_det are the determinants'
+  /// bounds. Of their 66 u, 48 u hold what either may be off. The other 18 u of 6 d e f or of 6 f s e, the most that
+  /// det and height may be, make 3 u |t| each: room for the three roundings of the quotient, and three more. 2^-18 is
+  /// far more than the radius needs for its own. A certain det is no denormal, so that its inverse is finite. Where t
+  /// or the radius overflows, nothing is known.
   [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(const Crossing& crossing, std::uint64_t certain,
                                                               Scalar limit) {
-    constexpr Scalar u = std::numeric_limits<Scalar>::epsilon() / 2;
     const Tag d;
     const V infinity = all(std::numeric_limits<Scalar>::infinity());
     const V t = hn::Mul(crossing.height, hn::Div(all(1), crossing.det));
@@ -163,7 +164,7 @@ class BlockKernel : BlockDeterminants<Scalar> {
     const V det_radius = all(crossing.det_radius);
     const V radius =
         hn::Div(hn::MulAdd(size, det_radius, crossing.height_radius), hn::Sub(hn::Abs(crossing.det), det_radius));
-    const V bound = hn::MulAdd(radius, all(1 + Scalar(0x1p-18)), hn::MulAdd(size, all(4 * u), all(Bound::underflow)));
+    const V bound = hn::MulAdd(radius, all(1 + Scalar(0x1p-18)), all(Bound::underflow));
     const auto taken = mask_of(d, certain);
     const auto known = hn::And(hn::Ge(bound, hn::Zero(d)), hn::Lt(bound, infinity));
     const V lower = hn::IfThenElse(taken, hn::IfThenElse(known, hn::Sub(t, bound), hn::Neg(infinity)), infinity);

@@ -124,8 +124,10 @@ class FirstHit {
     if (query.filter != nullptr && !(*query.filter)(narrowphase.hit(candidate))) return false;
     state_ = State::weighed;
     best_ = candidate;
-    t_lower_ = -beyond(-best_.contact.t_lower);
-    t_upper_ = beyond(best_.contact.t_upper);
+    // To the nearest, u |t| off at most: what the kernel compares with them has 3 u |t| to spare
+    // (`BlockKernel::first_of`).
+    t_lower_ = static_cast<Scalar>(best_.contact.t_lower);
+    t_upper_ = static_cast<Scalar>(best_.contact.t_upper);
     return true;
   }
   /// Nothing that begins after this t is of interest.
@@ -161,11 +163,6 @@ class FirstHit {
       state_ = State::weighed;
     }
     return best_;
-  }
-  /// The same, rounded upward.
-  static Scalar beyond(double t) {
-    const auto rounded = static_cast<Scalar>(t);
-    return double{rounded} < t ? std::nextafter(rounded, std::numeric_limits<Scalar>::infinity()) : rounded;
   }
 
   State state_ = State::none;
