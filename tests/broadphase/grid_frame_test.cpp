@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "support/exact_cells.hpp"
@@ -121,6 +122,19 @@ TYPED_TEST(GridFrameTest, ScaleIsAFloat) {
 }
 
 /// The padding gives a vertex three roundings of float; in double it takes far less until it is rounded at last.
+/// Paths are placed in float where that says exactly where the frame is.
+TYPED_TEST(GridFrameTest, HasFloatsWhereTheseHoldIt) {
+  const auto has_floats = [&](TypeParam low, TypeParam high) {
+    return GridFrame::around(this->box({low, 0, 0}, {high, 1, 1}), {5, 6, 7}, 1).has_floats;
+  };
+  EXPECT_TRUE(has_floats(-3, 1));
+  EXPECT_TRUE(has_floats(TypeParam{0.1F}, TypeParam{1.7F}));
+  constexpr bool is_float = std::is_same_v<TypeParam, float>;
+  EXPECT_EQ(has_floats(TypeParam(0.1), 2), is_float);
+  EXPECT_EQ(has_floats(std::nextafter(TypeParam{1}, TypeParam{0}), 2), is_float);
+  EXPECT_FALSE(has_floats(-std::ldexp(TypeParam{1}, 70), std::ldexp(TypeParam{1}, 70)));
+}
+
 TYPED_TEST(GridFrameTest, PlacesWithFewRoundings) {
   Random random(20240229);
   for (const auto& box : this->boxes()) {

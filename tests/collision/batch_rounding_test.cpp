@@ -138,5 +138,35 @@ TEST(BatchRounding, gives_zeros_their_sign) {
   expect_all_kinds_rounded(mesh, segments, 40, statistics);
 }
 
+/// A line's t that is negative and rounds to zero is +0 too. One corner is so near to the line that t is known to less
+/// than the least float.
+TEST(BatchRounding, gives_zeros_of_negative_t_their_sign) {
+  GeneratedMesh<float> mesh;
+  mesh.add({{-0x1p-70F, 0, 0}, {0x1.8p-55F, -0x1.8p-55F, 0}, {0x1.8p-55F, 0x1.8p-55F, 0}});
+  // Beside it, so that a lane has it alone: a list is filled up with its last one.
+  mesh.add({{0x1p-50F, 0, 0}, {0x1p-50F, 0x1p-56F, 0}, {0x1p-50F, 0, 0x1p-56F}});
+  // Far away, and so in other lists.
+  for (const float x : {-0x1p14F, 0x1p14F}) mesh.add({{x, x, x}, {x, x, x}, {x, x, x}});
+  const Collider<float> collider(mesh.view(), BuildOptions{{.resolution = {4, 4, 4}, .crowded = 0}, {}});
+  const std::vector<Line<float>> lines(40, Line<float>{{0, 0, 0x1p-117F}, {0, 0, 0x1p34F}});  // t = -2^-151
+  const auto expected = intersect(lines[0], mesh.view().triangle(0));
+  ASSERT_TRUE(expected);
+  EXPECT_TRUE(same_bits(expected->t, 0.0F));
+  for (const std::int64_t target : instruction_sets()) {
+    const ForcedInstructionSet forced(target);
+    SCOPED_TRACE(name_of_instruction_set(target));
+    QueryStatistics statistics;
+    std::vector<Hit<float>> hits(lines.size());
+    collider.first_hits(std::span<const Line<float>>(lines), std::span(hits), {}, &statistics);
+    for (const Hit<float>& hit : hits) {
+      EXPECT_EQ(hit.triangle, 0U);
+      EXPECT_TRUE(same_bits(hit.t, 0.0F));
+    }
+    EXPECT_TRUE(same_bits(collider.first_hit(lines[0]).value().t, 0.0F));
+    EXPECT_EQ(statistics.undecided, 0U);
+    EXPECT_EQ(statistics.exact_roundings, 0U);
+  }
+}
+
 }  // namespace
 }  // namespace surehit::test
