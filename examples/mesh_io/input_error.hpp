@@ -16,7 +16,9 @@ class InputError : public std::runtime_error {
   [[nodiscard]] InputError at(std::string_view place) const;
 };
 
-/// Text from a file, made fit for one line of a message: in quotes, cut when long, without unprintable bytes.
+/// Text from a file, made fit for one line of a message: cut when long, without unprintable bytes.
+[[nodiscard]] std::string printable(std::string_view text);
+/// The same in quotes.
 [[nodiscard]] std::string quoted(std::string_view text);
 
 }  // namespace surehit::example

@@ -32,7 +32,7 @@ void for_each_element(const PlyElement& element, Values& values, ReadOne read_on
       read_one();
       values.end_element();
     } catch (const InputError& error) {
-      throw error.at(std::string(element.name) + " " + std::to_string(i));
+      throw error.at(printable(element.name) + " " + std::to_string(i));
     }
   }
 }

@@ -181,6 +181,14 @@ TEST(ReadPly, NamesTheElementOfAnErrorInBytes) {
             "vertex 0: a coordinate is not finite, or beyond the largest number");
 }
 
+/// A message ends at a byte 0 for those who read it as C does; a fuzzer found one that was empty.
+TEST(ReadPly, NamesAnElementWhoseNameIsNotPrintable) {
+  const std::string name(1, '\0');
+  EXPECT_EQ(error_in("ply\nformat binary_little_endian 1.0\nelement " + name + " 8\nproperty double x\n" +
+                     "element vertex 0\n" + vertex_lines + "element face 0\n" + face_line + "end_header\n"),
+            "? 0: the file ends too early");
+}
+
 TEST(ReadPly, RejectsBinaryDoublesBeyondTheLargestFloat) {
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty double x\nproperty float y\n"
