@@ -201,9 +201,11 @@ class Batch {
 
   /// Does what a lane's visitor has come to; returns the lane's bit if that is the end.
   HWY_INLINE std::uint32_t heed(std::uint32_t lane, bool shorter) {
-    if (visitors_[lane].is_done()) return std::uint32_t{1} << lane;
-    if (shorter) lanes_.shorten(lane, visitors_[lane].limit());
-    return 0;
+    if constexpr (Visitor::wants_order) {
+      if (shorter) lanes_.shorten(lane, visitors_[lane].limit());
+      return 0;
+    }
+    return std::uint32_t{visitors_[lane].is_done()} << lane;
   }
 
   /// Asks the kernel; returns how many jobs are open then: the path may meet something there.

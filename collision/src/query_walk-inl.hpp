@@ -197,7 +197,6 @@ class AnyHit {
     if (!narrowphase.find_contact(candidate.triangle, candidate.contact)) return false;
     return is_done_ = query.filter == nullptr || (*query.filter)(narrowphase.hit(candidate));
   }
-  [[nodiscard]] double limit() const { return 0; }
   [[nodiscard]] bool is_done() const { return is_done_; }
 
  private:
@@ -223,7 +222,6 @@ class AllHits {
     if (narrowphase.find_contact(candidate.triangle, candidate.contact)) found_.push_back(candidate);
     return false;
   }
-  [[nodiscard]] double limit() const { return 0; }
   [[nodiscard]] bool is_done() const { return false; }
 
   /// Those that the filter accepts, in order, each once.
@@ -377,9 +375,12 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
     if (!for_kernel) for_kernel.emplace(path, range);
     const TriangleList<Scalar> list = list_of(query, traversal.word());
     query.statistics.candidates += list.count;
-    if (!meet_list(query, range, path, for_kernel->path, for_kernel->weights, list, 0, visitor)) continue;
-    if (visitor.is_done()) return;
-    traversal.shorten(visitor.limit());
+    const bool shorter = meet_list(query, range, path, for_kernel->path, for_kernel->weights, list, 0, visitor);
+    if constexpr (Visitor::wants_order) {
+      if (shorter) traversal.shorten(visitor.limit());
+    } else if (visitor.is_done()) {
+      return;
+    }
   }
 }
 
