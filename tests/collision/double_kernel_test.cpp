@@ -300,5 +300,25 @@ TEST(Quotients, hold_the_true_quotient_in_every_lane) {
   testing::Test::RecordProperty("worst_share", std::to_string(worst));
 }
 
+/// Their inverses are denormals, which have fewer digits.
+TEST(Quotients, by_the_greatest_denominators_hold_the_true_quotient) {
+  Random random(64);
+  std::vector<Bounded> numerators(case_count(20'000));
+  std::vector<Bounded> denominators(numerators.size());
+  for (std::size_t i = 0; i < numerators.size(); ++i) {
+    numerators[i] = {std::ldexp(random.symmetric<double>(), static_cast<int>(random.between(500, 1023))), 0};
+    denominators[i] = {std::ldexp(2 - random.unit<double>() / 2, 1023), 0};
+  }
+  on_every_instruction_set([&] {
+    std::vector<std::array<double, 2>> results(numerators.size());
+    quotients(numerators, denominators, results);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const mpq_class truth = mpq_class(numerators[i].value) / mpq_class(denominators[i].value);
+      ASSERT_LE(share_of(results[i], truth), 1)
+          << std::hexfloat << numerators[i].value << " by " << denominators[i].value;
+    }
+  });
+}
+
 }  // namespace
 }  // namespace surehit::test
