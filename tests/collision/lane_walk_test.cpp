@@ -60,6 +60,26 @@ TYPED_TEST_SUITE(LaneWalk, Scalars, ScalarNames);
 constexpr GridOptions uniform{.resolution = {9, 8, 5}, .crowded = 0};
 constexpr GridOptions nested{.resolution = {3, 2, 1}, .crowded = 4};
 
+TYPED_TEST(LaneWalk, of_paths_of_every_octant) {
+  Random random(89);
+  const auto ground = rough_ground<TypeParam>(8, TypeParam{0.7F}, random);
+  const auto mesh = with_small_copy<TypeParam>(ground, {0.3F, -0.2F, 0.1F});
+  PathDrawer<TypeParam> drawer(mesh.view(), 90);
+  std::vector<Segment<TypeParam>> segments;
+  std::vector<Ray<TypeParam>> rays;
+  for (std::size_t i = case_count(1000); i > 0; --i) {
+    const Vector3<TypeParam> start = drawer.point_around_mesh();
+    const Vector3<TypeParam> target = drawer.point_on_mesh();
+    segments.push_back({start, target + (target - start)});
+    rays.push_back({start, target - start});
+  }
+  for (const GridOptions& options : {uniform, nested}) {
+    this->expect_found(mesh, options, segments);
+    this->expect_found(mesh, options, rays);
+  }
+  EXPECT_GT(this->hits_, case_count(1000));
+}
+
 /// So slow that the walk's parameter comes to what moves on one axis only.
 TYPED_TEST(LaneWalk, of_slow_rays_and_lines) {
   Random random(91);
@@ -132,6 +152,40 @@ TYPED_TEST(LaneWalk, of_hits_just_behind_a_plane_between_cells) {
       const TypeParam y = (1 + random.unit<TypeParam>()) / 4;
       segments.push_back({{-1, y, 0.5F}, {17, y, 0.5F}});
       segments.push_back({{1, y, 0.5F}, {TypeParam(15) + random.unit<TypeParam>(), y, 0.5F}});
+    }
+    this->expect_found(mesh, options, segments);
+  }
+  EXPECT_GT(this->hits_, case_count(200) * 30);
+}
+
+/// The same where the ramp hardly rises, so that not even doubles know well where it is hit: all that may come before
+/// it counts, and a wall between the plane and the ramp does.
+TYPED_TEST(LaneWalk, of_hits_just_behind_a_plane_that_are_hardly_located) {
+  Random random(96);
+  for (std::size_t i = case_count(200); i > 0 && !this->HasFailure(); --i) {
+    GeneratedMesh<TypeParam> mesh;
+    for (const TypeParam x : {TypeParam{0}, TypeParam{16}}) {
+      const Vector3<TypeParam> corner = {x, x / 16, x / 8 - 1};
+      mesh.add({corner, corner, corner});
+    }
+    const GridOptions options{.resolution = {16, 1, 1}, .crowded = 0};
+    const GridFrame frame = Grid(mesh.view(), box_of(mesh.view()), options).frame();
+    const double plane = out_of_frame(frame, 0, static_cast<double>(random.between(3, 13)));
+    const double wall = plane + 1.5 * frame.padding(0) + 0x1p-14 * random.unit<double>();
+    const double ramp = wall + 0x1p-14 * random.unit<double>();
+    const double slope = std::ldexp(1 + random.unit<double>(), -static_cast<int>(30 + random.below(4)));
+    const auto at = [&](double x, double y) -> Vector3<TypeParam> {
+      const auto rounded = static_cast<TypeParam>(x);
+      return {rounded, static_cast<TypeParam>(y), static_cast<TypeParam>(slope * (double{rounded} - ramp))};
+    };
+    mesh.add({at(plane - 2, 0), at(plane + 2, 0), at(plane, 1)});
+    const auto x = static_cast<TypeParam>(wall);
+    mesh.add({{x, 0, -0.1F}, {x, 0, 0.1F}, {x, 1, 0}});
+    std::vector<Segment<TypeParam>> segments;
+    for (std::size_t k = 0; k < 20; ++k) {
+      const TypeParam y = (1 + random.unit<TypeParam>()) / 4;
+      segments.push_back({{-1, y, 0}, {17, y, 0}});
+      segments.push_back({{1, y, 0}, {TypeParam(15) + random.unit<TypeParam>(), y, 0}});
     }
     this->expect_found(mesh, options, segments);
   }
