@@ -28,9 +28,11 @@ Pair exact_difference(double x, double y) {
 //     |x(tau_X) - X| <= 3 u R + |p - P| + 2 u R =: e.
 // From a cell, or a cube of cells that are empty, it goes on to the least tau at which a plane ahead of it is crossed.
 // There, on each axis, either that plane is crossed (the new c is X), or c becomes the whole part of the rounded place
-// fl(p + tau r), off by u R for either rounding, but never less than the old c. By induction x(tau) >= c - e on every axis when a cell is entered, and x(tau) <= X + e until it is left, since tau does not exceed tau_X. So
-// the intervals of tau cut the path without a gap, and in each of them the exact path lies in the visited cell or cube
-// grown by e.
+// fl(p + tau r), off by u R for either rounding, but never less than the old c: where planes of two axes are crossed at
+// the same rounded tau, one after the other, a place rounded down would hold the walk between two cells for ever. By
+// induction x(tau) >= c - e on every axis when a cell is entered, and x(tau) <= X + e until it is left, since tau does
+// not exceed tau_X. So the intervals of tau cut the path without a gap, and in each of them the exact path lies in the
+// visited cell or cube grown by e.
 //
 // With |p - P| (next), e is below 16 u R, half the padding. A triangle that the path meets at tau is met
 // in the box, which the outer planes stand off by two paddings, so at a tau of the interval of some cell or cube; the
