@@ -121,7 +121,6 @@ TYPED_TEST(GridFrameTest, ScaleIsAFloat) {
   }
 }
 
-/// The padding gives a vertex three roundings of float; in double it takes far less until it is rounded at last.
 /// Paths are placed in float where that says exactly where the frame is.
 TYPED_TEST(GridFrameTest, HasFloatsWhereTheseHoldIt) {
   const auto has_floats = [&](TypeParam low, TypeParam high) {
@@ -135,6 +134,7 @@ TYPED_TEST(GridFrameTest, HasFloatsWhereTheseHoldIt) {
   EXPECT_FALSE(has_floats(-std::ldexp(TypeParam{1}, 70), std::ldexp(TypeParam{1}, 70)));
 }
 
+/// The padding gives a vertex three roundings of float; in double it takes far less until it is rounded at last.
 TYPED_TEST(GridFrameTest, PlacesWithFewRoundings) {
   Random random(20240229);
   for (const auto& box : this->boxes()) {

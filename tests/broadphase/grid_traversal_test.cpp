@@ -139,35 +139,19 @@ TYPED_TEST(GridTraversalTest, PointHasOneCellInsideAndNoneOutside) {
 /// same rounded tau and the rounded place lies before that plane, so that the next step stays where it is.
 TYPED_TEST(GridTraversalTest, NeverTurnsBack) {
   Random random(7);
-  GeneratedMesh<TypeParam> dust;
-  for (const TypeParam x : {TypeParam{0}, TypeParam{1}}) dust.add({{x, x, 0}, {x, x, 0}, {x, x, 0}});
-  for (std::size_t i = 0; i < 4000; ++i) {
-    const Vector3<TypeParam> point = {random.template unit<TypeParam>(), random.template unit<TypeParam>(), 0};
-    dust.add({point, point, point});
-  }
+  const auto dust = dust_in_square<TypeParam>(4000, random);
   const Grid grid(dust.view(), box_of(dust.view()), {.resolution = {400, 400, 1}, .crowded = 0});
-  const GridFrame& frame = grid.frame();
-  ASSERT_GE(frame.resolution(0), 400U);
+  ASSERT_EQ(grid.frame().resolution(0), 400U);
   for (std::size_t i = 0; i < case_count(2000); ++i) {
-    const auto corner = [&]() -> Vector3<TypeParam> {
-      const auto at = [&](std::size_t axis) {
-        return static_cast<TypeParam>(
-            out_of_frame(frame, axis, static_cast<double>(random.below(frame.resolution(axis) + 1))));
-      };
-      return {at(0), at(1), 0};
-    };
-    const Vector3<TypeParam> start = corner();
-    const auto ways = static_cast<TypeParam>(1 + random.below(4));
-    const auto step = static_cast<TypeParam>(1 + random.below(4));
-    const Vector3<TypeParam> way = {ways, random.one_in(2) ? step : -step, 0};
-    const Line<TypeParam> line = {start, way};
+    const auto line = line_through_corners<TypeParam>(grid.frame(), random);
     const PlacedPath placed(grid, Path<TypeParam>(line), -infinity, infinity);
     std::array<std::int32_t, 3> before = {0, 0, 0};
     std::size_t cells = 0;
     for (GridTraversal walk(grid, placed); !walk.at_end(); walk.advance(), ++cells) {
       const auto low = walk.low();
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
         EXPECT_GE(low[axis], before[axis]) << hex_text(Path<TypeParam>(line));
+      }
       ASSERT_LT(cells, 2000U) << hex_text(Path<TypeParam>(line));
       before = low;
     }

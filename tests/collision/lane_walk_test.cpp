@@ -53,6 +53,37 @@ class LaneWalk : public testing::Test {
     }
   }
 
+  /// A ramp is met in the cell before the one in which the paths hit it, and a wall between that cell's plane and the
+  /// ramp in the latter alone. Both are within `room` of what is before them.
+  void expect_wall_found(double room, double slope, Random& random) {
+    GeneratedMesh<Scalar> mesh;
+    for (const Scalar x : {Scalar{0}, Scalar{16}}) {
+      const Vector3<Scalar> corner = {x, x / 16, x / 8 - 1};
+      mesh.add({corner, corner, corner});
+    }
+    const GridOptions options{.resolution = {16, 1, 1}, .crowded = 0};
+    const GridFrame frame = Grid(mesh.view(), box_of(mesh.view()), options).frame();
+    ASSERT_EQ(frame.resolution(0), 16U);
+    const double plane = out_of_frame(frame, 0, static_cast<double>(random.between(3, 13)));
+    // Beyond the padding, below which the wall is listed before the plane too.
+    const double wall = plane + 1.5 * frame.padding(0) + room * random.unit<double>();
+    const double ramp = wall + room * random.unit<double>();
+    const auto at = [&](double x, Scalar y) -> Vector3<Scalar> {
+      const auto rounded = static_cast<Scalar>(x);
+      return {rounded, y, static_cast<Scalar>(slope * (double{rounded} - ramp))};
+    };
+    mesh.add({at(plane - 2, 0), at(plane + 2, 0), at(plane, 1)});
+    const auto x = static_cast<Scalar>(wall);
+    mesh.add({{x, 0, -0.1F}, {x, 0, 0.1F}, {x, 1, 0}});
+    std::vector<Segment<Scalar>> segments;
+    for (std::size_t k = 0; k < 20; ++k) {
+      const Scalar y = (1 + random.unit<Scalar>()) / 4;
+      segments.push_back({{-1, y, 0}, {17, y, 0}});
+      segments.push_back({{1, y, 0}, {Scalar(15) + random.unit<Scalar>(), y, 0}});
+    }
+    expect_found(mesh, options, segments);
+  }
+
   std::size_t hits_ = 0;
 };
 TYPED_TEST_SUITE(LaneWalk, Scalars, ScalarNames);
@@ -124,70 +155,21 @@ TYPED_TEST(LaneWalk, of_paths_from_afar) {
   EXPECT_GT(this->hits_, case_count(1500));
 }
 
-/// A ramp is met in the cell before the one in which the path hits it, and a wall between the two in the latter alone:
-/// the hit on the ramp must not end the walk before that.
+/// The hit on the ramp must not end the walk before the wall.
 TYPED_TEST(LaneWalk, of_hits_just_behind_a_plane_between_cells) {
   Random random(95);
   for (std::size_t i = case_count(200); i > 0 && !this->HasFailure(); --i) {
-    GeneratedMesh<TypeParam> mesh;
-    for (const TypeParam x : {TypeParam{0}, TypeParam{16}})
-      mesh.add({{x, x / 16, x / 16}, {x, x / 16, x / 16}, {x, x / 16, x / 16}});
-    const GridOptions options{.resolution = {16, 1, 1}, .crowded = 0};
-    const GridFrame frame = Grid(mesh.view(), box_of(mesh.view()), options).frame();
-    ASSERT_EQ(frame.resolution(0), 16U);
-    const double plane = out_of_frame(frame, 0, static_cast<double>(random.between(3, 13)));
-    // Beyond the padding, below which the wall is listed before the plane too.
-    const double wall = plane + 1.5 * frame.padding(0) + random.unit<double>() / 512;
-    const double ramp = wall + random.unit<double>() / 512;
-    const auto slope = static_cast<TypeParam>(0.04 * (1 + random.unit<double>()));
-    const auto height = [&](double x) { return static_cast<TypeParam>(0.5 + slope * (x - ramp)); };
-    const auto at = [&](double x, double y) {
-      return Vector3<TypeParam>{static_cast<TypeParam>(x), static_cast<TypeParam>(y), height(x)};
-    };
-    mesh.add({at(plane - 2, 0), at(plane + 2, 0), at(plane, 1)});
-    const auto x = static_cast<TypeParam>(wall);
-    mesh.add({{x, 0, 0.4F}, {x, 0, 0.6F}, {x, 1, 0.5F}});
-    std::vector<Segment<TypeParam>> segments;
-    for (std::size_t k = 0; k < 20; ++k) {
-      const TypeParam y = (1 + random.unit<TypeParam>()) / 4;
-      segments.push_back({{-1, y, 0.5F}, {17, y, 0.5F}});
-      segments.push_back({{1, y, 0.5F}, {TypeParam(15) + random.unit<TypeParam>(), y, 0.5F}});
-    }
-    this->expect_found(mesh, options, segments);
+    this->expect_wall_found(1.0 / 512, 0.04 * (1 + random.unit<double>()), random);
   }
   EXPECT_GT(this->hits_, case_count(200) * 30);
 }
 
-/// The same where the ramp hardly rises, so that not even doubles know well where it is hit: all that may come before
-/// it counts, and a wall between the plane and the ramp does.
+/// Where the ramp hardly rises, not even doubles know well where it is hit: all that may come before it counts.
 TYPED_TEST(LaneWalk, of_hits_just_behind_a_plane_that_are_hardly_located) {
   Random random(96);
   for (std::size_t i = case_count(200); i > 0 && !this->HasFailure(); --i) {
-    GeneratedMesh<TypeParam> mesh;
-    for (const TypeParam x : {TypeParam{0}, TypeParam{16}}) {
-      const Vector3<TypeParam> corner = {x, x / 16, x / 8 - 1};
-      mesh.add({corner, corner, corner});
-    }
-    const GridOptions options{.resolution = {16, 1, 1}, .crowded = 0};
-    const GridFrame frame = Grid(mesh.view(), box_of(mesh.view()), options).frame();
-    const double plane = out_of_frame(frame, 0, static_cast<double>(random.between(3, 13)));
-    const double wall = plane + 1.5 * frame.padding(0) + 0x1p-14 * random.unit<double>();
-    const double ramp = wall + 0x1p-14 * random.unit<double>();
-    const double slope = std::ldexp(1 + random.unit<double>(), -static_cast<int>(30 + random.below(4)));
-    const auto at = [&](double x, double y) -> Vector3<TypeParam> {
-      const auto rounded = static_cast<TypeParam>(x);
-      return {rounded, static_cast<TypeParam>(y), static_cast<TypeParam>(slope * (double{rounded} - ramp))};
-    };
-    mesh.add({at(plane - 2, 0), at(plane + 2, 0), at(plane, 1)});
-    const auto x = static_cast<TypeParam>(wall);
-    mesh.add({{x, 0, -0.1F}, {x, 0, 0.1F}, {x, 1, 0}});
-    std::vector<Segment<TypeParam>> segments;
-    for (std::size_t k = 0; k < 20; ++k) {
-      const TypeParam y = (1 + random.unit<TypeParam>()) / 4;
-      segments.push_back({{-1, y, 0}, {17, y, 0}});
-      segments.push_back({{1, y, 0}, {TypeParam(15) + random.unit<TypeParam>(), y, 0}});
-    }
-    this->expect_found(mesh, options, segments);
+    this->expect_wall_found(0x1p-14, std::ldexp(1 + random.unit<double>(), -static_cast<int>(30 + random.below(4))),
+                            random);
   }
   EXPECT_GT(this->hits_, case_count(200) * 30);
 }
@@ -195,23 +177,13 @@ TYPED_TEST(LaneWalk, of_hits_just_behind_a_plane_that_are_hardly_located) {
 /// Through corners of cells by leaps of every length: see GridTraversalTest.NeverTurnsBack.
 TYPED_TEST(LaneWalk, never_turns_back) {
   Random random(7);
-  GeneratedMesh<TypeParam> dust;
-  for (const TypeParam x : {TypeParam{0}, TypeParam{1}}) dust.add({{x, x, 0}, {x, x, 0}, {x, x, 0}});
-  for (std::size_t i = 0; i < 4000; ++i) {
-    const Vector3<TypeParam> point = {random.unit<TypeParam>(), random.unit<TypeParam>(), 0};
-    dust.add({point, point, point});
-  }
+  const auto dust = dust_in_square<TypeParam>(4000, random);
   const GridOptions options{.resolution = {400, 400, 1}, .crowded = 0};
   const GridFrame frame = Grid(dust.view(), box_of(dust.view()), options).frame();
   const Collider<TypeParam> collider(dust.view(), BuildOptions{options, {}});
   std::vector<Line<TypeParam>> lines;
   for (std::size_t i = case_count(2000); i > 0; --i) {
-    const auto corner = [&](std::size_t axis) {
-      return static_cast<TypeParam>(
-          out_of_frame(frame, axis, static_cast<double>(random.below(frame.resolution(axis) + 1))));
-    };
-    const auto step = [&] { return static_cast<TypeParam>(1 + random.below(4)); };
-    lines.push_back({{corner(0), corner(1), 0}, {step(), random.one_in(2) ? step() : -step(), 0}});
+    lines.push_back(line_through_corners<TypeParam>(frame, random));
   }
   for (const std::int64_t target : instruction_sets()) {
     const ForcedInstructionSet forced(target);

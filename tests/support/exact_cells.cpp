@@ -55,6 +55,16 @@ double out_of_frame(const GridFrame& frame, std::size_t axis, double place) {
   return std::ldexp((place - double{frame.margin[axis]}) / frame.scale[axis] + frame.origin[axis], -frame.exponent);
 }
 
+template <typename Scalar>
+Line<Scalar> line_through_corners(const GridFrame& frame, Random& random) {
+  const auto corner = [&](std::size_t axis) {
+    return static_cast<Scalar>(
+        out_of_frame(frame, axis, static_cast<double>(random.below(frame.resolution(axis) + 1))));
+  };
+  const auto step = [&] { return static_cast<Scalar>(1 + random.below(4)); };
+  return {{corner(0), corner(1), 0}, {step(), random.one_in(2) ? step() : -step(), 0}};
+}
+
 Growth growth_by(const GridFrame& frame, double share, double more_cells) {
   Growth growth;
   for (std::size_t axis = 0; axis < 3; ++axis) growth[axis] = share * frame.resolution(axis) + more_cells;
@@ -180,6 +190,7 @@ bool meets_box(const GridFrame& frame, const Path<Scalar>& path, double first_t,
 #define SUREHIT_INSTANTIATE(Scalar)                                          \
   template ExactPoint in_frame(const GridFrame&, const Vector3<Scalar>&);    \
   template ExactPolygon in_frame(const GridFrame&, const Triangle<Scalar>&); \
+  template Line<Scalar> line_through_corners(const GridFrame&, Random&);     \
   template bool meets_box(const GridFrame&, const Path<Scalar>&, double, double, const ExactBox&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "support/random.hpp"
 #include "surehit/grid.hpp"
 #include "surehit/path.hpp"
 #include "surehit/triangle.hpp"
@@ -28,6 +29,11 @@ template <typename Scalar>
 
 /// The coordinate that stands at `place`, as near as a double comes.
 [[nodiscard]] double out_of_frame(const GridFrame& frame, std::size_t axis, double place);
+
+/// In the plane z = 0, from a corner of finest cells in the direction of whole numbers up to 4: where cells are
+/// squares, through many more corners, as near as rounding comes.
+template <typename Scalar>
+[[nodiscard]] Line<Scalar> line_through_corners(const GridFrame& frame, Random& random);
 
 /// By how many finest cells a box is grown on each side of an axis.
 using Growth = std::array<double, 3>;

@@ -94,6 +94,16 @@ GeneratedMesh<Scalar> line_of_needles(std::size_t count, Random& random) {
 }
 
 template <typename Scalar>
+GeneratedMesh<Scalar> dust_in_square(std::size_t count, Random& random) {
+  GeneratedMesh<Scalar> mesh;
+  const auto add = [&](const Vector3<Scalar>& point) { mesh.add({point, point, point}); };
+  add({0, 0, 0});
+  add({1, 1, 0});
+  for (std::size_t i = 0; i < count; ++i) add({random.unit<Scalar>(), random.unit<Scalar>(), 0});
+  return mesh;
+}
+
+template <typename Scalar>
 GeneratedMesh<Scalar> lattice_cube(std::uint32_t size) {
   GeneratedMesh<Scalar> mesh;
   LatticeVertices id;
@@ -191,6 +201,7 @@ GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>& mesh, const V
   template GeneratedMesh<Scalar> scattered_triangles(std::size_t, Scalar, Random&);             \
   template GeneratedMesh<Scalar> rough_ground(std::uint32_t, Scalar, Random&);                  \
   template GeneratedMesh<Scalar> line_of_needles(std::size_t, Random&);                         \
+  template GeneratedMesh<Scalar> dust_in_square(std::size_t, Random&);                          \
   template GeneratedMesh<Scalar> lattice_cube(std::uint32_t);                                   \
   template GeneratedMesh<Scalar> bumpy_octahedron(std::int32_t, Random&);                       \
   template GeneratedMesh<Scalar> double_fan(std::int32_t);                                      \

@@ -34,6 +34,10 @@ template <typename Scalar>
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> line_of_needles(std::size_t count, Random& random);
 
+/// `count` points in the square [0, 1]² × {0}, each a triangle, and two of its corners: empty space of every width.
+template <typename Scalar>
+[[nodiscard]] GeneratedMesh<Scalar> dust_in_square(std::size_t count, Random& random);
+
 /// The cube [0, size]³ in unit squares of two triangles: closed, with corners on whole numbers.
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> lattice_cube(std::uint32_t size);
