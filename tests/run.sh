@@ -7,7 +7,7 @@ usage() {
 usage: $0 [--quick | --clang]
 
 Without options: all tests in Release with GCC, a twentieth of the cases under AddressSanitizer and
-UndefinedBehaviorSanitizer, and the library and the examples built with Clang.
+UndefinedBehaviorSanitizer, and the library built with Clang.
 
   --quick   Release with GCC alone, a tenth of the cases
   --clang   besides, a tenth of the cases in Release with Clang
@@ -100,7 +100,7 @@ if CXX=g++ build asan-ubsan; then
   run_tests asan-ubsan
 fi
 
-stage "Clang, Release: building the library and the examples"
+stage "Clang, -O2: building the library"
 if build clang-library && published_answers clang-library clang++ && $clang_too; then
   stage "Clang, Release: building the tests"
   if build clang; then

@@ -29,17 +29,17 @@ TYPED_TEST(GridTraversalTest, EmptyGridHasNoWalk) {
   EXPECT_TRUE(GridTraversal(grid, placed).at_end());
 }
 
-TYPED_TEST(GridTraversalTest, FindsAllThatThePathMeets) { this->scan(2000); }
+TYPED_TEST(GridTraversalTest, FindsAllThatThePathMeets) { this->scan(1000); }
 
 TYPED_TEST(GridTraversalTest, FindsAllInDividedCells) {
   this->place_ground(1, {0, 0, 0}, this->nested());
   ASSERT_EQ(this->grid_.levels(), Grid::most_levels);
-  this->scan(1500);
+  this->scan(750);
   Random random(7);
   for (const std::uint32_t crowded : {1U, 4U}) {
     this->build(scattered_triangles<TypeParam>(150, 0.05F, random), {.resolution = {2, 3, 1}, .crowded = crowded});
     ASSERT_GT(this->grid_.levels(), 0U);
-    this->scan(500);
+    this->scan(250);
   }
 }
 
@@ -47,11 +47,11 @@ TYPED_TEST(GridTraversalTest, FindsAllInMeshesOfEverySize) {
   using Limits = std::numeric_limits<TypeParam>;
   for (const GridOptions& options : {this->uniform(), this->nested()}) {
     this->place_ground(Limits::max() / 2, {0, 0, 0}, options);
-    this->scan(300);
+    this->scan(150);
     this->place_ground(64 * Limits::denorm_min(), {0, 0, 0}, options);
-    this->scan(300);
+    this->scan(150);
     this->place_ground(1000, {1e7F, 1e7F, -1e7F}, options);
-    this->scan(300);
+    this->scan(150);
   }
 }
 
@@ -60,7 +60,7 @@ TYPED_TEST(GridTraversalTest, FindsAllFromFarAway) {
     this->place_ground(1, {0, 0, 0}, options);
     PathDrawer<TypeParam> drawer(this->mesh_.view(), 7);
     for (const TypeParam distance : {5.F, 100.F, 1e6F, 1e9F, 1e12F, 1e15F, 0x1p58F}) {
-      for (std::size_t i = 0; i < case_count(200); ++i) this->expect_found(drawer.draw_from_afar(distance));
+      for (std::size_t i = 0; i < case_count(100); ++i) this->expect_found(drawer.draw_from_afar(distance));
     }
   }
   EXPECT_GT(this->met_, 0U);
@@ -85,7 +85,7 @@ TYPED_TEST(GridTraversalTest, FindsAllAlongTheAxes) {
   for (const GridOptions& options : {this->uniform(), this->nested()}) {
     this->place_ground(1, {0, 0, 0}, options);
     PathDrawer<TypeParam> drawer(this->mesh_.view(), 7);
-    for (std::size_t i = 0; i < case_count(1500); ++i) this->expect_found(drawer.draw_axis_parallel());
+    for (std::size_t i = 0; i < case_count(750); ++i) this->expect_found(drawer.draw_axis_parallel());
   }
   EXPECT_GT(this->met_, 0U);
 }
@@ -104,7 +104,7 @@ TYPED_TEST(GridTraversalTest, FindsAllOnCellPlanes) {
       }
       return point;
     };
-    for (std::size_t i = 0; i < case_count(1000); ++i) this->expect_found(drawer.any_kind({on_planes(), on_planes()}));
+    for (std::size_t i = 0; i < case_count(500); ++i) this->expect_found(drawer.any_kind({on_planes(), on_planes()}));
   }
   EXPECT_GT(this->met_, 0U);
 }
@@ -112,7 +112,7 @@ TYPED_TEST(GridTraversalTest, FindsAllOnCellPlanes) {
 TYPED_TEST(GridTraversalTest, FindsAllWithDirectionsOfEverySize) {
   PathDrawer<TypeParam> drawer(this->mesh_.view(), 7);
   using Limits = std::numeric_limits<TypeParam>;
-  for (std::size_t i = 0; i < case_count(500); ++i) {
+  for (std::size_t i = 0; i < case_count(250); ++i) {
     const Vector3<TypeParam> start = drawer.point_around_mesh();
     const Vector3<TypeParam> direction = drawer.point_on_mesh() - start;
     for (const TypeParam size : {Limits::max() / 4, TypeParam{1}, Limits::min(), 256 * Limits::denorm_min()}) {
@@ -142,7 +142,7 @@ TYPED_TEST(GridTraversalTest, NeverTurnsBack) {
   const auto dust = dust_in_square<TypeParam>(4000, random);
   const Grid grid(dust.view(), box_of(dust.view()), {.resolution = {400, 400, 1}, .crowded = 0});
   ASSERT_EQ(grid.frame().resolution(0), 400U);
-  for (std::size_t i = 0; i < case_count(2000); ++i) {
+  for (std::size_t i = 0; i < case_count(1000); ++i) {
     const auto line = line_through_corners<TypeParam>(grid.frame(), random);
     const PlacedPath placed(grid, Path<TypeParam>(line), -infinity, infinity);
     std::array<std::int32_t, 3> before = {0, 0, 0};
@@ -186,9 +186,9 @@ TYPED_TEST(GridTraversalTest, FindsAllInFlatMeshes) {
     for (const std::uint32_t crowded : {0U, 3U}) {
       this->build(flattened<TypeParam>(scattered_triangles<TypeParam>(80, 0.2F, random), axis, 3),
                   {.resolution = {4, 3, 5}, .crowded = crowded});
-      this->scan(200);
+      this->scan(100);
       PathDrawer<TypeParam> drawer(this->mesh_.view(), 7);
-      for (std::size_t i = 0; i < case_count(100); ++i) {
+      for (std::size_t i = 0; i < case_count(50); ++i) {
         this->expect_found(drawer.draw_axis_parallel());
         this->expect_found(drawer.draw_from_afar(TypeParam{1e6F}));
       }
@@ -202,7 +202,7 @@ TYPED_TEST(GridTraversalTest, FindsAllWhereThePathHardlyMoves) {
     this->place_ground(1, {0, 0, 0}, options);
     PathDrawer<TypeParam> drawer(this->mesh_.view(), 7);
     Random& random = drawer.random();
-    for (std::size_t i = 0; i < case_count(400); ++i) {
+    for (std::size_t i = 0; i < case_count(200); ++i) {
       const Vector3<TypeParam> through = drawer.point_on_mesh();
       Vector3<TypeParam> direction = drawer.point_on_mesh() - through;
       const std::size_t kept = random.below(3);
@@ -226,7 +226,7 @@ TYPED_TEST(GridTraversalTest, FindsAllOnTheSidesOfBoxes) {
                                      GridOptions{.resolution = {150, 130, 170}, .crowded = 0}}) {
     this->build(triangles_on_box_sides<TypeParam>(100, options, random), options);
     PathDrawer<TypeParam> drawer(this->mesh_.view(), 7);
-    for (std::size_t i = 0; i < case_count(400); ++i) {
+    for (std::size_t i = 0; i < case_count(200); ++i) {
       this->expect_found(drawer.draw_axis_parallel());
       const Vector3<TypeParam>& corner = this->mesh_.vertices[random.below(this->mesh_.vertices.size())];
       const Vector3<TypeParam> start = drawer.point_around_mesh();

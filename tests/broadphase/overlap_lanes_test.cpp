@@ -114,26 +114,26 @@ class OverlapLanesIn : public CellPointDraws, public testing::WithParamInterface
 };
 
 TEST_P(OverlapLanesIn, TrianglesOfAllSizes) {
-  for (std::size_t i = 0; i < case_count(4000); ++i) add(triangle_of_any_size());
+  for (std::size_t i = 0; i < case_count(2000); ++i) add(triangle_of_any_size());
 }
 
 TEST_P(OverlapLanesIn, TrianglesWithCornersOnPlanesAndWherePaddingEnds) {
-  for (std::size_t i = 0; i < case_count(3000); ++i) add({point(), point(), point()});
+  for (std::size_t i = 0; i < case_count(1500); ++i) add({point(), point(), point()});
 }
 
 TEST_P(OverlapLanesIn, TrianglesInCellPlanes) {
-  for (std::size_t i = 0; i < case_count(2000); ++i) add(triangle_in_a_cell_plane());
+  for (std::size_t i = 0; i < case_count(1000); ++i) add(triangle_in_a_cell_plane());
 }
 
 TEST_P(OverlapLanesIn, SliversAndDegenerateTriangles) {
-  for (std::size_t i = 0; i < case_count(1500); ++i) {
+  for (std::size_t i = 0; i < case_count(750); ++i) {
     for (const Corners& corners : slivers_and_degenerate_triangles()) add(corners);
   }
 }
 
 /// Past the middle of a block of four cells and more, where a triangle is parted from one of them by little.
 TEST_P(OverlapLanesIn, TrianglesPastCellCornersAtThePadding) {
-  for (std::size_t i = 0; i < case_count(4000); ++i) {
+  for (std::size_t i = 0; i < case_count(2000); ++i) {
     const auto corner = static_cast<float>(1 + random_.below(resolution_ - 1));
     const float reach = 1 + random_.unit<float>();
     Corners corners;

@@ -76,19 +76,19 @@ class TriangleOverlapIn : public CellPointDraws, public testing::WithParamInterf
 };
 
 TEST_P(TriangleOverlapIn, BoxesOfTrianglesOfAllSizes) {
-  for (std::size_t i = 0; i < case_count(3000); ++i) expect_right(triangle_of_any_size());
+  for (std::size_t i = 0; i < case_count(1500); ++i) expect_right(triangle_of_any_size());
 }
 
 TEST_P(TriangleOverlapIn, BoxesOfTrianglesWithCornersOnPlanesAndWherePaddingEnds) {
-  for (std::size_t i = 0; i < case_count(3000); ++i) expect_right({point(), point(), point()});
+  for (std::size_t i = 0; i < case_count(1500); ++i) expect_right({point(), point(), point()});
 }
 
 TEST_P(TriangleOverlapIn, BoxesOfTrianglesInCellPlanes) {
-  for (std::size_t i = 0; i < case_count(1500); ++i) expect_right(triangle_in_a_cell_plane());
+  for (std::size_t i = 0; i < case_count(750); ++i) expect_right(triangle_in_a_cell_plane());
 }
 
 TEST_P(TriangleOverlapIn, BoxesOfSliversAndDegenerateTriangles) {
-  for (std::size_t i = 0; i < case_count(1500); ++i) {
+  for (std::size_t i = 0; i < case_count(750); ++i) {
     for (const Corners& corners : slivers_and_degenerate_triangles()) expect_right(corners);
   }
 }
@@ -98,7 +98,7 @@ TEST_P(TriangleOverlapIn, BoxesThatItJustTouches) {
   const auto middle = static_cast<float>(resolution_ / 2);
   const detail::CellPoint low = {middle, middle, middle};
   const detail::CellPoint high = {middle + 1, middle + 1, middle + 1};
-  for (std::size_t i = 0; i < case_count(1500); ++i) {
+  for (std::size_t i = 0; i < case_count(750); ++i) {
     const detail::CellPoint centre = near({middle + 0.5F, middle + 0.5F, middle + 0.5F}, 1);
     Corners corners = {near(centre, 3), near(centre, 3), near(centre, 3)};
     const std::size_t axis = random_.below(3);
@@ -118,7 +118,7 @@ TEST_P(TriangleOverlapIn, BoxesWhoseEdgesItPassesAtThePadding) {
   const detail::CellPoint low = {middle, middle, middle};
   const detail::CellPoint high = {middle + 1, middle + 1, middle + 1};
   const auto reach = static_cast<float>(resolution_) / 4;
-  for (std::size_t i = 0; i < case_count(6000); ++i) {
+  for (std::size_t i = 0; i < case_count(3000); ++i) {
     // A line through a point just off the box's upper edge that runs along `k`, tangent to it.
     const std::size_t k = random_.below(3);
     const std::size_t l = (k + 1) % 3;

@@ -63,7 +63,7 @@ class ColliderRebuild : public testing::Test {
     Collider<Scalar> collider(mesh.view(), BuildOptions{grid, {}});
     Random random(37);
     std::size_t hits = 0;
-    for (std::size_t step = 0; step < all.size() + case_count(100); ++step) {
+    for (std::size_t step = 0; step < all.size() + case_count(50); ++step) {
       const Deformation<Scalar>& deformation = all[step < all.size() ? step : random.below(all.size())];
       SCOPED_TRACE("step " + std::to_string(step) + ": " + deformation.name);
       const GeneratedMesh<Scalar> moved = deformed(mesh, deformation);
@@ -128,7 +128,7 @@ TYPED_TEST(ColliderRebuild, keeps_masks_and_grid_options) {
     const Collider<TypeParam> expected(moved.view(), options);
     expect_same_mesh(collider, expected);
     for (const std::uint32_t mask : {1U, 2U, 4U, 5U, 8U}) {
-      expect_same_answers(collider, expected, paths_around(moved, case_count(20), mask), {.mask = mask});
+      expect_same_answers(collider, expected, paths_around(moved, case_count(10), mask), {.mask = mask});
     }
   }
 }

@@ -44,7 +44,7 @@ class ColliderCrosscheck : public testing::TestWithParam<std::size_t> {};
 template <typename Scalar>
 void check(std::size_t kind) {
   Random random(5);
-  for (std::size_t i = case_count(300); i > 0; --i) {
+  for (std::size_t i = case_count(150); i > 0; --i) {
     const SmallMesh<Scalar> mesh = draw_small_mesh<Scalar>(kind, random);
     std::vector<std::uint32_t> masks;
     if (random.one_in(2)) {

@@ -18,36 +18,33 @@ class EmptyCubes {
   /// The edge of the largest empty cube up to `limit` that begins with the cell and extends in an octant of directions,
   /// downwards on axis k where bit k is set.
   [[nodiscard]] std::uint32_t largest(std::size_t cell, std::uint32_t octant, std::uint32_t limit) const {
+    const Place corner = {static_cast<std::int64_t>(cell % cells_[0]),
+                          static_cast<std::int64_t>(cell / cells_[0] % cells_[1]),
+                          static_cast<std::int64_t>(cell / cells_[0] / cells_[1])};
+    const Place step = {(octant & 1) != 0 ? -1 : 1, (octant & 2) != 0 ? -1 : 1, (octant & 4) != 0 ? -1 : 1};
     std::uint32_t edge = 0;
-    while (edge < limit && is_empty_shell(cell, octant, edge)) ++edge;
+    while (edge < limit && is_empty_shell(corner, step, edge)) ++edge;
     return edge;
   }
 
  private:
+  using Place = std::array<std::int64_t, 3>;
+
   /// What a cube has more than one of this edge.
-  [[nodiscard]] bool is_empty_shell(std::size_t cell, std::uint32_t octant, std::uint32_t edge) const {
-    const auto place = [&](std::uint32_t axis, std::size_t corner, std::uint32_t step) {
-      const auto at = static_cast<std::int64_t>(corner);
-      return (octant >> axis & 1) != 0 ? at - step : at + step;
-    };
-    for (std::uint32_t z = 0; z <= edge; ++z) {
-      for (std::uint32_t y = 0; y <= edge; ++y) {
-        for (std::uint32_t x = y == edge || z == edge ? 0 : edge; x <= edge; ++x) {
-          if (!is_empty({place(0, cell % cells_[0], x), place(1, cell / cells_[0] % cells_[1], y),
-                         place(2, cell / cells_[0] / cells_[1], z)})) {
-            return false;
-          }
+  [[nodiscard]] bool is_empty_shell(const Place& corner, const Place& step, std::int64_t edge) const {
+    for (std::int64_t z = 0; z <= edge; ++z) {
+      for (std::int64_t y = 0; y <= edge; ++y) {
+        for (std::int64_t x = y == edge || z == edge ? 0 : edge; x <= edge; ++x) {
+          if (!is_empty(corner[0] + x * step[0], corner[1] + y * step[1], corner[2] + z * step[2])) return false;
         }
       }
     }
     return true;
   }
 
-  [[nodiscard]] bool is_empty(const std::array<std::int64_t, 3>& place) const {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (place[axis] < 0 || place[axis] >= cells_[axis]) return empty_beyond_;
-    }
-    return empty_[static_cast<std::size_t>((place[2] * cells_[1] + place[1]) * cells_[0] + place[0])];
+  [[nodiscard]] bool is_empty(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    if (x < 0 || y < 0 || z < 0 || x >= cells_[0] || y >= cells_[1] || z >= cells_[2]) return empty_beyond_;
+    return empty_[static_cast<std::size_t>((z * cells_[1] + y) * cells_[0] + x)];
   }
 
   std::vector<bool> empty_;
