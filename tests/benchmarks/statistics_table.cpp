@@ -3,6 +3,7 @@
 #include "exact_steps.hpp"
 #include "question.hpp"
 #include "tables.hpp"
+#include "unit_times.hpp"
 
 namespace surehit::benchmark {
 namespace {
@@ -38,8 +39,9 @@ double per_million(std::uint64_t count, std::uint64_t whole) {
   return whole == 0 ? 0 : 1e6 * static_cast<double>(count) / static_cast<double>(whole);
 }
 
-void add_row(const Place& place, const std::string& contender, const QueryStatistics& counts,
-             const RoundSeries& nanoseconds, const ExactStepTimes& times, MarkdownTable& table, Report& report) {
+void add_exact_steps(const Place& place, const std::string& contender, const QueryStatistics& counts,
+                     const RoundSeries& nanoseconds, const ExactStepTimes& times, MarkdownTable& table,
+                     Report& report) {
   std::vector<std::string> cells = {place.mesh, place.paths, place.question};
   const auto add = [&](const std::string& measure, const Summary& figure, const char* unit = "") {
     report.keep(place, contender, measure, figure);
@@ -60,13 +62,36 @@ void add_row(const Place& place, const std::string& contender, const QueryStatis
   table.add_row(std::move(cells));
 }
 
+/// What the walk's cells and the lists' triangles would take if nothing but them took time.
+void add_bound(const Place& place, const std::string& contender, const QueryStatistics& counts,
+               const RoundSeries& nanoseconds, const UnitTimes& unit, MarkdownTable& table, Report& report) {
+  std::vector<std::string> cells = {place.mesh, place.paths, place.question};
+  const auto add = [&](const std::string& measure, const Summary& figure, const char* unit_sign = "") {
+    report.keep(place, contender, measure, figure);
+    cells.push_back(short_number(figure.median) + unit_sign);
+  };
+  const auto per_path = [&](std::uint64_t count) {
+    return static_cast<double>(count) / static_cast<double>(counts.paths);
+  };
+  const double bound = per_path(counts.cells) * unit.cell + per_path(counts.candidates) * unit.candidate;
+  add("cells per path", summary_of(per_path(counts.cells)));
+  add("candidates per path", summary_of(per_path(counts.candidates)));
+  cells.push_back(short_number(summary_of(nanoseconds).median));
+  add("ns per path of these alone", summary_of(bound));
+  const RoundSeries percent(nanoseconds.size(), 100 * bound);
+  add("share of these alone in %", summary_of(ratio(percent, nanoseconds)), "%");
+  table.add_row(std::move(cells));
+}
+
 }  // namespace
 
 void measure_statistics(const Request& request, Report& report) {
   const Entrant entrant = surehit_entrants().front();
-  MarkdownTable table({"mesh", "paths", "asked", "undecided", "decisions", "orders", "roundings", "ns per path",
+  MarkdownTable exact({"mesh", "paths", "asked", "undecided", "decisions", "orders", "roundings", "ns per path",
                        "of it exact", "share"},
                       3);
+  MarkdownTable bounds({"mesh", "paths", "asked", "cells", "candidates", "ns per path", "of these alone", "share"}, 3);
+  const UnitTimes unit = unit_times(request.rounds);
   for (const Scene& scene : request.scenes) {
     const Colliderf collider(scene.mesh.view());
     for (const PathSet set : request.sets) {
@@ -74,14 +99,21 @@ void measure_statistics(const Request& request, Report& report) {
       const ExactStepTimes times = exact_step_times(collider, sample.paths.segments());
       for (const Question question : all_questions) {
         const Place place{"statistics", scene.name, scene.mesh.triangles.size(), name_of(set), name_of(question)};
-        add_row(place, entrant.name(), counts_of(collider, question, sample.paths),
-                times_of(entrant, scene, question, sample, request.rounds), times, table, report);
+        const QueryStatistics counts = counts_of(collider, question, sample.paths);
+        const RoundSeries nanoseconds = times_of(entrant, scene, question, sample, request.rounds);
+        add_exact_steps(place, entrant.name(), counts, nanoseconds, times, exact, report);
+        add_bound(place, entrant.name(), counts, nanoseconds, unit, bounds, report);
       }
     }
   }
   report.show("statistics: " + entrant.name() +
                   ", undecided per million candidates, exact steps per million paths, and what these take",
-              table);
+              exact);
+  const auto in_cycles = [&](double time) { return short_number(time / unit.cycle) + " cycles"; };
+  report.show("statistics: " + entrant.name() +
+                  ", cells and candidates per path, and what these alone would take (a cell " + in_cycles(unit.cell) +
+                  ", 16 candidates " + in_cycles(16 * unit.candidate) + ")",
+              bounds);
 }
 
 }  // namespace surehit::benchmark
