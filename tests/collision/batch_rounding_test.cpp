@@ -71,7 +71,7 @@ class BatchRoundingOnFamily : public testing::TestWithParam<PairFamily> {};
 TEST_P(BatchRoundingOnFamily, is_that_of_intersect) {
   Random random(71);
   QueryStatistics statistics;
-  for (std::size_t i = case_count(6); i > 0; --i) {
+  for (std::size_t i = case_count(4); i > 0; --i) {
     GeneratedMesh<float> mesh;
     std::vector<Segment<float>> segments;
     for (std::size_t k = 0; k < 45; ++k) {
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Families, BatchRoundingOnFamily, testing::ValuesIn(all_
 
 TEST(BatchRounding, of_random_hits_is_that_of_intersect) {
   Random random(72);
-  for (std::size_t i = case_count(10); i > 0; --i) {
+  for (std::size_t i = case_count(6); i > 0; --i) {
     const auto mesh = scattered_triangles<float>(200, 0.7F, random);
     const auto vector = [&]() -> Vector3<float> {
       return Vector3<float>::NullaryExpr([&] { return 2 * random.symmetric<float>(); });

@@ -33,7 +33,7 @@ class BoundedContactOfFamily : public testing::TestWithParam<PairFamily> {
  protected:
   template <typename Scalar>
   void check() {
-    visit_family<Scalar>(GetParam(), 11, 3'000, check_against_oracle<Scalar>);
+    visit_family<Scalar>(GetParam(), 11, 1'500, check_against_oracle<Scalar>);
   }
 
   template <typename Scalar>

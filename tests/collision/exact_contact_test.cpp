@@ -40,7 +40,7 @@ class ExactContactOfFamily : public testing::TestWithParam<PairFamily> {
   template <typename Scalar>
   void check_contact() {
     for_each_pair<Scalar>(
-        3'000, [](const Path<Scalar>& path, const Triangle<Scalar>& triangle, const QueryOptions<Scalar>& limits) {
+        1'500, [](const Path<Scalar>& path, const Triangle<Scalar>& triangle, const QueryOptions<Scalar>& limits) {
           SCOPED_TRACE(hex_text(path) + hex_text(triangle) + hex_text(limits));
           const auto truth = exact_contact(path, triangle, limits);
           const auto contact = detail::exact_contact(path, triangle, PathRange<Scalar>(path, limits));
@@ -52,7 +52,7 @@ class ExactContactOfFamily : public testing::TestWithParam<PairFamily> {
   template <typename Scalar>
   void check_rounding() {
     for_each_pair<Scalar>(
-        3'000, [](const Path<Scalar>& path, const Triangle<Scalar>& triangle, const QueryOptions<Scalar>& limits) {
+        1'500, [](const Path<Scalar>& path, const Triangle<Scalar>& triangle, const QueryOptions<Scalar>& limits) {
           const auto truth = exact_contact(path, triangle, limits);
           if (!truth) return;
           Hit<Scalar> hit{.triangle = 7, .side = truth->side};
@@ -66,7 +66,7 @@ class ExactContactOfFamily : public testing::TestWithParam<PairFamily> {
   /// same, and one that is put through a corner of it.
   template <typename Scalar>
   void check_order() {
-    for_each_pair<Scalar>(1'500, [](const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+    for_each_pair<Scalar>(750, [](const Path<Scalar>& path, const Triangle<Scalar>& triangle,
                                     const QueryOptions<Scalar>& limits) {
       const PathRange<Scalar> range(path, limits);
       const auto truth = exact_contact(path, triangle, limits);

@@ -30,7 +30,7 @@ class NarrowphaseOfFamily : public testing::TestWithParam<PairFamily> {
  protected:
   template <typename Scalar>
   void check() {
-    visit_family<Scalar>(GetParam(), 41, 3'000, check_against_oracle<Scalar>);
+    visit_family<Scalar>(GetParam(), 41, 1'500, check_against_oracle<Scalar>);
   }
 
   template <typename Scalar>

@@ -133,7 +133,7 @@ ColliderAnswers<Scalar> ask(const SmallMesh<Scalar>& mesh) {
 template <typename Scalar>
 void check_colliders(const FloatingPointMode& mode) {
   Random random(4);
-  for (std::size_t i = case_count(500); i > 0; --i) {
+  for (std::size_t i = case_count(300); i > 0; --i) {
     const auto mesh = draw_small_mesh<Scalar>(i % small_mesh_kind_count, random);
     const auto call = [&] { return ask(mesh); };
     bool mode_is_kept = false;

@@ -72,7 +72,7 @@ TYPED_TEST(Watertight, AMillionSegmentsThroughClosedMesh) {
 TYPED_TEST(Watertight, DenseFans) {
   const auto mesh = double_fan<TypeParam>(500);
   ASSERT_EQ(mesh.triangles.size(), 8'000U);
-  this->scan(mesh, 100, 5'000);
+  this->scan(mesh, 100, 2'500);
 }
 
 /// Exactly at the tips, where thousands of edges meet, and past them by an ulp or a few.
