@@ -217,8 +217,25 @@ def exactness(figures):
     return markdown(["paths", "cost, closest hit", "any hit", "wrong without"], rows)
 
 
+def bounds(figures):
+    rows = []
+    for paths in PATH_SETS:
+        here = {"table": "statistics", "paths": paths, "contender": OURS[0]}
+        counts = [
+            over_meshes(figures, **here, question=ANY, measure=measure)
+            for measure in ("cells per path", "candidates per path")
+        ]
+        shares = [
+            over_meshes(figures, **here, question=question, measure="share of these alone in %")
+            for question in (CLOSEST, ANY)
+        ]
+        rows.append([paths, *counts, *(f"{share}%" for share in shares)])
+    return markdown(["paths", "cells", "candidates", "closest hit", "any hit"], rows)
+
+
 BLOCKS = {
-    block.__name__: block for block in (machine, queries, builds, ticks, growth, threads, instruction_sets, exactness)
+    block.__name__: block
+    for block in (machine, queries, builds, ticks, growth, threads, instruction_sets, exactness, bounds)
 }
 
 
