@@ -25,7 +25,7 @@ flags = "-Og -fno-inline --coverage -march=native -DHWY_COMPILE_ONLY_STATIC -w"
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, default=root / "build/coverage", help="where to build")
-    parser.add_argument("--percent", type=int, default=5, help="of the random cases")
+    parser.add_argument("--percent", type=int, default=10, help="of the random cases")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     return parser.parse_args()
 
