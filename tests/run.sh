@@ -6,8 +6,8 @@ usage() {
   cat <<USAGE
 usage: $0 [--quick | --clang]
 
-Without options: all tests in Release with GCC, a twentieth of the cases under AddressSanitizer and
-UndefinedBehaviorSanitizer, and the library built with Clang.
+Without options: all tests in Release with GCC, which build the library with Clang too, and a twentieth of the cases under
+AddressSanitizer and UndefinedBehaviorSanitizer.
 
   --quick   Release with GCC alone, a tenth of the cases
   --clang   besides, a tenth of the cases in Release with Clang
@@ -58,12 +58,6 @@ build() {
   step cmake --preset "$1" && step cmake --build --preset "$1"
 }
 
-# Of the library that a preset has built, installed and found by another project.
-published_answers() {
-  step cmake -D "SOURCE_FOLDER=$PWD" -D "BUILD_FOLDER=$PWD/build/$1" -D "TEST_FOLDER=$PWD/build/$1/published_answers" \
-    -D GENERATOR=Ninja -D "COMPILER=$2" -D BUILD_TYPE=Release -P tests/package/installed_package_test.cmake
-}
-
 run_tests() {
   local preset=$1 output status counts failed_here total skipped_here
   shift
@@ -100,9 +94,8 @@ if CXX=g++ build asan-ubsan; then
   run_tests asan-ubsan
 fi
 
-stage "Clang, -O2: building the library"
-if build clang-library && published_answers clang-library clang++ && $clang_too; then
-  stage "Clang, Release: building the tests"
+if $clang_too; then
+  stage "Clang, Release: building"
   if build clang; then
     stage "Clang, Release: testing a tenth of the cases"
     SUREHIT_TEST_PERCENT=10 run_tests clang --label-exclude package

@@ -68,19 +68,23 @@ struct BatchAnswers {
   QueryStatistics of_any;
 };
 
-/// The first `count` paths of each kind have the same answers and statistics with an executor as without.
+/// The first `count` of the paths have the same answers and statistics with an executor as without.
+template <typename Scalar, typename AnyPath>
+void expect_same_with_executor(const Collider<Scalar>& collider, const std::vector<AnyPath>& paths, std::size_t count,
+                               Executor executor, const QueryOptions<Scalar>& options = {}) {
+  const std::span<const AnyPath> some = std::span(paths).first(count);
+  const BatchAnswers<Scalar> expected(collider, some, options);
+  EXPECT_EQ(expected.of_first.paths, count);
+  BatchAnswers<Scalar>(collider, some, executor, options).expect_same_as(expected);
+}
+
+/// Those of each kind do.
 template <typename Scalar>
 void expect_same_with_executor(const ManyPaths<Scalar>& many, std::size_t count, Executor executor,
                                const QueryOptions<Scalar>& options = {}) {
-  const auto expect_same_of = [&]<typename AnyPath>(const std::vector<AnyPath>& paths) {
-    const std::span<const AnyPath> some = std::span(paths).first(count);
-    const BatchAnswers<Scalar> expected(many.collider, some, options);
-    EXPECT_EQ(expected.of_first.paths, count);
-    BatchAnswers<Scalar>(many.collider, some, executor, options).expect_same_as(expected);
-  };
-  expect_same_of(many.segments);
-  expect_same_of(many.rays);
-  expect_same_of(many.lines);
+  expect_same_with_executor(many.collider, many.segments, count, executor, options);
+  expect_same_with_executor(many.collider, many.rays, count, executor, options);
+  expect_same_with_executor(many.collider, many.lines, count, executor, options);
 }
 
 }  // namespace surehit::test

@@ -234,7 +234,7 @@ TYPED_TEST(BatchOnExecutor, answers_the_same_in_any_floating_point_mode_of_its_t
           FloatingPointMode{"downward_and_flush", FE_DOWNWARD, true}}) {
       SCOPED_TRACE(mode.name);
       NewThreads threads(2, mode);
-      expect_same_with_executor(many, 4500, threads);
+      expect_same_with_executor(many.collider, many.segments, 4500, threads);
       EXPECT_TRUE(threads.keeps_modes());
     }
   }
