@@ -67,7 +67,7 @@ class ExactContactOfFamily : public testing::TestWithParam<PairFamily> {
   template <typename Scalar>
   void check_order() {
     for_each_pair<Scalar>(750, [](const Path<Scalar>& path, const Triangle<Scalar>& triangle,
-                                    const QueryOptions<Scalar>& limits) {
+                                  const QueryOptions<Scalar>& limits) {
       const PathRange<Scalar> range(path, limits);
       const auto truth = exact_contact(path, triangle, limits);
       if (!truth) return;
