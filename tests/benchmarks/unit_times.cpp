@@ -1,6 +1,9 @@
 #include "unit_times.hpp"
 
+#include <array>
 #include <cstdint>
+#include <span>
+#include <stdexcept>
 #include <surehit/collider.hpp>
 #include <vector>
 
@@ -80,11 +83,16 @@ Work work_of(const Course& course, std::size_t rounds) {
   return work;
 }
 
-double cost_of_each(const Work& some, const Work& more, std::uint64_t QueryStatistics::*unit) {
+/// Of a unit that one course has more of than the other, while all else is the same.
+double cost_of_each(const Work& some, const Work& more, std::uint64_t QueryStatistics::*unit,
+                    std::uint64_t QueryStatistics::*other) {
+  if (some.counts.*other != more.counts.*other || more.counts.undecided != 0) {
+    throw std::logic_error("the courses differ in more than what they measure");
+  }
   return (more.nanoseconds - some.nanoseconds) / static_cast<double>(more.counts.*unit - some.counts.*unit);
 }
 
-/// Additions that wait for each other take a cycle each.
+/// Additions that wait for each other take a cycle each; one alone in a loop would wait for the branch.
 double cycle_time(std::size_t rounds) {
   constexpr std::size_t additions = 1'000'000;
   RoundSeries times;
@@ -92,10 +100,9 @@ double cycle_time(std::size_t rounds) {
     std::size_t sum = round;
     times.push_back(nanoseconds_of<ThreadClock>([&] {
       for (std::size_t i = 0; i < additions; i += 8) {
-#pragma GCC unroll 8
-        for (int of_iteration = 0; of_iteration < 8; ++of_iteration) {
+        for (int unrolled = 0; unrolled < 8; ++unrolled) {
           sum += i;
-          asm volatile("" : "+r"(sum));
+          asm volatile("" : "+r"(sum));  // else they would be one multiplication
         }
       }
     }));
@@ -106,9 +113,10 @@ double cycle_time(std::size_t rounds) {
 }  // namespace
 
 UnitTimes unit_times(std::size_t rounds) {
-  return {cycle_time(rounds),
-          cost_of_each(work_of(row_of(32), rounds), work_of(row_of(64), rounds), &QueryStatistics::cells),
-          cost_of_each(work_of(cell_of(256), rounds), work_of(cell_of(512), rounds), &QueryStatistics::candidates)};
+  const auto cells = &QueryStatistics::cells;
+  const auto candidates = &QueryStatistics::candidates;
+  return {cycle_time(rounds), cost_of_each(work_of(row_of(32), rounds), work_of(row_of(64), rounds), cells, candidates),
+          cost_of_each(work_of(cell_of(256), rounds), work_of(cell_of(512), rounds), candidates, cells)};
 }
 
 }  // namespace surehit::benchmark

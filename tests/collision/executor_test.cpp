@@ -142,8 +142,9 @@ TYPED_TEST(BatchOnExecutor, of_any_size_answers_as_without) {
 }
 
 TYPED_TEST(BatchOnExecutor, of_any_threads_answers_as_without) {
-  for (const std::size_t count : {1U, 2U, 4U})
+  for (const std::size_t count : {1U, 2U, 4U}) {
     expect_same_with_executor(this->many(), this->most_paths, NewThreads(count));
+  }
 }
 
 TYPED_TEST(BatchOnExecutor, with_options_answers_as_without) {

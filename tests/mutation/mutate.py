@@ -114,7 +114,7 @@ def main():
         return
     for mutant in mutants:
         mutated(mutant, (root / mutant["file"]).read_text())
-    copy = Copy(arguments.build, arguments.jobs)
+    copy = Copy(arguments.build.resolve(), arguments.jobs)
     for test in dict.fromkeys(test for mutant in mutants for test in mutant["tests"]):
         built, output = copy.build(test)
         if not built:
