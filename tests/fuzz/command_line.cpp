@@ -17,9 +17,7 @@
 
 #include "examples/temporary_folder.hpp"
 #include "finding.hpp"
-
-/// The program's main, compiled under this name.
-int surehit_query_main(int argc, char** argv);
+#include "surehit_query/query_program.hpp"
 
 namespace surehit::test {
 namespace {
@@ -115,7 +113,7 @@ void check(std::string_view text) {
   const auto count = static_cast<int>(pointers.size());
   pointers.push_back(nullptr);
   StandardStreams streams(paths);
-  const int status = surehit_query_main(count, pointers.data());
+  const int status = example::run_query_program(count, pointers.data());
   streams.restore();
 
   const std::string output = streams.output();
