@@ -92,7 +92,6 @@ class GridBuild {
         mesh_(mesh),
         executor_(executor),
         crowded_(options.crowded == 0 ? std::numeric_limits<std::size_t>::max() : options.crowded) {
-    grid.granule_ = least_granule;
     const std::size_t budget =
         std::min<std::size_t>(std::max(free_entries, entries_per_triangle * mesh.triangle_count()),
                               std::numeric_limits<std::uint32_t>::max());
@@ -105,16 +104,17 @@ class GridBuild {
       for (double& cells : wished) cells = std::max(1.0, std::floor(cells / 2));
     }
     measure_triangles();
-    while (!try_emit()) grid.granule_ *= 2;
+    emit_all();
     shrink_division();
   }
 
  private:
   static constexpr std::uint32_t division = Grid::brick_edge * Grid::brick_edge;
   static_assert(Grid::most_levels == 2);
-  static constexpr std::uint32_t least_granule = 4;
   /// A cell is left whole if its bricks' lists would be longer than this many times its own.
   static constexpr std::size_t most_growth = 3;
+  /// With so many, all cells together have no more lists than a word can number.
+  static constexpr std::size_t most_brick_cells = CellWord::most_numbers - static_cast<std::size_t>(most_cells);
   /// What a vector load may read beyond the last top cell.
   static constexpr std::size_t top_slack = 64;
 
@@ -206,23 +206,29 @@ class GridBuild {
     return true;
   }
 
-  /// Makes the words, bricks and entries. False if the entries are more than offsets in granules can tell.
-  bool try_emit() {
+  /// Makes the words, bricks, lists and entries.
+  void emit_all() {
     const auto& cells = grid_.frame_.cells;
     const auto& offsets = scratch_.lists_[0].offsets;
     const auto& listed = scratch_.lists_[0].triangles;
     auto& words = scratch_.words_;
     grid_.levels_ = 0;
     grid_.top_count_ = offsets.size() - 1;
-    grid_.entries_.clear();
-    std::size_t rounded_up = 0;
+    // Room for bricks that are as long as may be, in half of their cells; those of the second level may need more.
+    std::size_t entries = listed.size();
+    std::size_t lists = 1;
     for (std::size_t cell = 0; cell < grid_.top_count_; ++cell) {
-      rounded_up += (offsets[cell + 1] - offsets[cell] + grid_.granule_ - 1) / grid_.granule_ * grid_.granule_;
+      const std::size_t count = offsets[cell + 1] - offsets[cell];
+      const bool is_crowded = count > crowded_;
+      entries += is_crowded ? (most_growth - 1) * count : 0;
+      lists += is_crowded ? Grid::brick_size / 2 : count != 0 ? 1 : 0;
     }
-    grid_.entries_.reserve(rounded_up + rounded_up / 16);
-    grid_.boxes_.clear();
-    grid_.boxes_.reserve((rounded_up + rounded_up / 16) / grid_.granule_);
+    grid_.entries_.clear();
+    grid_.entries_.reserve(entries);
+    grid_.lists_.clear();
+    grid_.lists_.reserve(lists);
     grid_.bricks_.clear();
+    spare_entries_ = std::numeric_limits<std::uint32_t>::max() - listed.size();
     words.assign(grid_.top_count_, 0);
     std::size_t cell = 0;
     for (std::uint32_t z = 0; z < cells[2]; ++z) {
@@ -232,12 +238,11 @@ class GridBuild {
           if (!ids.empty()) words[cell] = emit(ids, {x, y, z}, division, 0);
         }
       }
-      if (grid_.entries_.size() / grid_.granule_ > CellWord::most_offset) return false;
     }
+    grid_.lists_.push_back({CellBox(), static_cast<std::uint32_t>(grid_.entries_.size())});
     detail::measure_empty_space(words, cells, scratch_.distances_);
     grid_.top_.assign(grid_.top_count_ + top_slack, CellWord());
     std::transform(words.begin(), words.end(), grid_.top_.begin(), [](std::uint32_t bits) { return CellWord(bits); });
-    return true;
   }
 
   /// The word of a cell that is not empty, at `place` in cells of its `size`.
@@ -246,19 +251,10 @@ class GridBuild {
     if (ids.size() > crowded_ && level < Grid::most_levels) {
       if (const std::uint32_t word = divide(ids, place, size / Grid::brick_edge, level + 1); word != 0) return word;
     }
-    const std::size_t granule = grid_.granule_;
-    const std::size_t granules = (ids.size() + granule - 1) / granule;
-    std::vector<std::uint32_t>& entries = grid_.entries_;
-    if (granules >= CellWord::most_granules) {
-      entries.resize(entries.size() + granule);
-      entries.back() = static_cast<std::uint32_t>(granules * granule);
-    }
-    const auto offset = static_cast<std::uint32_t>(entries.size() / granule);
-    entries.insert(entries.end(), ids.begin(), ids.end());
-    entries.resize((offset + granules) * granule, ids.back());
-    grid_.boxes_.resize(offset + granules, box_of(ids, place, size));
-    const auto counted = static_cast<std::uint32_t>(std::min<std::size_t>(granules, CellWord::most_granules));
-    return CellWord::listing(counted, offset & CellWord::most_offset).bits();
+    const auto list = static_cast<std::uint32_t>(grid_.lists_.size());
+    grid_.lists_.push_back({box_of(ids, place, size), static_cast<std::uint32_t>(grid_.entries_.size())});
+    grid_.entries_.insert(grid_.entries_.end(), ids.begin(), ids.end());
+    return CellWord::listing(list).bits();
   }
 
   /// Of the triangles' boxes and the cell. They are padded as when they were listed, and so each meets the cell.
@@ -295,11 +291,14 @@ class GridBuild {
     }
     detail::CellLists& lists = scratch_.lists_[level];
     const auto id = [&](std::size_t i) { return ids[i]; };
-    if (!try_find(0, ids.size(), id, cells, size, most_growth * ids.size(), lists.entries, true)) return 0;
-    sort_entries({&lists.entries, 1}, Grid::brick_size, lists);
     // The brick of no number is no one's: a word of zeros would be that of an empty cell not yet measured.
     const std::size_t first = std::max<std::size_t>(grid_.bricks_.size(), Grid::brick_size);
-    if (first / Grid::brick_size > CellWord::most_offset) return 0;
+    const std::size_t most_entries = std::min(most_growth * ids.size(), ids.size() + spare_entries_);
+    if (first >= most_brick_cells || !try_find(0, ids.size(), id, cells, size, most_entries, lists.entries, true)) {
+      return 0;
+    }
+    sort_entries({&lists.entries, 1}, Grid::brick_size, lists);
+    spare_entries_ = spare_entries_ + ids.size() - lists.triangles.size();
     grid_.bricks_.resize(first + Grid::brick_size);
     grid_.levels_ = std::max(grid_.levels_, level);
 
@@ -330,6 +329,7 @@ class GridBuild {
   const TriangleMeshView<Scalar>& mesh_;
   const Executor* executor_;
   std::size_t crowded_;
+  std::size_t spare_entries_ = 0;  ///< that dividing may add before there are more than 32 bits can number
   detail::CellPoint padding_ = {};
 };
 

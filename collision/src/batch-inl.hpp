@@ -166,7 +166,7 @@ class Batch {
   HWY_INLINE void meet_lists(std::uint32_t arriving, const std::array<std::uint32_t, most_lanes>& words) {
     const std::size_t lanes = hn::Lanes(hn::ScalableTag<float>());
     for (std::uint32_t left = arriving; left != 0; left &= left - 1) {
-      prefetch_list(query_, CellWord(words[static_cast<std::size_t>(std::countr_zero(left))]));
+      prefetch(list_of(query_, CellWord(words[static_cast<std::size_t>(std::countr_zero(left))])));
     }
     std::uint32_t done = 0;
     while (arriving != 0) {

@@ -254,7 +254,7 @@ class LaneWalk {
         const auto divided =
             hn::And(walks, hn::Eq(hn::And(cells.word, hn::Set(du, CellWord::divided_bits)), hn::Zero(du)));
         if (hn::AllFalse(du, divided)) break;
-        Words cell = hn::ShiftLeft<6>(hn::ShiftRight<9>(cells.word));
+        Words cell = hn::ShiftLeft<6>(hn::ShiftRight<5>(cells.word));
         for (int axis = 0; axis < 3; ++axis) {
           const Words place = hn::BitCast(du, hn::ShiftRightSame(finest[axis], static_cast<int>(2 * level)));
           const Words turned = hn::Sub(hn::Zero(du), hn::And(hn::ShiftRightSame(octant, axis), hn::Set(du, 1U)));
@@ -281,9 +281,10 @@ class LaneWalk {
     const IntTag di;
     const BitsTag du;
     const auto stands = mask_of(du, standing);
-    const auto* boxes = reinterpret_cast<const std::uint32_t*>(grid_.boxes().data());
-    const Words offset = hn::IfThenElseZero(stands, hn::ShiftRight<9>(cells.word));
-    const Words box = hn::GatherIndex(du, boxes, hn::BitCast(di, offset));
+    static_assert(sizeof(CellList) == 2 * sizeof(std::uint32_t));  // of which the box is the first half
+    const auto* lists = reinterpret_cast<const std::uint32_t*>(grid_.lists().data());
+    const Words list = hn::IfThenElseZero(stands, hn::ShiftRight<5>(cells.word));
+    const Words box = hn::GatherIndex(du, lists, hn::BitCast(di, hn::ShiftLeft<1>(list)));
     const Words octant = hn::Load(du, paths.octant.data());
     const Words last_part = hn::Set(du, CellBox::parts - 1);
     const Floats part = hn::Mul(cells.size, hn::Set(d, 1.0F / CellBox::parts));

@@ -36,39 +36,51 @@ void MeshBlocks<Scalar>::rebuild(const TriangleMeshView<Scalar>& mesh, const Gri
 
 template <typename Scalar>
 void MeshBlocks<Scalar>::fill_blocks(const Grid& grid, const Executor* executor) {
-  blocks_.resize(grid.entries().size() / granule * granule_size + slack);
+  blocks_.resize(offset(grid.lists().size(), grid.entries().size()) + slack);
   Scalar largest = 0;
   for (const Vector3<Scalar>& vertex : vertices_) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
   const bool too_large = !(largest <= detail::KernelBound<Scalar>::largest_size / 2);
   using Four = Eigen::Matrix<Scalar, 4, 1>;
   using FourPoints = Eigen::Matrix<Scalar, 4, 4>;
+  const auto fill_four = [&](const std::uint32_t* ids, Scalar* list, std::size_t count, Four& longest) {
+    std::array<FourPoints, 3> corners;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::array<std::uint32_t, 3>& triangle = corners_[ids[k]];
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const Vector3<Scalar>& vertex = vertices_[triangle[corner]];
+        corners[corner].col(static_cast<Eigen::Index>(k)) = Eigen::Map<const Four>(vertex.data());
+      }
+    }
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      corners[corner].transposeInPlace();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        Eigen::Map<Four>(list + (3 * corner + axis) * count) = corners[corner].col(static_cast<Eigen::Index>(axis));
+      }
+    }
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      for (const std::size_t corner : {1U, 2U}) {
+        longest = longest.cwiseMax((corners[corner].col(axis) - corners[0].col(axis)).cwiseAbs());
+      }
+    }
+  };
   const auto fill = [&](CellWord word) {
     if (word.is_empty() || word.is_divided()) return;
     const std::span<const std::uint32_t> ids = grid.triangles(word);
-    const std::size_t first = grid.first_entry(word);
-    Scalar* edge_size = blocks_.data() + first / granule * granule_size;
+    Scalar* edge_size = blocks_.data() + offset(word.number(), grid.first_entry(word));
     Scalar* list = edge_size + 1;
     Four longest = Four::Zero();
-    for (std::size_t i = 0; i < ids.size(); i += 4) {
-      std::array<FourPoints, 3> corners;
-      for (std::size_t k = 0; k < 4; ++k) {
-        const std::array<std::uint32_t, 3>& triangle = corners_[ids[i + k]];
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-          const Vector3<Scalar>& vertex = vertices_[triangle[corner]];
-          corners[corner].col(static_cast<Eigen::Index>(k)) = Eigen::Map<const Four>(vertex.data());
-        }
-      }
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        corners[corner].transposeInPlace();
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          Eigen::Map<Four>(list + (3 * corner + axis) * ids.size() + i) =
-              corners[corner].col(static_cast<Eigen::Index>(axis));
-        }
-      }
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        for (const std::size_t corner : {1U, 2U}) {
-          longest = longest.cwiseMax((corners[corner].col(axis) - corners[0].col(axis)).cwiseAbs());
-        }
+    if (ids.size() >= 4) {
+      for (std::size_t i = 0; i + 4 < ids.size(); i += 4) fill_four(ids.data() + i, list + i, ids.size(), longest);
+      // The last four, some of them for the second time.
+      fill_four(&ids.back() - 3, list + ids.size() - 4, ids.size(), longest);
+    } else {
+      std::array<std::uint32_t, 4> four;
+      four.fill(ids.back());
+      std::copy(ids.begin(), ids.end(), four.begin());
+      std::array<Scalar, coordinates * 4> of_four;
+      fill_four(four.data(), of_four.data(), 4, longest);
+      for (std::size_t k = 0; k < coordinates; ++k) {
+        std::copy_n(of_four.data() + 4 * k, ids.size(), list + k * ids.size());
       }
     }
     *edge_size = too_large ? std::numeric_limits<Scalar>::infinity() : longest.maxCoeff();

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <type_traits>
@@ -137,6 +138,7 @@ class FirstHit {
   [[nodiscard]] bool is_found() const { return state_ != State::none; }
   /// Whether only the kernel has judged the best one.
   [[nodiscard]] bool is_located_only() const { return state_ == State::located; }
+  [[nodiscard]] bool is_weighed() const { return state_ == State::weighed; }
   [[nodiscard]] std::uint32_t id(const Query<Scalar>& query) const {
     return state_ == State::weighed ? best_.id : query.grid.entries()[entry_];
   }
@@ -245,17 +247,22 @@ class AllHits {
 template <typename Scalar>
 HWY_INLINE TriangleList<Scalar> list_of(const Query<Scalar>& query, CellWord word) {
   const std::size_t first = query.grid.first_entry(word);
-  return {query.mesh.corners(first), query.grid.entry_count(word), first, query.mesh.edge_size(first)};
+  const Scalar* block = query.mesh.block(word.number(), first);
+  return {MeshBlocks<Scalar>::corners(block), query.grid.entry_count(word), first,
+          MeshBlocks<Scalar>::edge_size(block)};
 }
 
-/// Fetches the beginning of a list into the cache.
+/// Fetches the beginning of a list into the cache. More lines would cost more than they save. Without branches on the
+/// list's length, which nobody could foretell: what lies beyond its end is the first line again.
 template <typename Scalar>
-HWY_INLINE void prefetch_list(const Query<Scalar>& query, CellWord word) {
-  constexpr std::size_t line = 64;
-  constexpr std::size_t lines = MeshBlocks<float>::coordinates * 16 * sizeof(float) / line;
-  const Scalar* corners = query.mesh.corners(query.grid.first_entry(word));
-  const std::size_t end = MeshBlocks<float>::coordinates * query.grid.listed_entries(word);
-  for (std::size_t i = 0; i < lines; ++i) hwy::Prefetch(corners + std::min(i * (line / sizeof(Scalar)), end));
+HWY_INLINE void prefetch(const TriangleList<Scalar>& list) {
+  constexpr std::ptrdiff_t line = 64 / sizeof(Scalar);
+  constexpr std::ptrdiff_t lines = 6;
+  const auto end = static_cast<std::ptrdiff_t>(MeshBlocks<Scalar>::coordinates * list.count);
+  for (std::ptrdiff_t from = 0; from < lines * line; from += line) {
+    const std::ptrdiff_t is_beyond = (end - from) >> std::numeric_limits<std::ptrdiff_t>::digits;  // all bits, or none
+    hwy::Prefetch(list.corners + (from & ~is_beyond));
+  }
 }
 
 /// Shows the visitor the triangles of a list, from one of them on, that the path may meet. Returns whether the path is
@@ -312,7 +319,7 @@ HWY_NOINLINE void walk_pieces(const Query<float>& query, const Path<float>& path
       alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_lanes> words;
       hn::Store(cells.word, du, words.data());
       for (std::uint32_t left = arriving; left != 0; left &= left - 1) {
-        prefetch_list(query, CellWord(words[static_cast<std::size_t>(std::countr_zero(left))]));
+        prefetch(list_of(query, CellWord(words[static_cast<std::size_t>(std::countr_zero(left))])));
       }
       for (; arriving != 0; arriving &= arriving - 1) {
         const TriangleList<float> list =

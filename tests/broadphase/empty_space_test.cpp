@@ -21,7 +21,7 @@ class EmptySpace : public testing::Test {
   std::vector<std::uint32_t> draw(const Cells& cells, std::uint64_t one_in) {
     std::vector<std::uint32_t> words(std::size_t{cells[0]} * cells[1] * cells[2]);
     for (std::uint32_t& word : words) {
-      if (random_.one_in(one_in)) word = CellWord::listing(1, static_cast<std::uint32_t>(random_.below(1000))).bits();
+      if (random_.one_in(one_in)) word = CellWord::listing(static_cast<std::uint32_t>(random_.below(1000))).bits();
     }
     return words;
   }
@@ -74,7 +74,7 @@ TEST_F(EmptySpace, IsCappedAtWhatANibbleHolds) {
     expect_top_measured(draw(cells, 10'000), cells);
     expect_top_measured(draw(cells, 30), cells);
     std::vector<std::uint32_t> corner = draw(cells, 1'000'000'000);
-    corner.front() = CellWord::listing(1, 0).bits();
+    corner.front() = CellWord::listing(0).bits();
     expect_top_measured(corner, cells);
   }
 }
@@ -89,7 +89,7 @@ TEST_F(EmptySpace, OfABrickWithOneCellOrNone) {
   std::vector<std::uint32_t> words(Grid::brick_size);
   expect_brick_measured(words);
   for (std::uint32_t& word : words) {
-    word = CellWord::listing(3, 7).bits();
+    word = CellWord::listing(7).bits();
     expect_brick_measured(words);
     word = 0;
   }

@@ -19,10 +19,9 @@ class GridBudget : public testing::Test {
     return Grid(mesh.view(), box_of(mesh.view()), options);
   }
 
-  /// Lists may hold 8 entries a triangle, or 2^18, and each level of bricks up to three times as much; each list is
-  /// rounded up.
+  /// Lists may hold 8 entries a triangle, or 2^18, and each level of bricks up to three times as much.
   static void expect_within_budget(const Grid& grid, std::size_t triangles) {
-    EXPECT_LE(grid.entry_count(), 9 * std::max(std::size_t{1} << 18, 8 * triangles) + 4 * grid.cell_count());
+    EXPECT_LE(grid.entry_count(), 9 * std::max(std::size_t{1} << 18, 8 * triangles));
     EXPECT_LE(grid.top().size(), std::size_t{1} << 24);
     const auto& cells = grid.resolution();
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -23,14 +23,9 @@ class GridNesting : public testing::Test {
   static std::size_t most_listed(const Grid& grid) {
     std::size_t most = 0;
     for (const LeafCell& leaf : LeafCells(grid)) {
-      if (!leaf.word.is_empty()) most = std::max(most, distinct_ids(grid, leaf.word));
+      if (!leaf.word.is_empty()) most = std::max(most, grid.triangles(leaf.word).size());
     }
     return most;
-  }
-
-  static std::size_t distinct_ids(const Grid& grid, CellWord word) {
-    const auto ids = grid.triangles(word);
-    return std::set(ids.begin(), ids.end()).size();
   }
 
   /// Points, one at each of count × count × count places in the unit cube: they part as far as cells go.
@@ -128,8 +123,8 @@ TEST_F(GridNesting, HasNoBrickThatNoCellIsDividedInto) {
     const auto find_bricks = [&](auto& self, std::span<const CellWord> words) -> void {
       for (const CellWord word : words) {
         if (!word.is_divided()) continue;
-        bricks.insert(word.offset());
-        self(self, grid.bricks().subspan(std::size_t{word.offset()} * Grid::brick_size, Grid::brick_size));
+        bricks.insert(word.number());
+        self(self, grid.bricks().subspan(std::size_t{word.number()} * Grid::brick_size, Grid::brick_size));
       }
     };
     find_bricks(find_bricks, grid.top());

@@ -235,7 +235,7 @@ TYPED_TEST(BlockKernel, tells_nothing_of_lanes_beyond_the_count) {
   const Path<TypeParam> miss = Segment<TypeParam>{{5, 0, -1}, {5, 0, 1}};
   on_every_instruction_set([&] {
     for (std::size_t count = 1; count <= kernel_lanes<TypeParam>(); ++count) {
-      const std::size_t from = list.entries() - count;
+      const std::size_t from = list.size() - count;
       const std::uint64_t all = (std::uint64_t{1} << count) - 1;
       const KernelVerdicts hits = list.verdicts_from(hit, PathRange<TypeParam>(hit, {}), from);
       EXPECT_EQ(hits.possible, all);

@@ -16,21 +16,19 @@ namespace surehit::test {
 template <typename Scalar>
 class KernelList {
  public:
-  explicit KernelList(std::span<const Triangle<Scalar>> triangles) : count_(triangles.size()) {
+  explicit KernelList(std::span<const Triangle<Scalar>> triangles) {
     GeneratedMesh<Scalar> mesh;
     for (const Triangle<Scalar>& triangle : triangles) mesh.add(triangle);
     grid_ = Grid(mesh.view(), box_of(mesh.view()), {.resolution = {1, 1, 1}, .crowded = 0});
     blocks_ = MeshBlocks<Scalar>(mesh.view(), grid_);
     const CellWord word = grid_.top()[0];
     const std::size_t first = grid_.first_entry(word);
-    list_ = {blocks_.corners(first), grid_.entry_count(word), blocks_.edge_size(first)};
+    const Scalar* block = blocks_.block(word.number(), first);
+    list_ = {blocks_.corners(block), grid_.entry_count(word), blocks_.edge_size(block)};
   }
   explicit KernelList(const Triangle<Scalar>& triangle) : KernelList(std::span(&triangle, 1)) {}
 
-  [[nodiscard]] std::size_t size() const { return count_; }
-
-  /// With those that repeat the last one, to a multiple of 4.
-  [[nodiscard]] std::size_t entries() const { return list_.count; }
+  [[nodiscard]] std::size_t size() const { return list_.count; }
 
   /// Of triangle i, the first of the lanes or a later one; the range is not empty.
   [[nodiscard]] detail::Verdict verdict(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
@@ -53,7 +51,6 @@ class KernelList {
   }
 
  private:
-  std::size_t count_;
   Grid grid_;
   MeshBlocks<Scalar> blocks_;
   KernelTriangles<Scalar> list_;

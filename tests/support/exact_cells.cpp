@@ -121,7 +121,7 @@ void LeafCells::add(const Grid& grid, CellWord word, const std::array<std::uint3
   }
   const std::uint32_t part = size / edge;
   for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) {
-    add(grid, grid.bricks()[std::size_t{word.offset()} * Grid::brick_size + cell],
+    add(grid, grid.bricks()[std::size_t{word.number()} * Grid::brick_size + cell],
         {low[0] + cell % edge * part, low[1] + cell / edge % edge * part, low[2] + cell / edge / edge * part}, part);
   }
 }

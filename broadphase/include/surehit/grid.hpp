@@ -70,29 +70,24 @@ struct GridFrame {
 
 /// What a cell holds, in 32 bits. An empty cell has a nibble for each octant of directions: how many cells a path of
 /// that octant may cross at once on every axis, this one included, since all of them are empty. The first nibble of any
-/// other cell is 0.
+/// other cell is 0, the fifth bit tells a list from a brick, and the rest is its number.
 class CellWord {
  public:
   CellWord() = default;
   explicit CellWord(std::uint32_t bits) : bits_(bits) {}
 
-  static constexpr std::uint32_t most_granules = 31;  ///< that the word itself can count
-  static constexpr std::uint32_t most_offset = (std::uint32_t{1} << 23) - 1;
-  static constexpr std::uint32_t farthest = 15;         ///< a nibble's
-  static constexpr std::uint32_t divided_bits = 0x1ff;  ///< all 0 in the word of a divided cell
+  static constexpr std::uint32_t most_numbers = std::uint32_t{1} << 27;
+  static constexpr std::uint32_t farthest = 15;        ///< a nibble's
+  static constexpr std::uint32_t divided_bits = 0x1f;  ///< all 0 in the word of a divided cell
 
-  static CellWord listing(std::uint32_t granules, std::uint32_t offset) {
-    return CellWord(offset << 9 | granules << 4);
-  }
-  static CellWord divided(std::uint32_t brick) { return CellWord(brick << 9); }
+  static CellWord listing(std::uint32_t list) { return CellWord(list << 5 | 1U << 4); }
+  static CellWord divided(std::uint32_t brick) { return CellWord(brick << 5); }
 
   [[nodiscard]] std::uint32_t bits() const { return bits_; }
   [[nodiscard]] bool is_empty() const { return (bits_ & 15) != 0; }
   [[nodiscard]] bool is_divided() const { return (bits_ & divided_bits) == 0; }
-  /// Granules of entries; `most_granules` where the entry before the first one tells.
-  [[nodiscard]] std::uint32_t granules() const { return bits_ >> 4 & 31; }
-  /// Of the first entry, in granules; of a divided cell, its brick.
-  [[nodiscard]] std::uint32_t offset() const { return bits_ >> 9; }
+  /// Of the list; of a divided cell, of its brick.
+  [[nodiscard]] std::uint32_t number() const { return bits_ >> 5; }
   [[nodiscard]] std::uint32_t distance(std::uint32_t octant) const { return bits_ >> 4 * octant & 15; }
 
  private:
@@ -121,6 +116,12 @@ class CellBox {
 
  private:
   std::uint32_t bits_ = 0;
+};
+
+/// What a grid knows of a list beside its triangles. It ends where the next one begins.
+struct CellList {
+  CellBox box;                ///< the part of the cell that the triangles take up
+  std::uint32_t first_entry;  ///< among the grid's
 };
 
 namespace detail {
@@ -209,7 +210,7 @@ class Grid {
   /// Entries of all cells' lists together, repetitions included.
   [[nodiscard]] std::size_t entry_count() const noexcept { return entries_.size(); }
   [[nodiscard]] std::size_t memory_bytes() const noexcept {
-    return (top_.capacity() + bricks_.capacity()) * sizeof(CellWord) + boxes_.capacity() * sizeof(CellBox) +
+    return (top_.capacity() + bricks_.capacity()) * sizeof(CellWord) + lists_.capacity() * sizeof(CellList) +
            entries_.capacity() * sizeof(std::uint32_t);
   }
 
@@ -220,20 +221,16 @@ class Grid {
   /// All lists, one behind the other.
   [[nodiscard]] std::span<const std::uint32_t> entries() const noexcept { return entries_; }
 
+  /// By their numbers, and one more that begins where the last one ends. None where there are no triangles.
+  [[nodiscard]] std::span<const CellList> lists() const noexcept { return lists_; }
   /// Where a cell's list begins among the entries.
-  [[nodiscard]] std::size_t first_entry(CellWord word) const noexcept { return std::size_t{word.offset()} * granule_; }
-  /// A multiple of 4. A list whose triangles are no multiple of it repeats its last one.
+  [[nodiscard]] std::size_t first_entry(CellWord word) const noexcept { return lists_[word.number()].first_entry; }
   [[nodiscard]] std::uint32_t entry_count(CellWord word) const noexcept {
-    const std::uint32_t granules = word.granules();
-    return granules < CellWord::most_granules ? granules * granule_ : entries_[first_entry(word) - 1];
+    const CellList* list = lists_.data() + word.number();
+    return list[1].first_entry - list[0].first_entry;
   }
-  /// The same as the word alone tells it, no more than `CellWord::most_granules` of them.
-  [[nodiscard]] std::uint32_t listed_entries(CellWord word) const noexcept { return word.granules() * granule_; }
-  /// The part of the cell that its list's triangles take up.
-  [[nodiscard]] CellBox box(CellWord word) const noexcept { return boxes_[word.offset()]; }
-  /// By the lists' offsets.
-  [[nodiscard]] std::span<const CellBox> boxes() const noexcept { return boxes_; }
-  /// Ids of the triangles that a cell lists, ascending but for the repetitions.
+  [[nodiscard]] CellBox box(CellWord word) const noexcept { return lists_[word.number()].box; }
+  /// Ids of the triangles that a cell lists, ascending.
   [[nodiscard]] std::span<const std::uint32_t> triangles(CellWord word) const noexcept {
     return {entries_.data() + first_entry(word), entry_count(word)};
   }
@@ -243,12 +240,11 @@ class Grid {
   friend class GridBuild;
 
   GridFrame frame_;
-  std::uint32_t granule_ = 4;  ///< entries in which lists are measured
   std::uint32_t levels_ = 0;
   std::size_t top_count_ = 0;
   std::vector<CellWord> top_;  ///< and as many more as one vector load may read beyond the last
   std::vector<CellWord> bricks_;
-  std::vector<CellBox> boxes_;
+  std::vector<CellList> lists_;
   std::vector<std::uint32_t> entries_;
 };
 

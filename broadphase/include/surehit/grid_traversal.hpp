@@ -183,7 +183,7 @@ class GridTraversal {
     word_ = grid_.top()[static_cast<std::size_t>(index)];
     while (word_.is_divided()) {
       shift -= 2;
-      std::uint32_t cell = word_.offset() * Grid::brick_size;
+      std::uint32_t cell = word_.number() * Grid::brick_size;
       for (std::uint32_t axis = 0; axis < 3; ++axis) {
         cell += (static_cast<std::uint32_t>((finest_[axis] >> shift) ^ flip_[axis]) & (Grid::brick_edge - 1))
                 << 2 * axis;

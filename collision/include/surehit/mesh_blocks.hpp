@@ -40,21 +40,19 @@ class MeshBlocks {
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
   static constexpr std::size_t coordinates = 9;
-  /// Of a list that begins at `first_entry` of the grid and has `count` entries: coordinate k of triangle i is at
-  /// k count + i. A vector load may read beyond the last.
-  [[nodiscard]] const Scalar* corners(std::size_t first_entry) const noexcept { return block(first_entry) + 1; }
+  /// Of the grid's list of that number, which begins at `first_entry`.
+  [[nodiscard]] const Scalar* block(std::size_t list, std::size_t first_entry) const noexcept {
+    return blocks_.data() + offset(list, first_entry);
+  }
   /// The greatest component of the list's edges b - a and c - a; infinite where coordinates are too large for the
   /// kernel.
-  [[nodiscard]] Scalar edge_size(std::size_t first_entry) const noexcept { return *block(first_entry); }
+  [[nodiscard]] static Scalar edge_size(const Scalar* block) noexcept { return *block; }
+  /// Coordinate k of triangle i of a list of `count` is at k count + i. A vector load may read beyond the last.
+  [[nodiscard]] static const Scalar* corners(const Scalar* block) noexcept { return block + 1; }
 
  private:
-  /// Lists begin at multiples of so many entries,
-  static constexpr std::size_t granule = 4;
-  /// which take so much room with the edge size before them.
-  static constexpr std::size_t granule_size = 1 + coordinates * granule;
-
-  [[nodiscard]] const Scalar* block(std::size_t first_entry) const noexcept {
-    return blocks_.data() + granule_size * (first_entry / granule);
+  static std::size_t offset(std::size_t list, std::size_t first_entry) noexcept {
+    return coordinates * first_entry + list;  // each list before this one has an edge size too
   }
   void fill_blocks(const Grid& grid, const Executor* executor);
 

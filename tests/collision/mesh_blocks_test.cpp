@@ -1,0 +1,96 @@
+#include "surehit/mesh_blocks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "support/exact_cells.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/scalars.hpp"
+
+namespace surehit::test {
+namespace {
+
+template <typename Scalar>
+class MeshBlocksTest : public testing::Test {
+ protected:
+  static Grid grid_of(const GeneratedMesh<Scalar>& mesh, const GridOptions& options) {
+    return Grid(mesh.view(), box_of(mesh.view()), options);
+  }
+
+  /// Every list has the corners of its triangles, and the size of their longest edge before them.
+  static void expect_copies(const GeneratedMesh<Scalar>& mesh, const Grid& grid, const MeshBlocks<Scalar>& blocks) {
+    for (const LeafCell& leaf : LeafCells(grid)) {
+      if (leaf.word.is_empty()) continue;
+      const auto ids = grid.triangles(leaf.word);
+      const Scalar* block = blocks.block(leaf.word.number(), grid.first_entry(leaf.word));
+      Scalar edge_size = 0;
+      for (std::size_t i = 0; i < ids.size(); ++i) {
+        const Triangle<Scalar> copied = MeshBlocks<Scalar>::triangle(blocks.corners(block), ids.size(), i);
+        const Triangle<Scalar> given = mesh.view().triangle(ids[i]);
+        EXPECT_EQ(copied.a, given.a) << i << " of " << ids.size();
+        EXPECT_EQ(copied.b, given.b) << i << " of " << ids.size();
+        EXPECT_EQ(copied.c, given.c) << i << " of " << ids.size();
+        for (const Vector3<Scalar>& edge : {Vector3<Scalar>(given.b - given.a), Vector3<Scalar>(given.c - given.a)}) {
+          edge_size = std::max(edge_size, edge.cwiseAbs().maxCoeff());
+        }
+      }
+      EXPECT_EQ(blocks.edge_size(block), edge_size);
+    }
+  }
+};
+TYPED_TEST_SUITE(MeshBlocksTest, Scalars, ScalarNames);
+
+TYPED_TEST(MeshBlocksTest, CopiesListsOfEveryLength) {
+  Random random(5);
+  for (std::size_t count = 1; count <= 40; ++count) {
+    const auto mesh = scattered_triangles<TypeParam>(count, TypeParam{1}, random);
+    const Grid grid = this->grid_of(mesh, {.resolution = {1, 1, 1}, .crowded = 0});
+    ASSERT_EQ(grid.entry_count(), count);
+    this->expect_copies(mesh, grid, MeshBlocks<TypeParam>(mesh.view(), grid));
+  }
+}
+
+TYPED_TEST(MeshBlocksTest, CopiesTheListsOfAllCells) {
+  Random random(6);
+  const auto mesh = scattered_triangles<TypeParam>(2000, TypeParam(0.3), random);
+  for (const std::uint32_t crowded : {0U, 8U}) {
+    const Grid grid = this->grid_of(mesh, {.crowded = crowded});
+    EXPECT_EQ(grid.levels() != 0, crowded != 0);
+    this->expect_copies(mesh, grid, MeshBlocks<TypeParam>(mesh.view(), grid));
+  }
+}
+
+TYPED_TEST(MeshBlocksTest, CopiesAnotherMeshIntoTheSameMemory) {
+  Random random(7);
+  MeshBlocks<TypeParam> blocks;
+  for (const std::size_t count : {500U, 20U, 900U, 1U}) {
+    const auto mesh = scattered_triangles<TypeParam>(count, TypeParam(0.2), random);
+    const Grid grid = this->grid_of(mesh, {});
+    blocks.rebuild(mesh.view(), grid);
+    EXPECT_EQ(blocks.triangle_count(), count);
+    this->expect_copies(mesh, grid, blocks);
+  }
+}
+
+/// Beyond half the largest size that the kernel's bound allows, its bounds are made infinite.
+TYPED_TEST(MeshBlocksTest, SaysThatCoordinatesAreTooLargeForTheKernel) {
+  const TypeParam limit = std::ldexp(TypeParam{1}, sizeof(TypeParam) == sizeof(float) ? 33 : 299);
+  for (const bool too_large : {false, true}) {
+    const TypeParam far = too_large ? std::nextafter(limit, std::numeric_limits<TypeParam>::infinity()) : limit;
+    GeneratedMesh<TypeParam> mesh;
+    mesh.add({{0, 0, 0}, {1, 0, 0}, {0, -far, 0}});
+    const Grid grid = this->grid_of(mesh, {.resolution = {1, 1, 1}});
+    const MeshBlocks<TypeParam> blocks(mesh.view(), grid);
+    const TypeParam* block = blocks.block(grid.top()[0].number(), grid.first_entry(grid.top()[0]));
+    EXPECT_EQ(blocks.edge_size(block), too_large ? std::numeric_limits<TypeParam>::infinity() : far);
+  }
+}
+
+}  // namespace
+}  // namespace surehit::test
