@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <utility>
 
 #include "hit_rounding-inl.hpp"
@@ -71,6 +72,10 @@ class Batch {
   struct Job {
     std::uint32_t lane;
     std::uint32_t from;
+  };
+  /// What the kernel says of one that the path may meet.
+  struct Open {
+    Job job;
     Lanes lanes;
     FirstLanes<float> first;
   };
@@ -82,7 +87,9 @@ class Batch {
   };
   /// Of a list, so many triangles become jobs; the few that are longer are finished one after the other.
   static constexpr std::size_t most_at_once = 32;
-  /// The lists that come after so many jobs wait for the next round of them: what is kept of each takes stack.
+  static_assert(most_at_once % most_lanes == 0);
+  /// The kernel is asked about so many jobs before anything is done about its verdicts: what is kept of each takes
+  /// stack.
   static constexpr std::size_t most_jobs = 6;
 
   template <bool has_levels>
@@ -161,40 +168,39 @@ class Batch {
     return (inside & ~leaving) | walk_.advance(cells, leaving, placed_);
   }
 
-  /// Lets these lanes' paths meet the lists of their cells, and ends those that are done. The kernel runs over all
-  /// lists before anything is done about its verdicts, which nobody can foretell.
+  /// Lets these lanes' paths meet the lists of their cells, and ends those that are done. The kernel runs over some
+  /// lists, of whatever length, before anything is done about its verdicts: neither can be foretold.
   HWY_INLINE void meet_lists(std::uint32_t arriving, const std::array<std::uint32_t, most_lanes>& words) {
     const std::size_t lanes = hn::Lanes(hn::ScalableTag<float>());
-    for (std::uint32_t left = arriving; left != 0; left &= left - 1) {
-      prefetch(list_of(query_, CellWord(words[static_cast<std::size_t>(std::countr_zero(left))])));
+    std::size_t jobs = 0;
+    std::uint32_t longer = 0;
+    for (; arriving != 0; arriving &= arriving - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(arriving));
+      const TriangleList<float>& list = lists_[lane] = list_of(query_, CellWord(words[lane]));
+      prefetch(list);
+      query_.statistics.candidates += list.count;
+      for (std::size_t i = 0; i * lanes < most_at_once; ++i) {
+        jobs_[jobs + i] = {lane, static_cast<std::uint32_t>(i * lanes)};
+      }
+      jobs += (std::min(list.count, most_at_once) + lanes - 1) / lanes;
+      longer |= std::uint32_t{list.count > most_at_once} << lane;
     }
     std::uint32_t done = 0;
-    while (arriving != 0) {
-      std::size_t jobs = 0;
-      std::uint32_t longer = 0;
-      for (; arriving != 0 && jobs < most_jobs; arriving &= arriving - 1) {
-        const auto lane = static_cast<std::uint32_t>(std::countr_zero(arriving));
-        const TriangleList<float>& list = lists_[lane] = list_of(query_, CellWord(words[lane]));
-        query_.statistics.candidates += list.count;
-        for (std::size_t from = 0; from < std::min(list.count, most_at_once); from += lanes) {
-          jobs_[jobs].lane = lane;
-          jobs_[jobs++].from = static_cast<std::uint32_t>(from);
-        }
-        longer |= std::uint32_t{list.count > most_at_once} << lane;
-      }
-      for (const std::uint32_t open : std::span(open_).first(open_jobs(jobs))) {
-        const auto& [lane, from, verdicts, first] = jobs_[open];
+    for (std::size_t first_job = 0; first_job < jobs; first_job += most_jobs) {
+      const auto some = std::span(jobs_).subspan(first_job, std::min(jobs - first_job, most_jobs));
+      for (const auto& [job, verdicts, first] : std::span(open_).first(open_jobs(some))) {
         query_.statistics.undecided += static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
+        const auto& [lane, from] = job;
         const bool shorter = visitors_[lane].meet(Meeting<float, AnyPath>{
             query_, range_, paths_[index_[lane]], kernel_path_[lane], lists_[lane], from, verdicts, first});
         done |= heed(lane, shorter);
       }
-      for (longer &= ~done; longer != 0; longer &= longer - 1) {
-        const auto lane = static_cast<std::uint32_t>(std::countr_zero(longer));
-        const bool shorter = meet_list(query_, range_, paths_[index_[lane]], kernel_path_[lane], weights_, lists_[lane],
-                                       most_at_once, visitors_[lane]);
-        done |= heed(lane, shorter);
-      }
+    }
+    for (longer &= ~done; longer != 0; longer &= longer - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(longer));
+      const bool shorter = meet_list(query_, range_, paths_[index_[lane]], kernel_path_[lane], weights_, lists_[lane],
+                                     most_at_once, visitors_[lane]);
+      done |= heed(lane, shorter);
     }
     end_lanes(done);
   }
@@ -208,15 +214,14 @@ class Batch {
     return std::uint32_t{visitors_[lane].is_done()} << lane;
   }
 
-  /// Asks the kernel; returns how many jobs are open then: the path may meet something there.
-  HWY_NOINLINE std::size_t open_jobs(std::size_t count) {
+  /// Asks the kernel; returns how many of the jobs are open then.
+  HWY_NOINLINE std::size_t open_jobs(std::span<const Job> jobs) {
     const hn::ScalableTag<float> d;
     std::size_t open = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      Job& job = jobs_[i];
+    for (const Job& job : jobs) {
       const Kernel kernel(kernel_path_[job.lane], lists_[job.lane], job.from);
-      job.lanes = kernel.classify(weights_);
-      open_[open] = static_cast<std::uint32_t>(i);
+      open_[open].job = job;
+      open_[open].lanes = kernel.classify(weights_);
       if constexpr (Visitor::wants_order) {
         const typename Kernel::Crossing crossing = kernel.crossing();
         hn::Store(crossing.height, d, crossings_[open].height.data());
@@ -224,15 +229,14 @@ class Batch {
         hn::Store(crossing.det, d, crossings_[open].det.data());
         det_radius_[open] = crossing.det_radius;
       }
-      open += job.lanes.possible != 0 ? 1 : 0;
+      open += open_[open].lanes.possible != 0 ? 1 : 0;
     }
     if constexpr (Visitor::wants_order) {
       for (std::size_t i = 0; i < open; ++i) {
-        Job& job = jobs_[open_[i]];
         const auto& [height, height_radius, det] = crossings_[i];
-        job.first = Kernel::first_of(
+        open_[i].first = Kernel::first_of(
             {hn::Load(d, height.data()), hn::Load(d, height_radius.data()), hn::Load(d, det.data()), det_radius_[i]},
-            job.lanes.certain, visitors_[job.lane].t_upper());
+            open_[i].lanes.certain, visitors_[open_[i].job.lane].t_upper());
       }
     }
     return open;
@@ -265,11 +269,10 @@ class Batch {
   std::array<KernelPath<float>, most_lanes> kernel_path_;
   std::array<Visitor, most_lanes> visitors_;
   std::array<TriangleList<float>, most_lanes> lists_;
-  static constexpr std::size_t job_room = most_jobs + most_at_once / hn::MaxLanes(hn::ScalableTag<float>());
-  std::array<Job, job_room> jobs_;
-  std::array<std::uint32_t, job_room> open_;                             ///< jobs to be gone into,
-  std::array<Crossing, Visitor::wants_order ? job_room : 0> crossings_;  ///< and where their paths cross
-  std::array<float, Visitor::wants_order ? job_room : 0> det_radius_;
+  std::array<Job, most_at_once> jobs_;  ///< each lane has most_at_once / lanes of them at most
+  std::array<Open, most_jobs> open_;    ///< of some jobs,
+  std::array<Crossing, Visitor::wants_order ? most_jobs : 0> crossings_;  ///< and where their paths cross
+  std::array<float, Visitor::wants_order ? most_jobs : 0> det_radius_;
 };
 
 #endif  // HWY_TARGET != HWY_SCALAR
@@ -283,24 +286,19 @@ class BatchRounding {
                 std::span<Hit<float>> hits)
       : query_(query), range_(range), paths_(paths), hits_(hits) {}
 
+  /// A path that has ended. It is written down even where it has hit nothing, which nobody could foretell.
   HWY_INLINE void add(std::size_t index, FirstHit<float>& first) {
-    const Path<float> path(paths_[index]);
-    if (!first.is_located_only()) {
+    if (first.is_weighed()) {
+      const Path<float> path(paths_[index]);
       hits_[index] = first.hit(query_, Narrowphase<float>(path, query_.options, range_, query_.statistics));
       return;
     }
-    const Triangle<float>& triangle = first.triangle();
     index_[count_] = index;
     id_[count_] = first.id(query_);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto k = static_cast<Eigen::Index>(axis);
-      coordinates_[axis][count_] = path.start[k];
-      coordinates_[3 + axis][count_] = path.toward[k];
-      coordinates_[6 + axis][count_] = triangle.a[k];
-      coordinates_[9 + axis][count_] = triangle.b[k];
-      coordinates_[12 + axis][count_] = triangle.c[k];
-    }
-    if (++count_ == hn::Lanes(DoubleTag())) flush();
+    std::memcpy(&coordinates_[slot_size * count_], &paths_[index], sizeof(AnyPath));
+    std::memcpy(&coordinates_[slot_size * count_ + path_size], &first.triangle(), sizeof(Triangle<float>));
+    count_ += first.is_found() ? 1 : 0;
+    if (count_ == hn::Lanes(DoubleTag())) flush();
   }
 
   HWY_NOINLINE void flush() {
@@ -308,7 +306,9 @@ class BatchRounding {
     const DoubleTag d;
     const FloatTag df;
     const auto vectors = [&](std::size_t first) -> Vectors<DoubleTag> {
-      const auto load = [&](std::size_t i) { return hn::PromoteTo(d, hn::Load(df, coordinates_[i].data())); };
+      const hn::RebindToSigned<FloatTag> di;
+      const auto places = hn::Mul(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(slot_size)));
+      const auto load = [&](std::size_t i) { return hn::PromoteTo(d, hn::GatherIndex(df, &coordinates_[i], places)); };
       return {load(first), load(first + 1), load(first + 2)};
     };
     const Vectors<DoubleTag> start = vectors(0);
@@ -351,8 +351,12 @@ class BatchRounding {
   std::span<const AnyPath> paths_;
   std::span<Hit<float>> hits_;
   std::size_t count_ = 0;
+  static constexpr std::size_t path_size = 6;
+  static constexpr std::size_t slot_size = 16;
   /// Of the path's start and end or direction, and of the triangle's corners. Beyond the last hit anything finite.
-  alignas(64) std::array<std::array<float, most>, 15> coordinates_ = {};
+  alignas(64) std::array<float, slot_size* most> coordinates_ = {};
+  static_assert(sizeof(AnyPath) == path_size * sizeof(float));
+  static_assert(sizeof(Triangle<float>) <= (slot_size - path_size) * sizeof(float));
   std::array<std::size_t, most> index_;
   std::array<std::uint32_t, most> id_;
 };
@@ -377,9 +381,7 @@ void find_each_first(const Query<float>& query, std::span<const AnyPath> paths, 
   if (paths.empty()) return;
   const PathRange<float> range(paths.front(), query.options);
   BatchRounding<AnyPath> rounding(query, range, paths, hits);
-  const auto finish = [&](std::size_t index, FirstHit<float>& first) {
-    if (first.is_found()) rounding.add(index, first);
-  };
+  const auto finish = [&](std::size_t index, FirstHit<float>& first) { rounding.add(index, first); };
   const auto alone = [&](std::size_t index) {
     hits[index] = find_first<float>(query, paths[index]).value_or(Hit<float>{});
   };
