@@ -133,7 +133,7 @@ class BatchOnExecutor : public testing::Test {
 TYPED_TEST_SUITE(BatchOnExecutor, Scalars, ScalarNames);
 
 TYPED_TEST(BatchOnExecutor, of_any_size_answers_as_without) {
-  for (const std::size_t count : {0U, 1U, 4096U, 4097U}) {
+  for (const std::size_t count : {0U, 1U, 4095U, 4096U, 4097U, 9000U}) {
     SCOPED_TRACE(count);
     expect_same_with_executor(this->many(), count, NewThreads(3));
   }
@@ -145,7 +145,7 @@ TYPED_TEST(BatchOnExecutor, in_any_order_answers_as_without) {
 }
 
 TYPED_TEST(BatchOnExecutor, of_any_threads_answers_as_without) {
-  for (const std::size_t count : {1U, 4U}) {
+  for (const std::size_t count : {1U, 2U, 4U}) {
     expect_same_with_executor(this->many(), this->most_paths, NewThreads(count));
   }
 }
@@ -233,7 +233,8 @@ TYPED_TEST(BatchOnExecutor, answers_the_same_in_any_floating_point_mode_of_its_t
   for (const TypeParam factor : {TypeParam{1}, tiny}) {
     const ManyPaths<TypeParam> many(placed<TypeParam>(mesh, factor, {0, 0, 0}), 4500);
     for (const FloatingPointMode& mode :
-         {FloatingPointMode{"upward", FE_UPWARD, false}, FloatingPointMode{"downward_and_flush", FE_DOWNWARD, true}}) {
+         {FloatingPointMode{"flush", FE_TONEAREST, true}, FloatingPointMode{"upward", FE_UPWARD, false},
+          FloatingPointMode{"downward_and_flush", FE_DOWNWARD, true}}) {
       SCOPED_TRACE(mode.name);
       NewThreads threads(2, mode);
       expect_same_with_executor(many.collider, many.segments, 4500, threads);

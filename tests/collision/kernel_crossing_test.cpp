@@ -284,7 +284,7 @@ TYPED_TEST(KernelCrossing, holds_at_sizes_at_which_products_overflow_or_underflo
       expect_first_in_list(path, {triangle}, KernelList<TypeParam>(triangle), random, hits);
     }
   }
-  EXPECT_GT(hits, case_count(3'000));  // a single instruction set finds 5,400 of all cases
+  EXPECT_GT(hits, case_count(2'500) * instruction_sets().size());
   this->RecordProperty("certain_hits", std::to_string(hits));
 }
 
