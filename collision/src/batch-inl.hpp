@@ -79,11 +79,11 @@ class Batch {
     Lanes lanes;
     FirstLanes<float> first;
   };
-  /// `BlockKernel::Crossing` in memory, but for the bound of det.
+  /// `BlockKernel::Crossing` in memory.
   struct alignas(most_lanes * sizeof(float)) Crossing {
     LaneFloats height;
-    LaneFloats height_radius;
     LaneFloats det;
+    LaneFloats s_size;
   };
   /// Of a list, so many triangles become jobs; the few that are longer are finished one after the other.
   static constexpr std::size_t most_at_once = 32;
@@ -225,18 +225,19 @@ class Batch {
       if constexpr (Visitor::wants_order) {
         const typename Kernel::Crossing crossing = kernel.crossing();
         hn::Store(crossing.height, d, crossings_[open].height.data());
-        hn::Store(crossing.height_radius, d, crossings_[open].height_radius.data());
         hn::Store(crossing.det, d, crossings_[open].det.data());
-        det_radius_[open] = crossing.det_radius;
+        hn::Store(crossing.s_size, d, crossings_[open].s_size.data());
       }
       open += open_[open].lanes.possible != 0 ? 1 : 0;
     }
     if constexpr (Visitor::wants_order) {
       for (std::size_t i = 0; i < open; ++i) {
-        const auto& [height, height_radius, det] = crossings_[i];
-        open_[i].first = Kernel::first_of(
-            {hn::Load(d, height.data()), hn::Load(d, height_radius.data()), hn::Load(d, det.data()), det_radius_[i]},
-            open_[i].lanes.certain, visitors_[open_[i].job.lane].t_upper());
+        const auto& [height, det, s_size] = crossings_[i];
+        const std::uint32_t lane = open_[i].job.lane;
+        open_[i].first =
+            Kernel::first_of(kernel_path_[lane], lists_[lane],
+                             {hn::Load(d, height.data()), hn::Load(d, det.data()), hn::Load(d, s_size.data())},
+                             open_[i].lanes.certain, visitors_[lane].t_upper());
       }
     }
     return open;
@@ -272,7 +273,6 @@ class Batch {
   std::array<Job, most_at_once> jobs_;  ///< each lane has most_at_once / lanes of them at most
   std::array<Open, most_jobs> open_;    ///< of some jobs,
   std::array<Crossing, Visitor::wants_order ? most_jobs : 0> crossings_;  ///< and where their paths cross
-  std::array<float, Visitor::wants_order ? most_jobs : 0> det_radius_;
 };
 
 #endif  // HWY_TARGET != HWY_SCALAR

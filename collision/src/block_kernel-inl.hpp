@@ -106,13 +106,7 @@ class BlockKernel : BlockDeterminants<Scalar> {
 
  public:
   HWY_INLINE BlockKernel(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list, std::size_t from)
-      : Base(path, list, from) {
-    // E1 and E2 by the list's longest edge.
-    const Scalar edge_size = list.edge_size;
-    d_edge_ = Bound::relative * path.d_size * edge_size;
-    d_edges_ = d_edge_ * edge_size + Bound::underflow * (1 + path.d_size + edge_size);
-    edges_ = Bound::relative * edge_size * edge_size;
-  }
+      : Base(path, list, from), bounds_(path, list) {}
 
   /// U, V, W and the two that the range asks for must each be at least zero for a hit, with det's sign taken out. So
   /// two of certain and opposite signs are a miss, even where det's own sign is not certain: were det zero, a path that
@@ -124,9 +118,9 @@ class BlockKernel : BlockDeterminants<Scalar> {
     const V first = hn::MulAdd(height_, all(range.t_first), hn::Mul(det_, all(range.det_first)));
     const V last = hn::MulAdd(height_, all(range.t_last), hn::Mul(det_, all(range.det_last)));
     // U, V and W by the bound of W, both of the range's by the greater of theirs.
-    const V side_bound = hn::MulAdd(s_size_, all(2 * d_edge_ + Bound::underflow), all(d_edges_));
-    const V range_bound =
-        hn::MulAdd(s_size_, all(edges_ * range.t_size + Bound::underflow), all(d_edges_ * range.det_size + d_edges_));
+    const V side_bound = hn::MulAdd(bounds_.d_edge, hn::MulAdd(s_size_, all(2), bounds_.edge), all(Bound::underflow));
+    const V range_bound = hn::MulAdd(s_size_, hn::Mul(hn::Mul(bounds_.edge, bounds_.edge), all(range.t_bound)),
+                                     hn::Mul(bounds_.det(), all(range.det_size)));
 
     const V least_side = hn::Min(hn::Min(u_, v_), w), greatest_side = hn::Max(hn::Max(u_, v_), w);
     const V least_end = hn::Min(first, last), greatest_end = hn::Max(first, last);
@@ -142,29 +136,31 @@ class BlockKernel : BlockDeterminants<Scalar> {
 
   /// Where the path crosses the triangles' planes: t = height / det.
   struct Crossing {
-    V height, height_radius, det;
-    Scalar det_radius;
+    V height, det;
+    V s_size;  ///< as the bounds need it
   };
-  [[nodiscard]] HWY_INLINE Crossing crossing() const {
-    return {height_, hn::MulAdd(s_size_, all(edges_ + Bound::underflow), all(d_edges_)), det_, d_edges_};
-  }
+  [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, det_, s_size_}; }
 
-  /// Of `certain` hits those that may be the first, if none that begins after t = `limit` can be. t is within (r_height
-  /// + |t| r_det) / (|det| - r_det) of the quotient of what is computed, where r_height and r_det are the determinants'
-  /// bounds. Of their 66 u, 48 u hold what either may be off. The other 18 u of 6 d e f or of 6 f s e, the most that
-  /// det and height may be, make 3 u |t| each: room for the three roundings of the quotient, and three more. 2^-18 is
-  /// far more than the radius needs for its own. A certain det is no denormal, so that its inverse is finite. Where t
-  /// or the radius overflows, nothing is known.
-  [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(const Crossing& crossing, std::uint64_t certain,
+  /// Of `certain` hits those that may be the first, if none that begins after t = `limit` can be.
+  ///
+  /// t is within (r_height + |t| r_det) / (|det| - r_det) of the quotient of what is computed, where r_height and r_det
+  /// are the determinants' bounds. The det of a certain hit is the sum of U, V and W, each beyond r_det and of its
+  /// sign: |det| - r_det is at least 2 / 3 |det| but for roundings, so that its inverse, a second division, is not
+  /// needed. Of their 66 u, 48 u hold what either may be off. The other 18 u of 6 d e f or of 6 f s e, the most that
+  /// det and height may be, make 3 u |t| each: room for the two roundings of the quotient, and four more. 2^-17 is far
+  /// more than the radius needs for its own. A certain det is no denormal, so that its inverse is finite. Where t or
+  /// the radius overflows, nothing is known.
+  [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(const KernelPath<Scalar>& path,
+                                                              const TriangleList<Scalar>& list,
+                                                              const Crossing& crossing, std::uint64_t certain,
                                                               Scalar limit) {
     const Tag d;
     const V infinity = all(std::numeric_limits<Scalar>::infinity());
-    const V t = hn::Mul(crossing.height, hn::Div(all(1), crossing.det));
-    const V size = hn::Abs(t);
-    const V det_radius = all(crossing.det_radius);
-    const V radius =
-        hn::Div(hn::MulAdd(size, det_radius, crossing.height_radius), hn::Sub(hn::Abs(crossing.det), det_radius));
-    const V bound = hn::MulAdd(radius, all(1 + Scalar(0x1p-18)), all(Bound::underflow));
+    const Bounds bounds(path, list);
+    const V inverse = hn::Div(all(1), crossing.det);
+    const V t = hn::Mul(crossing.height, inverse);
+    const V radius = hn::Mul(hn::MulAdd(hn::Abs(t), bounds.det(), bounds.height(crossing.s_size)), hn::Abs(inverse));
+    const V bound = hn::MulAdd(radius, all(Scalar(1.5) + Scalar(0x1p-17)), all(std::numeric_limits<Scalar>::min()));
     const auto taken = mask_of(d, certain);
     const auto known = hn::And(hn::Ge(bound, hn::Zero(d)), hn::Lt(bound, infinity));
     const V lower = hn::IfThenElse(taken, hn::IfThenElse(known, hn::Sub(t, bound), hn::Neg(infinity)), infinity);
@@ -175,7 +171,22 @@ class BlockKernel : BlockDeterminants<Scalar> {
   }
 
  private:
-  Scalar d_edge_, d_edges_, edges_;
+  /// What the bounds of one path and one list share: E1 and E2 count by the list's longest edge. In vectors throughout,
+  /// since going from scalars to all lanes takes as long as a multiplication.
+  struct Bounds {
+    HWY_INLINE Bounds(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list)
+        : edge(all(list.edge_size)), d_edge(hn::Mul(hn::Mul(all(path.d_size), edge), all(Bound::relative))) {}
+
+    HWY_INLINE V det() const { return hn::MulAdd(d_edge, edge, all(Bound::underflow)); }
+    HWY_INLINE V height(V s_size) const {
+      return hn::MulAdd(s_size, hn::Mul(hn::Mul(edge, edge), all(Bound::relative)), det());
+    }
+
+    V edge;
+    V d_edge;  ///< relative bound of what both multiply
+  };
+
+  Bounds bounds_;
 };
 
 // Not inlined: their frames are gone when the exact stage needs the stack, and the call costs nothing that can be
@@ -194,7 +205,7 @@ HWY_NOINLINE Lanes classify(const KernelPath<Scalar>& path, const RangeWeights<S
                             FirstLanes<Scalar>& first) {
   const Kernel kernel(path, list, from);
   const Lanes lanes = kernel.classify(range);
-  if (lanes.possible != 0) first = Kernel::first_of(kernel.crossing(), lanes.certain, limit);
+  if (lanes.possible != 0) first = Kernel::first_of(path, list, kernel.crossing(), lanes.certain, limit);
   return lanes;
 }
 

@@ -24,22 +24,23 @@ namespace surehit::detail {
 // of its terms, and holds sizes that are off by u each: 66 leaves a tenth for that, where 11 u would do.
 //
 // Underflow: a product may lose half the least denormal, eta / 2. In det: eta in each component of the cross product,
-// times e, three times over, and 3 eta / 2 in the dot product; in first det: |first| times that and eta / 2; in the
-// bound: f eta / 2 and twice eta / 2 for each size product, times |first|. All are below 12 eta (1 + largest) (1 +
-// |first|), far less than the least normal number times (1 + largest) as long as |first| and |last| stay below
-// `largest_limit`.
+// times e, three times over, and 3 eta / 2 in the dot product; likewise in T, U and V with f, s and d; in first det:
+// |first| times that and eta / 2. With the largest size l, all of W or of what the range asks is below 12 eta (1 + l)
+// (1
+// + |first|). The bound itself multiplies eta / 2 by 3 l or less, and by 1 + |first|, twice at most. Sizes are up to
+// `largest_size`, L, so that 32 eta L (1 + |first|) holds both; it counts only where a mesh's sizes are below some
+// 2^-30, or 2^-240 in double.
 //
 // Overflow: with every size up to `largest_size`, the largest number formed is under 6 · 2 · largest_size^3 ·
 // largest_limit.
 template <typename Scalar>
 struct KernelBound {
   static constexpr Scalar relative = 66 * (std::numeric_limits<Scalar>::epsilon() / 2);
-  static constexpr Scalar underflow = std::numeric_limits<Scalar>::min();
   static constexpr Scalar largest_size = std::is_same_v<Scalar, float> ? Scalar(0x1p34) : Scalar(0x1p300);
+  static constexpr Scalar underflow = 32 * std::numeric_limits<Scalar>::denorm_min() * largest_size;
   static constexpr Scalar largest_limit = Scalar(0x1p16);
 };
 static_assert(12 * 0x1p34 * 0x1p34 * 0x1p34 * 0x1p16 < double{std::numeric_limits<float>::max()});
-static_assert(12 * (1 + 0x1p16) * 0x1p-149 < double{std::numeric_limits<float>::min()});
 
 /// What a range asks of a pair: that t_weight T + det_weight det be at least zero once det's sign is taken out, for its
 /// lower end (T - first det) and for its upper one (last det - T). An end at infinity asks nothing: of det itself.
@@ -49,8 +50,8 @@ struct RangeWeights {
   Scalar det_first = 1;
   Scalar t_last = 0;
   Scalar det_last = 1;
-  Scalar t_size = 0;    ///< the greater of the two, by size
-  Scalar det_size = 1;  //
+  Scalar t_bound = 0;   ///< relative bound of T; 0 where T is not asked
+  Scalar det_size = 2;  ///< 1 + the greater weight of det, by size
   bool decides = true;  ///< whether nothing else is left to decide
 
   explicit RangeWeights(const PathRange<Scalar>& range) {
@@ -60,15 +61,15 @@ struct RangeWeights {
       return small;
     };
     if (counts(range.first)) {
-      t_first = t_size = 1;
+      t_first = 1;
       det_first = -range.first;
     }
     if (counts(range.last)) {
       t_last = -1;
-      t_size = 1;
       det_last = range.last;
     }
-    det_size = std::max(std::fabs(det_first), std::fabs(det_last));
+    t_bound = KernelBound<Scalar>::relative * std::max(t_first, -t_last);
+    det_size = 1 + std::max(std::fabs(det_first), std::fabs(det_last));
   }
 };
 

@@ -37,14 +37,15 @@ class UnfilteredKernel : BlockDeterminants<float> {
     return {hits, hits};
   }
 
-  /// Has room for radii since the batch keeps them between two steps.
+  /// Has room for what bounds need, since the batch keeps it between two steps.
   struct Crossing {
-    V height, height_radius, det;
-    float det_radius;
+    V height, det, s_size;
   };
-  [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, hn::Zero(d_), det_, 0}; }
+  [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, det_, hn::Zero(d_)}; }
 
-  [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of(const Crossing& crossing, std::uint64_t hits,
+  [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of(const KernelPath<float>& /*path*/,
+                                                             const TriangleList<float>& /*list*/,
+                                                             const Crossing& crossing, std::uint64_t hits,
                                                              float /*limit*/) {
     const Tag d;
     const auto taken = mask_of(d, hits);

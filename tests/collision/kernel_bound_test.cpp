@@ -66,11 +66,10 @@ double worst_share(const Path<Scalar>& path, const Triangle<Scalar>& triangle, S
   const Scalar last = A::product_plus(height, weights.t_last, det * weights.det_last);
 
   const Scalar edge_size = std::max(size(e1), size(e2));
-  const Scalar d_edge = Bound::relative * size(d) * edge_size;
-  const Scalar d_edges = d_edge * edge_size + Bound::underflow * (1 + size(d) + edge_size);
-  const Scalar edges = Bound::relative * edge_size * edge_size * weights.t_size + Bound::underflow;
-  const Scalar side_bound = A::product_plus(size(s), 2 * d_edge + Bound::underflow, d_edges);
-  const Scalar range_bound = A::product_plus(size(s), edges, d_edges * weights.det_size + d_edges);
+  const Scalar d_edge = size(d) * edge_size * Bound::relative;
+  const Scalar side_bound = A::product_plus(d_edge, A::product_plus(size(s), 2, edge_size), Bound::underflow);
+  const Scalar range_bound = A::product_plus(size(s), edge_size * edge_size * weights.t_bound,
+                                             A::product_plus(d_edge, edge_size, Bound::underflow) * weights.det_size);
 
   const RationalDeterminants exact = rational_determinants(path, triangle);
   double worst = 0;
@@ -187,15 +186,18 @@ TYPED_TEST(KernelBoundOf, knows_which_limits_it_holds) {
   constexpr TypeParam infinity = std::numeric_limits<TypeParam>::infinity();
   const auto open = weights(-infinity, infinity);
   EXPECT_TRUE(open.decides);
-  EXPECT_EQ(open.t_size, 0);
+  EXPECT_EQ(open.t_bound, 0);
+  EXPECT_EQ(open.det_size, 2);
   const auto segment = weights(0, 1);
   EXPECT_TRUE(segment.decides);
   EXPECT_EQ(segment.t_first, 1);
   EXPECT_EQ(segment.det_first, 0);
   EXPECT_EQ(segment.t_last, -1);
   EXPECT_EQ(segment.det_last, 1);
-  EXPECT_EQ(weights(-7, 3).det_size, 7);
-  EXPECT_EQ(weights(2, 9).det_size, 9);
+  EXPECT_EQ(segment.t_bound, KernelBound<TypeParam>::relative);
+  EXPECT_EQ(segment.det_size, 2);
+  EXPECT_EQ(weights(-7, 3).det_size, 8);
+  EXPECT_EQ(weights(2, 9).det_size, 10);
   const TypeParam most = KernelBound<TypeParam>::largest_limit;
   EXPECT_TRUE(weights(-most, most).decides);
   EXPECT_FALSE(weights(0, neighbour(most, 1)).decides);
