@@ -119,14 +119,18 @@ class Batch {
   HWY_INLINE void fill(std::uint32_t idle) {
     while (idle != 0) {
       if (waiting_ == 0 && !place_next<has_levels>()) break;
-      const auto from = static_cast<std::size_t>(std::countr_zero(waiting_));
-      const auto to = static_cast<std::size_t>(std::countr_zero(idle));
-      lanes_.copy_lane(to, placed_, from);
-      kernel_path_[to] = placed_kernel_paths_.at(from);
-      index_[to] = placed_first_ + from;
-      walking_ |= std::uint32_t{1} << to;
-      waiting_ &= waiting_ - 1;
-      idle &= idle - 1;
+      alignas(most_lanes * sizeof(float)) LaneIndices from_lane = {};
+      std::uint32_t filled = 0;
+      for (; waiting_ != 0 && idle != 0; waiting_ &= waiting_ - 1, idle &= idle - 1) {
+        const auto from = static_cast<std::size_t>(std::countr_zero(waiting_));
+        const auto to = static_cast<std::size_t>(std::countr_zero(idle));
+        from_lane[to] = static_cast<std::int32_t>(from);
+        kernel_path_[to] = placed_kernel_paths_.at(from);
+        index_[to] = placed_first_ + from;
+        filled |= std::uint32_t{1} << to;
+      }
+      lanes_.take(filled, placed_, from_lane);
+      walking_ |= filled;
     }
   }
 

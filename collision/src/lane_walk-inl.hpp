@@ -36,8 +36,10 @@ using Floats = hn::Vec<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 using Words = hn::Vec<BitsTag>;
 
-/// A number for each lane. In memory: a step loads what it needs, and a lane is filled anew by a scalar store.
+/// A number for each lane. In memory: a step loads what it needs. Lanes are filled by stores of all of them: a load of
+/// all has to wait for a store of one.
 using LaneFloats = std::array<float, most_lanes>;
+using LaneIndices = std::array<std::int32_t, most_lanes>;
 
 /// Paths as `GridTraversal` walks them, one in each lane; what that says of a single one holds for each.
 struct alignas(most_lanes * sizeof(float)) WalkingPaths {
@@ -59,18 +61,25 @@ struct alignas(most_lanes * sizeof(float)) WalkingPaths {
     end[lane] = std::min(end[lane], static_cast<float>(tau + rounding));
   }
 
-  void copy_lane(std::size_t to, const WalkingPaths& from, std::size_t lane) {
+  /// Lane i, where bit i is set, becomes lane `from_lane[i]` of other paths.
+  HWY_INLINE void take(std::uint32_t lanes, const WalkingPaths& from, const LaneIndices& from_lane) {
+    const auto indices = hn::Load(IntTag(), from_lane.data());
+    const auto take_all = [&](auto d, auto& to, const auto& of) {
+      const auto taken = hn::TableLookupLanes(hn::Load(d, of.data()), hn::IndicesFromVec(d, indices));
+      hn::Store(hn::IfThenElse(mask_of(d, lanes), taken, hn::Load(d, to.data())), d, to.data());
+    };
+    const FloatTag d;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      start[axis][to] = from.start[axis][lane];
-      rate[axis][to] = from.rate[axis][lane];
-      inverse_rate[axis][to] = from.inverse_rate[axis][lane];
-      finest[axis][to] = from.finest[axis][lane];
-      pitch[axis][to] = from.pitch[axis][lane];
+      take_all(d, start[axis], from.start[axis]);
+      take_all(d, rate[axis], from.rate[axis]);
+      take_all(d, inverse_rate[axis], from.inverse_rate[axis]);
+      take_all(d, finest[axis], from.finest[axis]);
+      take_all(d, pitch[axis], from.pitch[axis]);
     }
-    first_cell[to] = from.first_cell[lane];
-    enters[to] = from.enters[lane];
-    end[to] = from.end[lane];
-    octant[to] = from.octant[lane];
+    take_all(d, first_cell, from.first_cell);
+    take_all(d, enters, from.enters);
+    take_all(d, end, from.end);
+    take_all(BitsTag(), octant, from.octant);
   }
 };
 
