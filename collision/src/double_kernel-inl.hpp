@@ -53,7 +53,7 @@ class DoubleDeterminants {
     v_size = hn::Mul(hn::Mul(s_size, d_size), e1_size);
     const V largest = hn::Max(hn::Max(d_size, s_size), hn::Max(e1_size, e2_size));
     const V one = hn::Set(d, 1);
-    // Far more than 12 eta (1 + largest) (1 + |first|), and less than a constant for every size.
+    // Far more than 12 eta (1 + largest) (1 + |first|), and for small sizes far less than one constant for all is.
     underflow_ = hn::IfThenElse(hn::Le(largest, hn::Set(d, Bound::largest_size)),
                                 hn::Mul(hn::Add(one, largest), hn::Set(d, std::numeric_limits<double>::min())),
                                 hn::Set(d, std::numeric_limits<double>::infinity()));

@@ -26,8 +26,7 @@ namespace surehit::detail {
 // Underflow: a product may lose half the least denormal, eta / 2. In det: eta in each component of the cross product,
 // times e, three times over, and 3 eta / 2 in the dot product; likewise in T, U and V with f, s and d; in first det:
 // |first| times that and eta / 2. With the largest size l, all of W or of what the range asks is below 12 eta (1 + l)
-// (1
-// + |first|). The bound itself multiplies eta / 2 by 3 l or less, and by 1 + |first|, twice at most. Sizes are up to
+// (1 + |first|). The bound itself multiplies eta / 2 by 3 l or less, and by 1 + |first|, twice at most. Sizes are up to
 // `largest_size`, L, so that 32 eta L (1 + |first|) holds both; it counts only where a mesh's sizes are below some
 // 2^-30, or 2^-240 in double.
 //

@@ -226,6 +226,41 @@ TYPED_TEST(BlockKernel, leaves_an_edge_undecided_and_not_what_is_clear_of_it) {
   });
 }
 
+/// The bounds of kernel_bound.hpp, to the last step of what is measured: D is 2 long, E1 and E2 are 1.
+TYPED_TEST(BlockKernel, is_certain_from_its_bounds_on) {
+  const TypeParam u = std::numeric_limits<TypeParam>::epsilon() / 2;
+  const TypeParam quarter{0.25};
+  const TypeParam half{0.5};
+  const Triangle<TypeParam> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const auto down_at = [&](TypeParam x, TypeParam y) {
+    return this->verdict(Segment<TypeParam>{{x, y, 1}, {x, y, -1}}, triangle);
+  };
+  const auto down_from = [&](TypeParam z, const QueryOptions<TypeParam>& options) {
+    return this->verdict(Ray<TypeParam>{{quarter, quarter, z}, {0, 0, -2}}, triangle, options);
+  };
+  on_every_instruction_set([&] {
+    // 66 u |D| |E| (2 |S| + |E|) = 396 u, where U is 2 x, and W is 2 (1/2 - y).
+    EXPECT_EQ(down_at(198 * u, quarter), Verdict::undecided);
+    EXPECT_EQ(down_at(199 * u, quarter), Verdict::hit);
+    EXPECT_EQ(down_at(-198 * u, quarter), Verdict::undecided);
+    EXPECT_EQ(down_at(-199 * u, quarter), Verdict::miss);
+    EXPECT_EQ(down_at(half, half - 198 * u), Verdict::undecided);
+    EXPECT_EQ(down_at(half, half - 199 * u), Verdict::hit);
+    EXPECT_EQ(down_at(half, half + 198 * u), Verdict::undecided);
+    EXPECT_EQ(down_at(half, half + 199 * u), Verdict::miss);
+    // 66 u |E|² (|S| + 2 |D|) = 66 u (1/4 + 4) = 280.5 u, where T is z.
+    EXPECT_EQ(down_from(280 * u, {}), Verdict::undecided);
+    EXPECT_EQ(down_from(281 * u, {}), Verdict::hit);
+    EXPECT_EQ(down_from(-280 * u, {}), Verdict::undecided);
+    EXPECT_EQ(down_from(-281 * u, {}), Verdict::miss);
+    // 66 u |E|² (|S| + (1 + 3) |D|) = 66 u (6 + 8) = 924 u, where 3 det - T is 6 - z.
+    EXPECT_EQ(down_from(6 - 920 * u, {.max_t = 3}), Verdict::undecided);
+    EXPECT_EQ(down_from(6 - 928 * u, {.max_t = 3}), Verdict::hit);
+    EXPECT_EQ(down_from(6 + 920 * u, {.max_t = 3}), Verdict::undecided);
+    EXPECT_EQ(down_from(6 + 928 * u, {.max_t = 3}), Verdict::miss);
+  });
+}
+
 /// A list ends anywhere among the lanes; what lies behind it is none of its triangles.
 TYPED_TEST(BlockKernel, tells_nothing_of_lanes_beyond_the_count) {
   std::vector<Triangle<TypeParam>> triangles(64, {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}});

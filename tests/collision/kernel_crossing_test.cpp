@@ -298,6 +298,20 @@ TYPED_TEST(KernelCrossing, holds_where_hill_climbing_makes_the_error_worst) {
 
 TYPED_TEST(KernelCrossing, has_little_room_to_waste) { EXPECT_GT(this->climb(6, 1'000, false), 0.02); }
 
+/// t is 1/2, and D is 2 long: 3/2 (66 u (1 + 2) + 1/2 · 66 u 2) / 2 = 198 u.
+TYPED_TEST(KernelCrossing, is_as_wide_as_its_derivation) {
+  const TypeParam u = std::numeric_limits<TypeParam>::epsilon() / 2;
+  const TypeParam quarter{0.25};
+  const TypeParam half{0.5};
+  const KernelList<TypeParam> list(Triangle<TypeParam>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const Path<TypeParam> path = Segment<TypeParam>{{quarter, quarter, 1}, {quarter, quarter, -1}};
+  on_every_instruction_set([&] {
+    const KernelFirst<TypeParam> first = list.first_from(path, 0, 1, no_limit<TypeParam>);
+    EXPECT_EQ(first.t_lower, half - 198 * u);
+    EXPECT_EQ(first.t_upper, half + 198 * u);
+  });
+}
+
 /// Else every order would be left to the narrowphase.
 TYPED_TEST(KernelCrossing, tells_hits_apart_that_are_not_close) {
   constexpr TypeParam near = 4000 * std::numeric_limits<TypeParam>::epsilon();

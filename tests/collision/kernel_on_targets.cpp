@@ -24,8 +24,8 @@ TriangleList<Scalar> list_of(const test::KernelTriangles<Scalar>& list) {
   test::KernelFirst<Scalar> first_##Scalar(const KernelPath<Scalar>& path, const test::KernelTriangles<Scalar>& list, \
                                            std::size_t from, std::uint64_t certain, Scalar limit) {                   \
     using Kernel = BlockKernel<Scalar>;                                                                               \
-    const auto of_path = list_of(list);                                                                               \
-    const auto first = Kernel::first_of(path, of_path, Kernel(path, of_path, from).crossing(), certain, limit);       \
+    const auto triangles = list_of(list);                                                                             \
+    const auto first = Kernel::first_of(path, triangles, Kernel(path, triangles, from).crossing(), certain, limit);   \
     return {first.lanes, first.t_lower, first.t_upper};                                                               \
   }                                                                                                                   \
   std::size_t lanes_##Scalar() { return hn::Lanes(hn::ScalableTag<Scalar>()); }
