@@ -13,6 +13,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "hit_rounding-inl.hpp"
@@ -32,10 +33,10 @@ namespace surehit::detail::HWY_NAMESPACE {
 ///
 /// `Visitor` is what single queries use, one for each path that may meet a triangle. `finish(index, visitor)` is called
 /// for these when they end, and `alone(index)` for each path that the lanes cannot place.
-template <typename Visitor, typename AnyPath, typename Finish, typename Alone>
+template <typename Visitor, typename Finish, typename Alone>
 class Batch {
  public:
-  Batch(const Query<float>& query, const PathRange<float>& range, std::span<const AnyPath> paths, Finish& finish,
+  Batch(const Query<float>& query, const PathRange<float>& range, const PathSpan<float>& paths, Finish& finish,
         const Alone& alone)
       : query_(query),
         range_(range),
@@ -44,9 +45,7 @@ class Batch {
         paths_(paths),
         finish_(finish),
         alone_(alone),
-        visitors_(all_lanes(Visitor(query), std::make_index_sequence<most_lanes>())) {
-    static_assert(sizeof(AnyPath) == path_size * sizeof(float));
-  }
+        visitors_(all_lanes(Visitor(query), std::make_index_sequence<most_lanes>())) {}
 
   HWY_INLINE void run() {
     if (query_.grid.levels() > 0) {
@@ -64,10 +63,16 @@ class Batch {
 
   using Kernel = typename Visitor::Kernel;
 
-  static constexpr std::size_t path_size = 6;
+  static constexpr std::size_t path_size = PathSpan<float>::numbers_each;
   /// Lanes are filled when this share of them is idle: each time one ends would cost more than it saves.
   static constexpr std::size_t idle_share = 4;
 
+  /// Made a Path only where one is wanted.
+  struct PathOfLane {
+    const PathSpan<float>& paths;
+    std::size_t index;
+    operator Path<float>() const { return paths[index]; }
+  };
   /// Triangles of a list that one path has come to, as many as the kernel takes at once.
   struct Job {
     std::uint32_t lane;
@@ -142,15 +147,15 @@ class Batch {
       placed_first_ = next_;
       const std::size_t count = std::min(lanes, paths_.size() - next_);
       next_ += count;
-      const auto* numbers = reinterpret_cast<const float*>(paths_.data() + placed_first_);
+      const float* numbers = paths_.numbers(placed_first_);
       std::array<float, path_size * most_lanes> last;  // whole lanes are read
       if (count < lanes) {
         last.fill(0);
         std::copy_n(numbers, path_size * count, last.begin());
         numbers = last.data();
       }
-      const LaneWalk::Placed placed = walk_.place(numbers, Path<float>(paths_.front()).has_end(), range_.first,
-                                                  range_.last, count, placed_, placed_kernel_paths_);
+      const LaneWalk::Placed placed =
+          walk_.place(numbers, paths_.have_ends(), range_.first, range_.last, count, placed_, placed_kernel_paths_);
       query_.statistics.paths += count - static_cast<std::size_t>(std::popcount(placed.apart));
       for (std::uint32_t apart = placed.apart; apart != 0; apart &= apart - 1) {
         alone_(placed_first_ + static_cast<std::size_t>(std::countr_zero(apart)));
@@ -195,15 +200,15 @@ class Batch {
       for (const auto& [job, verdicts, first] : std::span(open_).first(open_jobs(some))) {
         query_.statistics.undecided += static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
         const auto& [lane, from] = job;
-        const bool shorter = visitors_[lane].meet(Meeting<float, AnyPath>{
-            query_, range_, paths_[index_[lane]], kernel_path_[lane], lists_[lane], from, verdicts, first});
+        const bool shorter = visitors_[lane].meet(Meeting<float, PathOfLane>{
+            query_, range_, {paths_, index_[lane]}, kernel_path_[lane], lists_[lane], from, verdicts, first});
         done |= heed(lane, shorter);
       }
     }
     for (longer &= ~done; longer != 0; longer &= longer - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(longer));
-      const bool shorter = meet_list(query_, range_, paths_[index_[lane]], kernel_path_[lane], weights_, lists_[lane],
-                                     most_at_once, visitors_[lane]);
+      const bool shorter = meet_list(query_, range_, PathOfLane{paths_, index_[lane]}, kernel_path_[lane], weights_,
+                                     lists_[lane], most_at_once, visitors_[lane]);
       done |= heed(lane, shorter);
     }
     end_lanes(done);
@@ -263,7 +268,7 @@ class Batch {
   const PathRange<float>& range_;
   RangeWeights<float> weights_;
   LaneWalk walk_;
-  std::span<const AnyPath> paths_;
+  PathSpan<float> paths_;
   Finish& finish_;
   const Alone& alone_;
   std::size_t next_ = 0;          ///< the first path that is not placed yet
@@ -283,23 +288,22 @@ class Batch {
 
 /// Turns what `FirstHit` kept of the batch's paths into hits, as many at a time as a vector has doubles. What they
 /// cannot tell goes through the narrowphase one by one.
-template <typename AnyPath>
 class BatchRounding {
  public:
-  BatchRounding(const Query<float>& query, const PathRange<float>& range, std::span<const AnyPath> paths,
+  BatchRounding(const Query<float>& query, const PathRange<float>& range, const PathSpan<float>& paths,
                 std::span<Hit<float>> hits)
       : query_(query), range_(range), paths_(paths), hits_(hits) {}
 
   /// A path that has ended. It is written down even where it has hit nothing, which nobody could foretell.
   HWY_INLINE void add(std::size_t index, FirstHit<float>& first) {
     if (first.is_weighed()) {
-      const Path<float> path(paths_[index]);
+      const Path<float> path = paths_[index];
       hits_[index] = first.hit(query_, Narrowphase<float>(path, query_.options, range_, query_.statistics));
       return;
     }
     index_[count_] = index;
     id_[count_] = first.id(query_);
-    std::memcpy(&coordinates_[slot_size * count_], &paths_[index], sizeof(AnyPath));
+    std::memcpy(&coordinates_[slot_size * count_], paths_.numbers(index), path_size * sizeof(float));
     std::memcpy(&coordinates_[slot_size * count_ + path_size], &first.triangle(), sizeof(Triangle<float>));
     count_ += first.is_found() ? 1 : 0;
     if (count_ == hn::Lanes(DoubleTag())) flush();
@@ -317,7 +321,7 @@ class BatchRounding {
     };
     const Vectors<DoubleTag> start = vectors(0);
     Vectors<DoubleTag> direction = vectors(3);
-    if (Path<float>(paths_.front()).has_end()) {
+    if (paths_.have_ends()) {
       direction = {hn::Sub(direction.x, start.x), hn::Sub(direction.y, start.y), hn::Sub(direction.z, start.z)};
     }
     const RoundedHits<DoubleTag> rounded(d, start, direction, vectors(6), vectors(9), vectors(12));
@@ -344,7 +348,7 @@ class BatchRounding {
   static constexpr std::size_t most = 8;
 
   HWY_NOINLINE void round_alone(std::size_t i) {
-    const Path<float> path(paths_[index_[i]]);
+    const Path<float> path = paths_[index_[i]];
     const Narrowphase<float> narrowphase(path, query_.options, range_, query_.statistics);
     Candidate<float> candidate{id_[i], query_.mesh.triangle(id_[i]), {}};
     if (narrowphase.find_contact(candidate.triangle, candidate.contact)) hits_[index_[i]] = narrowphase.hit(candidate);
@@ -352,39 +356,37 @@ class BatchRounding {
 
   const Query<float>& query_;
   const PathRange<float>& range_;
-  std::span<const AnyPath> paths_;
+  PathSpan<float> paths_;
   std::span<Hit<float>> hits_;
   std::size_t count_ = 0;
-  static constexpr std::size_t path_size = 6;
+  static constexpr std::size_t path_size = PathSpan<float>::numbers_each;
   static constexpr std::size_t slot_size = 16;
   /// Of the path's start and end or direction, and of the triangle's corners. Beyond the last hit anything finite.
   alignas(64) std::array<float, slot_size* most> coordinates_ = {};
-  static_assert(sizeof(AnyPath) == path_size * sizeof(float));
   static_assert(sizeof(Triangle<float>) <= (slot_size - path_size) * sizeof(float));
   std::array<std::size_t, most> index_;
   std::array<std::uint32_t, most> id_;
 };
 
 /// Answers all paths: side by side where there are lanes and the grid's frame is one of floats, else one by one.
-template <typename Visitor, typename AnyPath, typename Finish, typename Alone>
+template <typename Visitor, typename Finish, typename Alone>
 HWY_INLINE void answer_each(const Query<float>& query, [[maybe_unused]] const PathRange<float>& range,
-                            std::span<const AnyPath> paths, [[maybe_unused]] Finish& finish, const Alone& alone) {
+                            const PathSpan<float>& paths, [[maybe_unused]] Finish& finish, const Alone& alone) {
   if (query.grid.is_empty()) return;
 #if HWY_TARGET != HWY_SCALAR
   if (query.grid.frame().has_floats && !range.is_empty()) {
-    Batch<Visitor, AnyPath, Finish, Alone>(query, range, paths, finish, alone).run();
+    Batch<Visitor, Finish, Alone>(query, range, paths, finish, alone).run();
     return;
   }
 #endif
   for (std::size_t i = 0; i < paths.size(); ++i) alone(i);
 }
 
-template <typename AnyPath>
-void find_each_first(const Query<float>& query, std::span<const AnyPath> paths, std::span<Hit<float>> hits) {
+inline void find_each_first(const Query<float>& query, const PathSpan<float>& paths, std::span<Hit<float>> hits) {
   std::fill_n(hits.begin(), paths.size(), Hit<float>{});
   if (paths.empty()) return;
-  const PathRange<float> range(paths.front(), query.options);
-  BatchRounding<AnyPath> rounding(query, range, paths, hits);
+  const PathRange<float> range(paths[0], query.options);
+  BatchRounding rounding(query, range, paths, hits);
   const auto finish = [&](std::size_t index, FirstHit<float>& first) { rounding.add(index, first); };
   const auto alone = [&](std::size_t index) {
     hits[index] = find_first<float>(query, paths[index]).value_or(Hit<float>{});
@@ -393,11 +395,10 @@ void find_each_first(const Query<float>& query, std::span<const AnyPath> paths, 
   rounding.flush();
 }
 
-template <typename AnyPath>
-void find_each_any(const Query<float>& query, std::span<const AnyPath> paths, std::span<std::uint8_t> blocked) {
+inline void find_each_any(const Query<float>& query, const PathSpan<float>& paths, std::span<std::uint8_t> blocked) {
   std::fill_n(blocked.begin(), paths.size(), std::uint8_t{0});
   if (paths.empty()) return;
-  const PathRange<float> range(paths.front(), query.options);
+  const PathRange<float> range(paths[0], query.options);
   const auto finish = [&](std::size_t index, const AnyHit<float>& any) { blocked[index] = any.is_done() ? 1 : 0; };
   const auto alone = [&](std::size_t index) { blocked[index] = find_any<float>(query, paths[index]) ? 1 : 0; };
   answer_each<AnyHit<float>>(query, range, paths, finish, alone);

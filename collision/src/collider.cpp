@@ -178,8 +178,7 @@ void Collider<Scalar>::all_hits(const Path<Scalar>& path, std::vector<Hit<Scalar
 }
 
 template <typename Scalar>
-template <typename AnyPath>
-void Collider<Scalar>::find_each_first(std::span<const AnyPath> paths, std::span<Hit<Scalar>> hits,
+void Collider<Scalar>::find_each_first(const detail::PathSpan<Scalar>& paths, std::span<Hit<Scalar>> hits,
                                        const Executor* executor, const QueryOptions<Scalar>& options,
                                        QueryStatistics* statistics) const noexcept {
   in_tasks(std::min(paths.size(), hits.size()), executor, statistics,
@@ -189,7 +188,7 @@ void Collider<Scalar>::find_each_first(std::span<const AnyPath> paths, std::span
              } else {
                const detail::Query<Scalar> asked = query(nullptr, options, nullptr, of_task);
                for (std::size_t i = first; i < first + count; ++i) {
-                 const std::optional<Hit<Scalar>> hit = detail::first_hit(asked, Path<Scalar>(paths[i]));
+                 const std::optional<Hit<Scalar>> hit = detail::first_hit(asked, paths[i]);
                  hits[i] = hit ? *hit : Hit<Scalar>{};
                }
              }
@@ -197,8 +196,7 @@ void Collider<Scalar>::find_each_first(std::span<const AnyPath> paths, std::span
 }
 
 template <typename Scalar>
-template <typename AnyPath>
-void Collider<Scalar>::find_each_any(std::span<const AnyPath> paths, std::span<std::uint8_t> blocked,
+void Collider<Scalar>::find_each_any(const detail::PathSpan<Scalar>& paths, std::span<std::uint8_t> blocked,
                                      const Executor* executor, const QueryOptions<Scalar>& options,
                                      QueryStatistics* statistics) const noexcept {
   in_tasks(std::min(paths.size(), blocked.size()), executor, statistics,
@@ -209,7 +207,7 @@ void Collider<Scalar>::find_each_any(std::span<const AnyPath> paths, std::span<s
              } else {
                const detail::Query<Scalar> asked = query(nullptr, options, nullptr, of_task);
                for (std::size_t i = first; i < first + count; ++i) {
-                 blocked[i] = detail::any_hit(asked, Path<Scalar>(paths[i])) ? 1 : 0;
+                 blocked[i] = detail::any_hit(asked, paths[i]) ? 1 : 0;
                }
              }
            });

@@ -1,5 +1,8 @@
 #include "narrowphase.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include "bounded_contact.hpp"
 #include "exact_contact.hpp"
 
@@ -84,6 +87,15 @@ template <typename Scalar>
   ++statistics_.exact_orders;
   const auto order = exact_order(path_, x.triangle, y.triangle, range_);
   return order != 0 ? order < 0 : x.id < y.id;
+}
+
+template <typename Scalar>
+void Narrowphase<Scalar>::sort(std::vector<Candidate<Scalar>>& found) const {
+  using One = Candidate<Scalar>;
+  std::sort(found.begin(), found.end(), [](const One& x, const One& y) { return x.id < y.id; });
+  const auto same_id = [](const One& x, const One& y) { return x.id == y.id; };
+  found.erase(std::unique(found.begin(), found.end(), same_id), found.end());
+  std::sort(found.begin(), found.end(), [&](const One& x, const One& y) { return comes_before(x, y); });
 }
 
 template <typename Scalar>

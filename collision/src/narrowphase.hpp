@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <vector>
 
 #include "contact.hpp"
 #include "path_range.hpp"
@@ -35,6 +35,9 @@ class Narrowphase {
 
   /// By exact t, then by id.
   [[nodiscard]] bool comes_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const;
+
+  /// Puts what was found in order, each triangle once, though it was found in every cell that lists it.
+  void sort(std::vector<Candidate<Scalar>>& found) const;
 
   /// A contact as it is reported: t, u and v rounded once.
   [[nodiscard]] Hit<Scalar> hit(const Candidate<Scalar>& candidate) const;

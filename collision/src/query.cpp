@@ -8,10 +8,9 @@
 #include "batch-inl.hpp"
 #include "query_walk-inl.hpp"
 
-// Highway exports plain functions, so each kind of query has a name for each Scalar and path.
+// Highway exports plain functions, so each kind of query has a name for each Scalar.
 // NOLINTBEGIN(bugprone-macro-parentheses): template arguments cannot have any
 #define SUREHIT_FOR_SCALARS(define) define(float) define(double)
-#define SUREHIT_FOR_PATHS(define) define(Segment) define(Ray) define(Line)
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
@@ -27,15 +26,12 @@ namespace surehit::detail::HWY_NAMESPACE {
 SUREHIT_FOR_SCALARS(SUREHIT_DEFINE)
 #undef SUREHIT_DEFINE
 
-#define SUREHIT_DEFINE(AnyPath)                                                                                      \
-  void each_first_##AnyPath(const Query<float>& query, std::span<const AnyPath<float>> paths, Hit<float>* hits) {    \
-    find_each_first(query, paths, {hits, paths.size()});                                                             \
-  }                                                                                                                  \
-  void each_any_##AnyPath(const Query<float>& query, std::span<const AnyPath<float>> paths, std::uint8_t* blocked) { \
-    find_each_any(query, paths, {blocked, paths.size()});                                                            \
-  }
-SUREHIT_FOR_PATHS(SUREHIT_DEFINE)
-#undef SUREHIT_DEFINE
+void each_first(const Query<float>& query, const PathSpan<float>& paths, Hit<float>* hits) {
+  find_each_first(query, paths, {hits, paths.size()});
+}
+void each_any(const Query<float>& query, const PathSpan<float>& paths, std::uint8_t* blocked) {
+  find_each_any(query, paths, {blocked, paths.size()});
+}
 
 }  // namespace surehit::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -62,17 +58,14 @@ namespace surehit::detail {
 SUREHIT_FOR_SCALARS(SUREHIT_EXPORT)
 #undef SUREHIT_EXPORT
 
-#define SUREHIT_EXPORT(AnyPath)                                                                                     \
-  HWY_EXPORT(each_first_##AnyPath);                                                                                 \
-  HWY_EXPORT(each_any_##AnyPath);                                                                                   \
-  void first_hits(const Query<float>& query, std::span<const AnyPath<float>> paths, Hit<float>* hits) noexcept {    \
-    HWY_DYNAMIC_DISPATCH(each_first_##AnyPath)(query, paths, hits);                                                 \
-  }                                                                                                                 \
-  void any_hits(const Query<float>& query, std::span<const AnyPath<float>> paths, std::uint8_t* blocked) noexcept { \
-    HWY_DYNAMIC_DISPATCH(each_any_##AnyPath)(query, paths, blocked);                                                \
-  }
-SUREHIT_FOR_PATHS(SUREHIT_EXPORT)
-#undef SUREHIT_EXPORT
+HWY_EXPORT(each_first);
+HWY_EXPORT(each_any);
+void first_hits(const Query<float>& query, const PathSpan<float>& paths, Hit<float>* hits) noexcept {
+  HWY_DYNAMIC_DISPATCH(each_first)(query, paths, hits);
+}
+void any_hits(const Query<float>& query, const PathSpan<float>& paths, std::uint8_t* blocked) noexcept {
+  HWY_DYNAMIC_DISPATCH(each_any)(query, paths, blocked);
+}
 
 }  // namespace surehit::detail
 #endif

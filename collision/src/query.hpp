@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "path_range.hpp"
+#include "path_span.hpp"
 #include "surehit/grid.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/hit_filter.hpp"
@@ -45,11 +46,7 @@ void all_hits(const Query<Scalar>& query, const Path<Scalar>& path, std::vector<
 
 // Batches, as long as the paths are; a miss is Hit{}. Only float has lanes to walk in.
 
-void first_hits(const Query<float>& query, std::span<const Segment<float>> paths, Hit<float>* hits) noexcept;
-void first_hits(const Query<float>& query, std::span<const Ray<float>> paths, Hit<float>* hits) noexcept;
-void first_hits(const Query<float>& query, std::span<const Line<float>> paths, Hit<float>* hits) noexcept;
-void any_hits(const Query<float>& query, std::span<const Segment<float>> paths, std::uint8_t* blocked) noexcept;
-void any_hits(const Query<float>& query, std::span<const Ray<float>> paths, std::uint8_t* blocked) noexcept;
-void any_hits(const Query<float>& query, std::span<const Line<float>> paths, std::uint8_t* blocked) noexcept;
+void first_hits(const Query<float>& query, const PathSpan<float>& paths, Hit<float>* hits) noexcept;
+void any_hits(const Query<float>& query, const PathSpan<float>& paths, std::uint8_t* blocked) noexcept;
 
 }  // namespace surehit::detail

@@ -227,13 +227,7 @@ class AllHits {
 
   /// Those that the filter accepts, in order, each once.
   void append_to(std::vector<Hit<Scalar>>& hits, const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase) {
-    const auto same_id = [](const Candidate<Scalar>& x, const Candidate<Scalar>& y) { return x.id == y.id; };
-    const auto by_id = [](const Candidate<Scalar>& x, const Candidate<Scalar>& y) { return x.id < y.id; };
-    // A triangle is found once in every cell that lists it.
-    std::sort(found_.begin(), found_.end(), by_id);
-    found_.erase(std::unique(found_.begin(), found_.end(), same_id), found_.end());
-    std::sort(found_.begin(), found_.end(),
-              [&](const Candidate<Scalar>& x, const Candidate<Scalar>& y) { return narrowphase.comes_before(x, y); });
+    narrowphase.sort(found_);
     for (const Candidate<Scalar>& candidate : found_) {
       const Hit<Scalar> hit = narrowphase.hit(candidate);
       if (query.filter == nullptr || (*query.filter)(hit)) hits.push_back(hit);

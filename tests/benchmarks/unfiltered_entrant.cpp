@@ -65,7 +65,8 @@ class UnfilteredFirst {
   explicit UnfilteredFirst(const Query<float>&) {}
   void reset() { t_ = std::numeric_limits<float>::infinity(); }
 
-  HWY_INLINE bool meet(const Meeting<float, Segmentf>& meeting) {
+  template <typename AnyPath>
+  HWY_INLINE bool meet(const Meeting<float, AnyPath>& meeting) {
     if (!(meeting.first.t_lower < t_)) return false;
     const auto lane = static_cast<std::size_t>(std::countr_zero(meeting.first.lanes));
     t_ = meeting.first.t_lower;
@@ -104,7 +105,10 @@ class UnfilteredAny {
   explicit UnfilteredAny(const Query<float>&) {}
   void reset() { is_done_ = false; }
 
-  HWY_INLINE bool meet(const Meeting<float, Segmentf>& meeting) { return is_done_ = meeting.lanes.certain != 0; }
+  template <typename AnyPath>
+  HWY_INLINE bool meet(const Meeting<float, AnyPath>& meeting) {
+    return is_done_ = meeting.lanes.certain != 0;
+  }
   [[nodiscard]] double limit() const { return 0; }
   [[nodiscard]] bool is_done() const { return is_done_; }
 

@@ -22,7 +22,9 @@ namespace surehit {
 namespace detail {
 template <typename Scalar>
 struct Query;
-}
+template <typename Scalar>
+class PathSpan;
+}  // namespace detail
 
 /// How a collider is built. No setting changes an answer.
 struct BuildOptions {
@@ -188,12 +190,10 @@ class Collider {
                 QueryStatistics*) const;
   Vector3<Scalar> find_free_point(const Segment<Scalar>&, const Hit<Scalar>&, Filter,
                                   const QueryOptions<Scalar>&) const noexcept;
-  template <typename AnyPath>
-  void find_each_first(std::span<const AnyPath>, std::span<Hit<Scalar>>, const Executor*, const QueryOptions<Scalar>&,
-                       QueryStatistics*) const noexcept;
-  template <typename AnyPath>
-  void find_each_any(std::span<const AnyPath>, std::span<std::uint8_t>, const Executor*, const QueryOptions<Scalar>&,
-                     QueryStatistics*) const noexcept;
+  void find_each_first(const detail::PathSpan<Scalar>&, std::span<Hit<Scalar>>, const Executor*,
+                       const QueryOptions<Scalar>&, QueryStatistics*) const noexcept;
+  void find_each_any(const detail::PathSpan<Scalar>&, std::span<std::uint8_t>, const Executor*,
+                     const QueryOptions<Scalar>&, QueryStatistics*) const noexcept;
 
   /// What a rebuild is made in; then it takes the place of what was.
   struct Spare {
