@@ -3,6 +3,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/consumer_project.cmake")
 
 file(REMOVE_RECURSE "${TEST_FOLDER}")
 copy_library_sources("${TEST_FOLDER}/surehit")
+separate_arguments(OPTIONS)
 configure_consumer("-DSUREHIT_SOURCE_FOLDER=${TEST_FOLDER}/surehit" ${OPTIONS})
 build_and_run_consumer()
 
