@@ -68,23 +68,40 @@ struct BatchAnswers {
   QueryStatistics of_any;
 };
 
-/// The first `count` of the paths have the same answers and statistics with an executor as without.
-template <typename Scalar, typename AnyPath>
-void expect_same_with_executor(const Collider<Scalar>& collider, const std::vector<AnyPath>& paths, std::size_t count,
-                               Executor executor, const QueryOptions<Scalar>& options = {}) {
-  const std::span<const AnyPath> some = std::span(paths).first(count);
-  const BatchAnswers<Scalar> expected(collider, some, options);
-  EXPECT_EQ(expected.of_first.paths, count);
-  BatchAnswers<Scalar>(collider, some, executor, options).expect_same_as(expected);
-}
-
-/// Those of each kind do.
+/// What the first `count` paths of each kind are answered without an executor, to be compared with any executor's.
 template <typename Scalar>
-void expect_same_with_executor(const ManyPaths<Scalar>& many, std::size_t count, Executor executor,
-                               const QueryOptions<Scalar>& options = {}) {
-  expect_same_with_executor(many.collider, many.segments, count, executor, options);
-  expect_same_with_executor(many.collider, many.rays, count, executor, options);
-  expect_same_with_executor(many.collider, many.lines, count, executor, options);
-}
+class AnswersWithoutExecutor {
+ public:
+  explicit AnswersWithoutExecutor(const ManyPaths<Scalar>& many, std::size_t count,
+                                  const QueryOptions<Scalar>& options = {})
+      : collider_(many.collider),
+        options_(options),
+        segments_(std::span(many.segments).first(count)),
+        rays_(std::span(many.rays).first(count)),
+        lines_(std::span(many.lines).first(count)),
+        of_segments_(collider_, segments_, options),
+        of_rays_(collider_, rays_, options),
+        of_lines_(collider_, lines_, options) {
+    EXPECT_EQ(of_segments_.of_first.paths, count);
+    EXPECT_EQ(of_rays_.of_first.paths, count);
+    EXPECT_EQ(of_lines_.of_first.paths, count);
+  }
+
+  void expect_same_with(Executor executor) const {
+    BatchAnswers<Scalar>(collider_, segments_, executor, options_).expect_same_as(of_segments_);
+    BatchAnswers<Scalar>(collider_, rays_, executor, options_).expect_same_as(of_rays_);
+    BatchAnswers<Scalar>(collider_, lines_, executor, options_).expect_same_as(of_lines_);
+  }
+
+ private:
+  const Collider<Scalar>& collider_;
+  QueryOptions<Scalar> options_;
+  std::span<const Segment<Scalar>> segments_;
+  std::span<const Ray<Scalar>> rays_;
+  std::span<const Line<Scalar>> lines_;
+  BatchAnswers<Scalar> of_segments_;
+  BatchAnswers<Scalar> of_rays_;
+  BatchAnswers<Scalar> of_lines_;
+};
 
 }  // namespace surehit::test

@@ -135,19 +135,19 @@ TYPED_TEST_SUITE(BatchOnExecutor, Scalars, ScalarNames);
 TYPED_TEST(BatchOnExecutor, of_any_size_answers_as_without) {
   for (const std::size_t count : {0U, 1U, 4095U, 4096U, 4097U, 9000U}) {
     SCOPED_TRACE(count);
-    expect_same_with_executor(this->many(), count, NewThreads(3));
+    AnswersWithoutExecutor(this->many(), count).expect_same_with(NewThreads(3));
   }
 }
 
 TYPED_TEST(BatchOnExecutor, in_any_order_answers_as_without) {
-  expect_same_with_executor(this->many(), 9000, &forwards);
-  expect_same_with_executor(this->many(), 9000, &backwards);
+  const AnswersWithoutExecutor expected(this->many(), 9000);
+  expected.expect_same_with(&forwards);
+  expected.expect_same_with(&backwards);
 }
 
 TYPED_TEST(BatchOnExecutor, of_any_threads_answers_as_without) {
-  for (const std::size_t count : {1U, 2U, 4U}) {
-    expect_same_with_executor(this->many(), this->most_paths, NewThreads(count));
-  }
+  const AnswersWithoutExecutor expected(this->many(), this->most_paths);
+  for (const std::size_t count : {1U, 2U, 4U}) expected.expect_same_with(NewThreads(count));
 }
 
 TYPED_TEST(BatchOnExecutor, with_options_answers_as_without) {
@@ -155,7 +155,7 @@ TYPED_TEST(BatchOnExecutor, with_options_answers_as_without) {
        {QueryOptions<TypeParam>{.min_t = TypeParam{0.25}, .max_t = TypeParam{0.75}, .culling = Culling::back},
         QueryOptions<TypeParam>{.ignored_triangle = 7, .ignore_start_contact = true, .ignore_end_contact = true},
         QueryOptions<TypeParam>{.mask = 0}}) {
-    expect_same_with_executor(this->many(), 9000, NewThreads(2), options);
+    AnswersWithoutExecutor(this->many(), 9000, options).expect_same_with(NewThreads(2));
   }
 }
 
@@ -232,12 +232,15 @@ TYPED_TEST(BatchOnExecutor, answers_the_same_in_any_floating_point_mode_of_its_t
   const TypeParam tiny = 1000 * std::numeric_limits<TypeParam>::denorm_min();
   for (const TypeParam factor : {TypeParam{1}, tiny}) {
     const ManyPaths<TypeParam> many(placed<TypeParam>(mesh, factor, {0, 0, 0}), 4500);
+    const std::span<const Segment<TypeParam>> segments(many.segments);
+    const QueryOptions<TypeParam> options;
+    const BatchAnswers<TypeParam> expected(many.collider, segments, options);
     for (const FloatingPointMode& mode :
          {FloatingPointMode{"flush", FE_TONEAREST, true}, FloatingPointMode{"upward", FE_UPWARD, false},
           FloatingPointMode{"downward_and_flush", FE_DOWNWARD, true}}) {
       SCOPED_TRACE(mode.name);
       NewThreads threads(2, mode);
-      expect_same_with_executor(many.collider, many.segments, 4500, threads);
+      BatchAnswers<TypeParam>(many.collider, segments, threads, options).expect_same_as(expected);
       EXPECT_TRUE(threads.keeps_modes());
     }
   }
