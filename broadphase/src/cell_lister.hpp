@@ -23,11 +23,11 @@ class CellLister {
   /// if they may not grow, they are too many as soon as there is no room.
   CellLister(CellEntries& entries, bool may_grow, const CellRange& cells, std::uint32_t size, const CellPoint& padding);
 
-  /// A triangle whose padded box overlaps some of the cells. Entries keep the order in which triangles are added.
-  void add(std::uint32_t triangle, const Corners& corners) {
-    const auto& [a, b, c] = corners;
-    const Cell first = cell_of(a.min(b).min(c) - padding_).max(first_);
-    const Cell last = cell_of(a.max(b).max(c) + padding_).min(last_);
+  /// A triangle whose box, once it is padded, overlaps some of the cells. Entries keep the order in which triangles are
+  /// added.
+  void add(std::uint32_t triangle, const Corners& corners, const PaddedBox& box) {
+    const Cell first = cell_of(box.low - padding_).max(first_);
+    const Cell last = cell_of(box.high + padding_).min(last_);
     const Cell more = last - first;
     assert(more.minCoeff() >= 0);
     if (more.maxCoeff() > 1) {
@@ -52,12 +52,9 @@ class CellLister {
 
   /// Of one more cell on some axes, or none.
   void add_block(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& more) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const auto k = static_cast<std::size_t>(axis);
-      for (std::size_t i = 0; i < 3; ++i) lanes_.corners[i][k][filled_] = corners[i][axis];
-      lanes_.low[k][filled_] = first[axis];
-      lanes_.more[k][filled_] = more[axis];
-    }
+    for (std::size_t i = 0; i < 3; ++i) lanes_.corners[i][filled_] = corners[i];
+    lanes_.low[filled_] = first;
+    lanes_.more[filled_] = more;
     triangles_[filled_] = triangle;
     if (++filled_ == OverlapLanes::count) ask();
   }

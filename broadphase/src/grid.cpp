@@ -92,6 +92,7 @@ class GridBuild {
         mesh_(mesh),
         executor_(executor),
         crowded_(options.crowded == 0 ? std::numeric_limits<std::size_t>::max() : options.crowded) {
+    scratch.boxes_.resize(mesh.triangle_count());
     const std::size_t budget =
         std::min<std::size_t>(std::max(free_entries, entries_per_triangle * mesh.triangle_count()),
                               std::numeric_limits<std::uint32_t>::max());
@@ -103,7 +104,6 @@ class GridBuild {
       if (try_list_all(budget)) break;
       for (double& cells : wished) cells = std::max(1.0, std::floor(cells / 2));
     }
-    measure_triangles();
     emit_all();
     shrink_division();
   }
@@ -138,29 +138,23 @@ class GridBuild {
     for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame.padding(axis);
   }
 
-  void measure_triangles() {
-    scratch_.boxes_.resize(mesh_.triangle_count());
-    detail::in_parts(executor_, scratch_.boxes_.size(), triangles_in_a_part, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const detail::PaddedPoint& a = scratch_.points_[mesh_.corner(i, 0)];
-        const detail::PaddedPoint& b = scratch_.points_[mesh_.corner(i, 1)];
-        const detail::PaddedPoint& c = scratch_.points_[mesh_.corner(i, 2)];
-        scratch_.boxes_[i] = {a.min(b).min(c), a.max(b).max(c)};
-      }
-    });
-  }
-
   /// Finds which cells the triangles meet, `id(i)` for each i from `first` to below `last`, unless these are more than
-  /// so many entries.
-  template <typename Id>
+  /// so many entries. Among the top cells, where each triangle comes once, it writes down their boxes.
+  template <bool is_top, typename Id>
   bool try_find(std::size_t first, std::size_t last, const Id& id, const detail::CellRange& cells, std::uint32_t size,
                 std::size_t most_entries, detail::CellEntries& entries, bool may_grow) const {
     detail::CellLister lister(entries, may_grow, cells, size, padding_);
     const auto& points = scratch_.points_;
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t triangle = id(i);
-      lister.add(triangle, {points[mesh_.corner(triangle, 0)], points[mesh_.corner(triangle, 1)],
-                            points[mesh_.corner(triangle, 2)]});
+      const detail::CellLister::Corners corners = {points[mesh_.corner(triangle, 0)], points[mesh_.corner(triangle, 1)],
+                                                   points[mesh_.corner(triangle, 2)]};
+      detail::PaddedBox& box = scratch_.boxes_[triangle];
+      if constexpr (is_top) {
+        const auto& [a, b, c] = corners;
+        box = {a.min(b).min(c), a.max(b).max(c)};
+      }
+      lister.add(triangle, corners, box);
       if (entries.count > most_entries) return false;
     }
     lister.finish();
@@ -186,7 +180,7 @@ class GridBuild {
                     bool may_grow) const {
     entries.make_room(usual_entries * (last - first));
     const auto id = [](std::size_t i) { return static_cast<std::uint32_t>(i); };
-    return try_find(first, last, id, {{0, 0, 0}, grid_.frame_.cells}, division, most_entries, entries, may_grow);
+    return try_find<true>(first, last, id, {{0, 0, 0}, grid_.frame_.cells}, division, most_entries, entries, may_grow);
   }
 
   /// The same by the executor's tasks. False as well if some part takes more room than most: tasks cannot ask for it.
@@ -294,7 +288,8 @@ class GridBuild {
     // The brick of no number is no one's: a word of zeros would be that of an empty cell not yet measured.
     const std::size_t first = std::max<std::size_t>(grid_.bricks_.size(), Grid::brick_size);
     const std::size_t most_entries = std::min(most_growth * ids.size(), ids.size() + spare_entries_);
-    if (first >= most_brick_cells || !try_find(0, ids.size(), id, cells, size, most_entries, lists.entries, true)) {
+    if (first >= most_brick_cells ||
+        !try_find<false>(0, ids.size(), id, cells, size, most_entries, lists.entries, true)) {
       return 0;
     }
     sort_entries({&lists.entries, 1}, Grid::brick_size, lists);

@@ -32,21 +32,27 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
   const V step = hn::Set(d, size);
 
   for (std::size_t lane = 0; lane < OverlapLanes::count; lane += hn::Lanes(d)) {
+    const auto load = [&](const OverlapLanes::Points& points, V(&axes)[3]) {
+      V padding_lane;
+      hn::LoadInterleaved4(d, points[lane].data(), axes[0], axes[1], axes[2], padding_lane);
+    };
     V corners[3][3];
+    for (std::size_t i = 0; i < 3; ++i) load(lanes.corners[i], corners[i]);
+    V first[3];
+    load(lanes.low, first);
+    V more[3];
+    load(lanes.more, more);
     V half[3];
     M has_another[3];
     V extent = hn::Zero(d);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const V first = hn::Load(d, &lanes.low[axis][lane]);
-      const V centre = hn::MulAdd(first, step, hn::Set(d, size / 2));  // exact
-      for (std::size_t i = 0; i < 3; ++i) {
-        corners[i][axis] = hn::Sub(hn::Load(d, &lanes.corners[i][axis][lane]), centre);
-      }
+      const V centre = hn::MulAdd(first[axis], step, hn::Set(d, size / 2));  // exact
+      for (V(&corner)[3] : corners) corner[axis] = hn::Sub(corner[axis], centre);
       const V low = hn::Min(hn::Min(corners[0][axis], corners[1][axis]), corners[2][axis]);
       const V high = hn::Max(hn::Max(corners[0][axis], corners[1][axis]), corners[2][axis]);
       extent = hn::Max(extent, hn::Sub(high, low));
       half[axis] = hn::Set(d, size / 2 + padding[axis]);
-      has_another[axis] = hn::Gt(hn::Load(d, &lanes.more[axis][lane]), hn::Zero(d));
+      has_another[axis] = hn::Gt(more[axis], hn::Zero(d));
     }
     V edges[3][3];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -129,8 +135,8 @@ std::size_t write_from_lanes(const OverlapLanes& lanes, const OverlapLanes::Row<
   std::size_t written = 0;
   for (std::size_t lane = 0; lane < count; ++lane) {
     // Exact: cells are no more than floats can count.
-    const float place = (lanes.low[0][lane] - order.first[0]) + (lanes.low[1][lane] - order.first[1]) * row +
-                        (lanes.low[2][lane] - order.first[2]) * layer;
+    const PaddedPoint& low = lanes.low[lane];
+    const float place = (low[0] - order.first[0]) + (low[1] - order.first[1]) * row + (low[2] - order.first[2]) * layer;
     const auto first = hn::Set(d, static_cast<std::uint32_t>(static_cast<std::int32_t>(place)));
     const auto triangle = hn::Set(d, triangles[lane]);
     for (std::size_t i = 0; i < beyond.size(); i += hn::Lanes(d)) {

@@ -4,20 +4,29 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "surehit/grid.hpp"
 #include "triangle_overlap.hpp"
 
 namespace surehit::detail {
 
-/// Triangles side by side, as vectors load them, each with a block of up to 2 × 2 × 2 cells.
+/// Triangles, many of which are asked at once, each with a block of up to 2 × 2 × 2 cells. Points are stored whole:
+/// vectors that part them into axes cost less than to store each coordinate in its place.
 struct OverlapLanes {
   static constexpr std::size_t count = 16;
   static constexpr std::uint32_t cells_of_a_block = 8;
   template <typename T>
   struct alignas(count * sizeof(T)) Row : std::array<T, count> {};
+  using Points = std::array<PaddedPoint, count>;
 
-  std::array<std::array<Row<float>, 3>, 3> corners = {};  ///< of corner and axis
-  std::array<Row<float>, 3> low = {};                     ///< the block's first cell
-  std::array<Row<float>, 3> more = {};                    ///< 1 if it has another on the axis, else 0
+  std::array<Points, 3> corners;
+  Points low;   ///< the block's first cell
+  Points more;  ///< 1 if it has another on the axis, else 0
+
+  OverlapLanes() {
+    for (Points& corner : corners) corner.fill(PaddedPoint::Zero());
+    low.fill(PaddedPoint::Zero());
+    more.fill(PaddedPoint::Zero());
+  }
 };
 
 /// Asks for each lane what `TriangleOverlap` tells of one triangle: bit x + 2 y + 4 z is whether it meets the cell that

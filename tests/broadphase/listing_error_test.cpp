@@ -32,10 +32,11 @@ class ListingError : public CellPointDraws, public testing::WithParamInterface<s
 
   static bool is_listed_in_lanes(const Case& drawn, float padding) {
     OverlapLanes lanes;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::size_t i = 0; i < 3; ++i) lanes.corners[i][axis].fill(drawn.corners[i][axis]);
-      lanes.low[axis].fill(drawn.cell[axis]);
-    }
+    const auto padded = [](const detail::CellPoint& point) {
+      return detail::PaddedPoint(point[0], point[1], point[2], 0);
+    };
+    for (std::size_t i = 0; i < 3; ++i) lanes.corners[i].fill(padded(drawn.corners[i]));
+    lanes.low.fill(padded(drawn.cell));
     OverlapLanes::Row<std::int32_t> overlaps;
     detail::find_overlaps(lanes, {padding, padding, padding}, 1, overlaps);
     return overlaps.front() != 0;

@@ -81,9 +81,10 @@ class OverlapLanesIn : public CellPointDraws, public testing::WithParamInterface
     OverlapLanes lanes;
     for (std::size_t lane = 0; lane < blocks.size(); ++lane) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < 3; ++i) lanes.corners[i][axis][lane] = blocks[lane].corners[i][axis];
-        lanes.low[axis][lane] = static_cast<float>(blocks[lane].first[axis]);
-        lanes.more[axis][lane] = static_cast<float>(blocks[lane].count[axis] - 1);
+        const auto k = static_cast<Eigen::Index>(axis);
+        for (std::size_t i = 0; i < 3; ++i) lanes.corners[i][lane][k] = blocks[lane].corners[i][axis];
+        lanes.low[lane][k] = static_cast<float>(blocks[lane].first[axis]);
+        lanes.more[lane][k] = static_cast<float>(blocks[lane].count[axis] - 1);
       }
     }
     OverlapLanes::Row<std::int32_t> overlaps;
