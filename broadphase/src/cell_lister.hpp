@@ -66,6 +66,9 @@ class CellLister {
   /// Asks what is in the lanes, and makes entries of the answers.
   void ask();
 
+  OverlapLanes lanes_;
+  OverlapLanes::Row<std::uint32_t> triangles_;
+  std::size_t filled_ = 0;
   CellEntries& entries_;
   bool may_grow_;
   float size_;
@@ -75,9 +78,6 @@ class CellLister {
   Cell first_;
   Cell last_;
   CellOrder order_;
-  OverlapLanes lanes_;
-  OverlapLanes::Row<std::uint32_t> triangles_;
-  std::size_t filled_ = 0;
 };
 
 /// Sorts the entries of so many cells into lists, by counting.

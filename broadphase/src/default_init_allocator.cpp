@@ -16,7 +16,8 @@ void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
   const std::uintptr_t first = (begin + large_page - 1) & -large_page;
   const std::uintptr_t last = (begin + bytes) & -large_page;
   if (bytes < large_page || first >= last) return;
-  madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);  // where it is refused, nothing is lost
+  char* const pages = static_cast<char*>(memory) + (first - begin);
+  madvise(pages, last - first, MADV_HUGEPAGE);  // where it is refused, nothing is lost
 #endif
 }
 

@@ -191,14 +191,15 @@ void measure_empty_space(std::span<std::uint32_t, Grid::brick_size> words) {
   BitMatrix lower = {};
   BitMatrix upper = {};
   for (std::uint32_t octant = 0; octant < octants; ++octant) {
+    const std::size_t row = std::size_t{4} * octant;
     const std::uint64_t two = grown(occupied, octant);
     const std::uint64_t three = grown(two, octant);
     const std::uint64_t four = grown(three, octant);
     // 1 where a cube of two cells is not empty, else 2 where one of three is not, and so on up to 4.
     const std::array<std::uint64_t, 3> bits = {two | (four & ~three), four & ~two, ~four};
     for (std::size_t b = 0; b < bits.size(); ++b) {
-      lower[4 * octant + b] = static_cast<std::uint32_t>(bits[b] & ~occupied);
-      upper[4 * octant + b] = static_cast<std::uint32_t>((bits[b] & ~occupied) >> 32);
+      lower[row + b] = static_cast<std::uint32_t>(bits[b] & ~occupied);
+      upper[row + b] = static_cast<std::uint32_t>((bits[b] & ~occupied) >> 32);
     }
   }
   transpose(lower);

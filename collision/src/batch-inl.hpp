@@ -304,7 +304,8 @@ class BatchRounding {
     index_[count_] = index;
     id_[count_] = first.id(query_);
     std::memcpy(&coordinates_[slot_size * count_], paths_.numbers(index), path_size * sizeof(float));
-    std::memcpy(&coordinates_[slot_size * count_ + path_size], &first.triangle(), sizeof(Triangle<float>));
+    const void* const triangle = &first.triangle();  // nine floats, as the assertion below says
+    std::memcpy(&coordinates_[slot_size * count_ + path_size], triangle, 9 * sizeof(float));
     count_ += first.is_found() ? 1 : 0;
     if (count_ == hn::Lanes(DoubleTag())) flush();
   }
@@ -363,7 +364,7 @@ class BatchRounding {
   static constexpr std::size_t slot_size = 16;
   /// Of the path's start and end or direction, and of the triangle's corners. Beyond the last hit anything finite.
   alignas(64) std::array<float, slot_size* most> coordinates_ = {};
-  static_assert(sizeof(Triangle<float>) <= (slot_size - path_size) * sizeof(float));
+  static_assert(sizeof(Triangle<float>) == 9 * sizeof(float) && 9 <= slot_size - path_size);
   std::array<std::size_t, most> index_;
   std::array<std::uint32_t, most> id_;
 };

@@ -14,10 +14,12 @@ void prefer_large_pages(void* memory, std::size_t bytes) noexcept;
 /// Leaves numbers as the memory holds them where a vector grows, for those who write all of them anyway.
 template <typename T>
 struct DefaultInitAllocator : std::allocator<T> {
+  // NOLINTBEGIN(readability-identifier-naming): what allocators are asked for
   template <typename U>
   struct rebind {
     using other = DefaultInitAllocator<U>;
   };
+  // NOLINTEND(readability-identifier-naming)
 
   [[nodiscard]] T* allocate(std::size_t count) {
     T* memory = std::allocator<T>::allocate(count);
