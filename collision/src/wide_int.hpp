@@ -104,7 +104,6 @@ class WideInt {
     size_ = a.size_ + b.size_;
     std::fill_n(limb_, size_, std::uint64_t{0});
     for (int i = 0; i < a.size_; ++i) {
-      if (a.limb_[i] == 0) continue;  // most of them, where coordinates are of very different magnitudes
       std::uint64_t carry = 0;
       for (int j = 0; j < b.size_; ++j) {
         const Uint128 sum = Uint128{a.limb_[i]} * b.limb_[j] + limb_[i + j] + carry;
