@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <type_traits>
 #include <utility>
 
 #include "exact_contact.hpp"
@@ -183,15 +182,7 @@ void Collider<Scalar>::find_each_first(const detail::PathSpan<Scalar>& paths, st
                                        QueryStatistics* statistics) const noexcept {
   in_tasks(std::min(paths.size(), hits.size()), executor, statistics,
            [&](std::size_t first, std::size_t count, QueryStatistics& of_task) {
-             if constexpr (std::is_same_v<Scalar, float>) {
-               detail::first_hits(query(nullptr, options, nullptr, of_task), paths.subspan(first, count), &hits[first]);
-             } else {
-               const detail::Query<Scalar> asked = query(nullptr, options, nullptr, of_task);
-               for (std::size_t i = first; i < first + count; ++i) {
-                 const std::optional<Hit<Scalar>> hit = detail::first_hit(asked, paths[i]);
-                 hits[i] = hit ? *hit : Hit<Scalar>{};
-               }
-             }
+             detail::first_hits(query(nullptr, options, nullptr, of_task), paths.subspan(first, count), &hits[first]);
            });
 }
 
@@ -201,15 +192,7 @@ void Collider<Scalar>::find_each_any(const detail::PathSpan<Scalar>& paths, std:
                                      QueryStatistics* statistics) const noexcept {
   in_tasks(std::min(paths.size(), blocked.size()), executor, statistics,
            [&](std::size_t first, std::size_t count, QueryStatistics& of_task) {
-             if constexpr (std::is_same_v<Scalar, float>) {
-               detail::any_hits(query(nullptr, options, nullptr, of_task), paths.subspan(first, count),
-                                &blocked[first]);
-             } else {
-               const detail::Query<Scalar> asked = query(nullptr, options, nullptr, of_task);
-               for (std::size_t i = first; i < first + count; ++i) {
-                 blocked[i] = detail::any_hit(asked, paths[i]) ? 1 : 0;
-               }
-             }
+             detail::any_hits(query(nullptr, options, nullptr, of_task), paths.subspan(first, count), &blocked[first]);
            });
 }
 

@@ -60,11 +60,25 @@ SUREHIT_FOR_SCALARS(SUREHIT_EXPORT)
 
 HWY_EXPORT(each_first);
 HWY_EXPORT(each_any);
+template <>
 void first_hits(const Query<float>& query, const PathSpan<float>& paths, Hit<float>* hits) noexcept {
   HWY_DYNAMIC_DISPATCH(each_first)(query, paths, hits);
 }
+template <>
 void any_hits(const Query<float>& query, const PathSpan<float>& paths, std::uint8_t* blocked) noexcept {
   HWY_DYNAMIC_DISPATCH(each_any)(query, paths, blocked);
+}
+template <>
+void first_hits(const Query<double>& query, const PathSpan<double>& paths, Hit<double>* hits) noexcept {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    hits[i] = first_hit(query, paths[i]).value_or(Hit<double>{});
+  }
+}
+template <>
+void any_hits(const Query<double>& query, const PathSpan<double>& paths, std::uint8_t* blocked) noexcept {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    blocked[i] = any_hit(query, paths[i]) ? 1 : 0;
+  }
 }
 
 }  // namespace surehit::detail

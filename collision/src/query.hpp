@@ -44,9 +44,11 @@ template <typename Scalar>
 template <typename Scalar>
 void all_hits(const Query<Scalar>& query, const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits);
 
-// Batches, as long as the paths are; a miss is Hit{}. Only float has lanes to walk in.
+// Batches, as long as the paths are; a miss is Hit{}. Only float has lanes to walk in: in double it is one by one.
 
-void first_hits(const Query<float>& query, const PathSpan<float>& paths, Hit<float>* hits) noexcept;
-void any_hits(const Query<float>& query, const PathSpan<float>& paths, std::uint8_t* blocked) noexcept;
+template <typename Scalar>
+void first_hits(const Query<Scalar>& query, const PathSpan<Scalar>& paths, Hit<Scalar>* hits) noexcept;
+template <typename Scalar>
+void any_hits(const Query<Scalar>& query, const PathSpan<Scalar>& paths, std::uint8_t* blocked) noexcept;
 
 }  // namespace surehit::detail
