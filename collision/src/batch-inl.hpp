@@ -28,8 +28,9 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Paths of one kind, walked side by side. A lane whose path has come to an occupied cell meets that cell's list alone,
-/// a vector of triangles at a time; a lane whose path has ended is filled with the next one.
+/// Paths of one kind, walked side by side, some vectors of them: while one waits for its cells, the next one steps. A
+/// path that has come to an occupied cell meets that cell's list alone, a vector of triangles at a time; where one has
+/// ended, the next one takes its place.
 ///
 /// `Visitor` is what single queries use, one for each path that may meet a triangle. `finish(index, visitor)` is called
 /// for these when they end, and `alone(index)` for each path that the lanes cannot place.
@@ -45,7 +46,7 @@ class Batch {
         paths_(paths),
         finish_(finish),
         alone_(alone),
-        visitors_(all_lanes(Visitor(query), std::make_index_sequence<most_lanes>())) {}
+        visitors_(for_all_paths(Visitor(query), std::make_index_sequence<most_paths>())) {}
 
   HWY_INLINE void run() {
     if (query_.grid.levels() > 0) {
@@ -56,31 +57,37 @@ class Batch {
   }
 
  private:
-  template <std::size_t... lane>
-  static std::array<Visitor, most_lanes> all_lanes(const Visitor& visitor, std::index_sequence<lane...>) {
-    return {((void)lane, visitor)...};
+  /// Paths at once, each in its slot: of vector i those from i most_lanes on. More would gain little and take stack.
+  static constexpr std::size_t most_paths = 48;
+  static constexpr std::size_t vectors = most_paths / most_lanes;
+  static_assert(most_paths % most_lanes == 0 && most_paths <= 64);  // a bit each in a set of slots
+
+  template <std::size_t... slot>
+  static std::array<Visitor, most_paths> for_all_paths(const Visitor& visitor, std::index_sequence<slot...>) {
+    return {((void)slot, visitor)...};
   }
 
   using Kernel = typename Visitor::Kernel;
 
   static constexpr std::size_t path_size = PathSpan<float>::numbers_each;
-  /// Lanes are filled when this share of them is idle: each time one ends would cost more than it saves.
+  /// A vector's lanes are filled when this share of them is idle: each time one ends would cost more than it saves.
   static constexpr std::size_t idle_share = 4;
 
   /// Made a Path only where one is wanted.
-  struct PathOfLane {
+  struct PathOfSlot {
     const PathSpan<float>& paths;
     std::size_t index;
     operator Path<float>() const { return paths[index]; }
   };
-  /// Triangles of a list that one path has come to, as many as the kernel takes at once.
+  /// Triangles of a list that the path of a slot has come to, as many as the kernel takes at once.
   struct Job {
-    std::uint32_t lane;
-    std::uint32_t from;
+    std::uint16_t slot;
+    std::uint16_t from;  ///< counted from those that are jobs already
   };
-  /// What the kernel says of one that the path may meet.
+  /// What the kernel says of a job's triangles, if the path may meet one of them.
   struct Open {
-    Job job;
+    std::size_t slot;
+    std::size_t from;
     Lanes lanes;
     FirstLanes<float> first;
   };
@@ -90,38 +97,59 @@ class Batch {
     LaneFloats det;
     LaneFloats s_size;
   };
-  /// Of a list, so many triangles become jobs; the few that are longer are finished one after the other.
-  static constexpr std::size_t most_at_once = 32;
+  /// So many triangles of each list become jobs before the verdicts on any of them are heeded. Where any hit will do,
+  /// the rest of a list is often not asked for.
+  static constexpr std::size_t most_at_once = Visitor::wants_order ? 64 : 32;
   static_assert(most_at_once % most_lanes == 0);
   /// The kernel is asked about so many jobs before anything is done about its verdicts: what is kept of each takes
   /// stack.
-  static constexpr std::size_t most_jobs = 6;
+  static constexpr std::size_t most_jobs = 256 / most_lanes;
 
   template <bool has_levels>
   HWY_INLINE void run_levels() {
-    const std::size_t lanes = hn::Lanes(FloatTag());
-    const std::uint32_t all = static_cast<std::uint32_t>((std::uint64_t{1} << lanes) - 1);
+    const BitsTag du;
     for (;;) {
-      const std::uint32_t idle = all & ~walking_;
-      if (static_cast<std::size_t>(std::popcount(idle)) * idle_share >= lanes) fill<has_levels>(idle);
+      for (std::size_t i = 0; i < vectors; ++i) fill<has_levels>(i);
       if (walking_ == 0) return;
       query_.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking_));
-      const LaneWalk::Cells cells = walk_.look<has_levels>(lanes_, walking_);
-      const BitsTag du;
-      const auto lists = hn::Eq(hn::And(cells.word, hn::Set(du, 15U)), hn::Zero(du));
-      if (const auto standing = static_cast<std::uint32_t>(bits_of(du, lists)) & walking_; standing != 0) {
-        alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_lanes> words;
-        hn::Store(cells.word, du, words.data());
-        meet_lists(walk_.meet_boxes(cells, standing, lanes_), words);
+      // Each loop does one thing for all vectors, so that they do not wait for each other.
+      const std::size_t used = (static_cast<std::size_t>(std::bit_width(walking_)) + most_lanes - 1) / most_lanes;
+      for (std::size_t i = 0; i < used; ++i) {
+        cells_[i] = walk_.look<has_levels>(lanes_[i], of_vector(i, walking_));
       }
-      const std::uint32_t still = walk_.advance(cells, walking_, lanes_);
-      end_lanes(walking_ & ~still);
+      std::uint64_t arriving = 0;
+      for (std::size_t i = 0; i < used; ++i) {
+        const auto lists = hn::Eq(hn::And(cells_[i].word, hn::Set(du, 15U)), hn::Zero(du));
+        const auto standing = static_cast<std::uint32_t>(bits_of(du, lists)) & of_vector(i, walking_);
+        arriving |= slots_of(i, walk_.meet_boxes(cells_[i], standing, lanes_[i]));
+        hn::Store(cells_[i].word, du, &words_[i * most_lanes]);
+      }
+      meet_lists(arriving);
+      std::uint64_t still = 0;
+      for (std::size_t i = 0; i < used; ++i) {
+        still |= slots_of(i, walk_.advance(cells_[i], of_vector(i, walking_), lanes_[i]));
+      }
+      end_paths(walking_ & ~still);
     }
   }
 
-  /// Puts paths that are placed but not yet walked into idle lanes.
+  // Sets of lanes and of slots have a bit for each.
+
+  static std::uint32_t of_vector(std::size_t vector, std::uint64_t slots) {
+    constexpr std::uint64_t all = (std::uint64_t{1} << most_lanes) - 1;
+    return static_cast<std::uint32_t>(slots >> vector * most_lanes & all);
+  }
+  static std::uint64_t slots_of(std::size_t vector, std::uint32_t lanes) {
+    return std::uint64_t{lanes} << vector * most_lanes;
+  }
+
+  /// Puts paths that are placed but not yet walked into a vector's idle lanes, if these are many enough.
   template <bool has_levels>
-  HWY_INLINE void fill(std::uint32_t idle) {
+  HWY_INLINE void fill(std::size_t vector) {
+    const std::size_t lanes = hn::Lanes(FloatTag());
+    const std::uint32_t all = static_cast<std::uint32_t>((std::uint64_t{1} << lanes) - 1);
+    std::uint32_t idle = all & ~of_vector(vector, walking_);
+    if (static_cast<std::size_t>(std::popcount(idle)) * idle_share < lanes) return;
     while (idle != 0) {
       if (waiting_ == 0 && !place_next<has_levels>()) break;
       alignas(most_lanes * sizeof(float)) LaneIndices from_lane = {};
@@ -130,12 +158,12 @@ class Batch {
         const auto from = static_cast<std::size_t>(std::countr_zero(waiting_));
         const auto to = static_cast<std::size_t>(std::countr_zero(idle));
         from_lane[to] = static_cast<std::int32_t>(from);
-        kernel_path_[to] = placed_kernel_paths_.at(from);
-        index_[to] = placed_first_ + from;
+        kernel_path_[vector * most_lanes + to] = placed_kernel_paths_.at(from);
+        index_[vector * most_lanes + to] = placed_first_ + from;
         filled |= std::uint32_t{1} << to;
       }
-      lanes_.take(filled, placed_, from_lane);
-      walking_ |= filled;
+      lanes_[vector].take(filled, placed_, from_lane);
+      walking_ |= slots_of(vector, filled);
     }
   }
 
@@ -177,59 +205,70 @@ class Batch {
     return (inside & ~leaving) | walk_.advance(cells, leaving, placed_);
   }
 
-  /// Lets these lanes' paths meet the lists of their cells, and ends those that are done. The kernel runs over some
-  /// lists, of whatever length, before anything is done about its verdicts: neither can be foretold.
-  HWY_INLINE void meet_lists(std::uint32_t arriving, const std::array<std::uint32_t, most_lanes>& words) {
-    const std::size_t lanes = hn::Lanes(hn::ScalableTag<float>());
-    std::size_t jobs = 0;
-    std::uint32_t longer = 0;
-    for (; arriving != 0; arriving &= arriving - 1) {
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(arriving));
-      const TriangleList<float>& list = lists_[lane] = list_of(query_, CellWord(words[lane]));
+  /// Lets these paths meet the lists of their cells, and ends those that are done. The kernel runs over some lists, of
+  /// whatever length, before anything is done about its verdicts: neither can be foretold.
+  HWY_INLINE void meet_lists(std::uint64_t arriving) {
+    for (std::uint64_t left = arriving; left != 0; left &= left - 1) {
+      const auto slot = static_cast<std::size_t>(std::countr_zero(left));
+      const TriangleList<float>& list = lists_[slot] = list_of(query_, CellWord(words_[slot]));
       prefetch(list);
       query_.statistics.candidates += list.count;
-      for (std::size_t i = 0; i * lanes < most_at_once; ++i) {
-        jobs_[jobs + i] = {lane, static_cast<std::uint32_t>(i * lanes)};
+    }
+    std::uint64_t done = 0;
+    for (std::size_t from = 0; arriving != 0; from += most_at_once) {
+      std::uint64_t longer = 0;
+      const std::size_t jobs = list_jobs(arriving, from, longer);
+      for (std::size_t first_job = 0; first_job < jobs; first_job += most_jobs) {
+        const auto some = std::span(jobs_).subspan(first_job, std::min(jobs - first_job, most_jobs));
+        for (const auto& [slot, first_triangle, verdicts, first] : std::span(open_).first(open_jobs(some, from))) {
+          query_.statistics.undecided +=
+              static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
+          const bool shorter = visitors_[slot].meet(
+              Meeting<float, PathOfSlot>{query_, range_, PathOfSlot{paths_, index_[slot]}, kernel_path_[slot],
+                                         lists_[slot], first_triangle, verdicts, first});
+          done |= heed(slot, shorter);
+        }
       }
-      jobs += (std::min(list.count, most_at_once) + lanes - 1) / lanes;
-      longer |= std::uint32_t{list.count > most_at_once} << lane;
+      arriving = longer & ~done;
     }
-    std::uint32_t done = 0;
-    for (std::size_t first_job = 0; first_job < jobs; first_job += most_jobs) {
-      const auto some = std::span(jobs_).subspan(first_job, std::min(jobs - first_job, most_jobs));
-      for (const auto& [job, verdicts, first] : std::span(open_).first(open_jobs(some))) {
-        query_.statistics.undecided += static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
-        const auto& [lane, from] = job;
-        const bool shorter = visitors_[lane].meet(Meeting<float, PathOfLane>{
-            query_, range_, {paths_, index_[lane]}, kernel_path_[lane], lists_[lane], from, verdicts, first});
-        done |= heed(lane, shorter);
-      }
-    }
-    for (longer &= ~done; longer != 0; longer &= longer - 1) {
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(longer));
-      const bool shorter = meet_list(query_, range_, PathOfLane{paths_, index_[lane]}, kernel_path_[lane], weights_,
-                                     lists_[lane], most_at_once, visitors_[lane]);
-      done |= heed(lane, shorter);
-    }
-    end_lanes(done);
+    end_paths(done);
   }
 
-  /// Does what a lane's visitor has come to; returns the lane's bit if that is the end.
-  HWY_INLINE std::uint32_t heed(std::uint32_t lane, bool shorter) {
+  /// Of the lists of these slots' paths the triangles from one of them on, as many as become jobs at once. Says how
+  /// many jobs there are, and whose lists are longer.
+  HWY_INLINE std::size_t list_jobs(std::uint64_t slots, std::size_t from, std::uint64_t& longer) {
+    const std::size_t lanes = hn::Lanes(hn::ScalableTag<float>());
+    std::size_t jobs = 0;
+    for (; slots != 0; slots &= slots - 1) {
+      const auto slot = static_cast<std::uint16_t>(std::countr_zero(slots));
+      const std::size_t left = lists_[slot].count - from;
+      for (std::size_t i = 0; i < most_at_once; i += lanes) {
+        jobs_[jobs + i / lanes] = {slot, static_cast<std::uint16_t>(i)};
+      }
+      jobs += (std::min(left, most_at_once) + lanes - 1) / lanes;
+      longer |= std::uint64_t{left > most_at_once} << slot;
+    }
+    return jobs;
+  }
+
+  /// Does what a path's visitor has come to; returns the path's bit if that is the end.
+  HWY_INLINE std::uint64_t heed(std::size_t slot, bool shorter) {
     if constexpr (Visitor::wants_order) {
-      if (shorter) lanes_.shorten(lane, visitors_[lane].limit());
+      if (shorter) lanes_[slot / most_lanes].shorten(slot % most_lanes, visitors_[slot].limit());
       return 0;
     }
-    return std::uint32_t{visitors_[lane].is_done()} << lane;
+    return std::uint64_t{visitors_[slot].is_done()} << slot;
   }
 
   /// Asks the kernel; returns how many of the jobs are open then.
-  HWY_NOINLINE std::size_t open_jobs(std::span<const Job> jobs) {
+  HWY_NOINLINE std::size_t open_jobs(std::span<const Job> jobs, std::size_t first) {
     const hn::ScalableTag<float> d;
     std::size_t open = 0;
     for (const Job& job : jobs) {
-      const Kernel kernel(kernel_path_[job.lane], lists_[job.lane], job.from);
-      open_[open].job = job;
+      const std::size_t from = first + job.from;
+      const Kernel kernel(kernel_path_[job.slot], lists_[job.slot], from);
+      open_[open].slot = job.slot;
+      open_[open].from = from;
       open_[open].lanes = kernel.classify(weights_);
       if constexpr (Visitor::wants_order) {
         const typename Kernel::Crossing crossing = kernel.crossing();
@@ -242,28 +281,29 @@ class Batch {
     if constexpr (Visitor::wants_order) {
       for (std::size_t i = 0; i < open; ++i) {
         const auto& [height, det, s_size] = crossings_[i];
-        const std::uint32_t lane = open_[i].job.lane;
+        const std::size_t slot = open_[i].slot;
         open_[i].first =
-            Kernel::first_of(kernel_path_[lane], lists_[lane],
+            Kernel::first_of(kernel_path_[slot], lists_[slot],
                              {hn::Load(d, height.data()), hn::Load(d, det.data()), hn::Load(d, s_size.data())},
-                             open_[i].lanes.certain, visitors_[lane].t_upper());
+                             open_[i].lanes.certain, visitors_[slot].t_upper());
       }
     }
     return open;
   }
 
-  HWY_INLINE void end_lanes(std::uint32_t ended) {
+  HWY_INLINE void end_paths(std::uint64_t ended) {
     walking_ &= ~ended;
     for (; ended != 0; ended &= ended - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(ended));
-      finish_(index_[lane], visitors_[lane]);
-      visitors_[lane].reset();
+      const auto slot = static_cast<std::size_t>(std::countr_zero(ended));
+      finish_(index_[slot], visitors_[slot]);
+      visitors_[slot].reset();
     }
   }
 
   WalkingPaths placed_ = {};  ///< paths that are placed together
   KernelLanes placed_kernel_paths_ = {};
-  WalkingPaths lanes_ = {};
+  std::array<WalkingPaths, vectors> lanes_ = {};
+  std::array<LaneWalk::Cells, vectors> cells_;  ///< where they stand
   const Query<float>& query_;
   const PathRange<float>& range_;
   RangeWeights<float> weights_;
@@ -274,13 +314,14 @@ class Batch {
   std::size_t next_ = 0;          ///< the first path that is not placed yet
   std::size_t placed_first_ = 0;  ///< the first of `placed_`,
   std::uint32_t waiting_ = 0;     ///< of `placed_`, still to be walked
-  std::uint32_t walking_ = 0;     ///< lanes that hold a path
-  std::array<std::size_t, most_lanes> index_ = {};
-  std::array<KernelPath<float>, most_lanes> kernel_path_;
-  std::array<Visitor, most_lanes> visitors_;
-  std::array<TriangleList<float>, most_lanes> lists_;
-  std::array<Job, most_at_once> jobs_;  ///< each lane has most_at_once / lanes of them at most
-  std::array<Open, most_jobs> open_;    ///< of some jobs,
+  std::uint64_t walking_ = 0;     ///< slots that hold a path
+  std::array<std::size_t, most_paths> index_ = {};
+  std::array<KernelPath<float>, most_paths> kernel_path_;
+  std::array<Visitor, most_paths> visitors_;
+  alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_paths> words_;  ///< of their cells,
+  std::array<TriangleList<float>, most_paths> lists_;                                ///< and of these the lists
+  std::array<Job, vectors * most_at_once> jobs_;  ///< each slot has most_at_once / lanes of them at most
+  std::array<Open, most_jobs> open_;              ///< of some jobs,
   std::array<Crossing, Visitor::wants_order ? most_jobs : 0> crossings_;  ///< and where their paths cross
 };
 

@@ -26,15 +26,16 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As many as the widest instruction set of today walks at once.
-constexpr std::size_t most_lanes = 16;
-
-using FloatTag = hn::CappedTag<float, most_lanes>;
+/// Up to the widest vector of today.
+using FloatTag = hn::CappedTag<float, 16>;
 using IntTag = hn::RebindToSigned<FloatTag>;
 using BitsTag = hn::RebindToUnsigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 using Words = hn::Vec<BitsTag>;
+
+/// As many as the vectors have, or more where only the machine knows.
+constexpr std::size_t most_lanes = hn::MaxLanes(FloatTag());
 
 /// A number for each lane. In memory: a step loads what it needs. Lanes are filled by stores of all of them: a load of
 /// all has to wait for a store of one.
