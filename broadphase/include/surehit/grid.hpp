@@ -23,7 +23,7 @@ struct GridOptions {
   std::array<std::uint32_t, 3> resolution = {0, 0, 0};
   double cells_per_triangle = 0.7;
   /// Cells that list more triangles than this are divided into 4 × 4 × 4, if that parts the triangles. 0: never.
-  std::uint32_t crowded = 128;
+  std::uint32_t crowded = 192;
 };
 
 /// Where the cells are. A coordinate x stands at X = (x 2^exponent - origin) scale + margin, counted in the finest
