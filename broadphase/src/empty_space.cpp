@@ -20,13 +20,15 @@ class Octants {
   Octants(const std::array<std::uint32_t, 3>& cells, std::vector<std::uint8_t>& scratch)
       : cells_(cells), length_((cells[0] + row_unit - 1) / row_unit * row_unit), pitch_(length_ + row_unit) {
     const std::size_t all_rows = std::size_t{cells[1]} * cells[2] * pitch_;
-    scratch.assign(row_unit + (1 + octants) * all_rows + 3 * pitch_, farthest);
+    scratch.assign(row_unit + (1 + octants) * all_rows + (1 + 2 * octants) * pitch_, farthest);
     emptiness_ = scratch.data() + row_unit;
     for (std::uint32_t octant = 0; octant < octants; ++octant)
       distances_[octant] = emptiness_ + (1 + octant) * all_rows;
     outer_row_ = emptiness_ + (1 + octants) * all_rows;
-    row_ = outer_row_ + pitch_;
-    next_ = row_ + pitch_;
+    for (std::uint32_t octant = 0; octant < octants; ++octant) {
+      begun_[octant] = outer_row_ + (1 + octant) * pitch_;
+      fours_[octant] = outer_row_ + (1 + octants + octant) * pitch_;
+    }
   }
 
   /// Where the cells of a row begin.
@@ -40,11 +42,22 @@ class Octants {
     for (std::size_t x = 0; x < cells_[0]; ++x) emptiness[x] = words[x] == 0 ? no_bits_clear : 0;
   }
 
-  /// All octants by turns: their rows do not wait for one another.
+  /// Along a row a distance is the least of what the rows beside it allow here, one more than they allow in the next
+  /// cell, and so on: looked up among four cells, then among four fours. Cells of the row beyond the grid count as
+  /// empty; what they are given is read only from there.
+  ///
+  /// All octants by turns: their rows do not wait for one another, nor does a look ahead for what was just stored.
   void measure() {
     for (std::uint32_t step_z = 0; step_z < cells_[2]; ++step_z) {
       for (std::uint32_t step_y = 0; step_y < cells_[1]; ++step_y) {
-        for (std::uint32_t octant = 0; octant < octants; ++octant) measure_row(octant, step_y, step_z);
+        for (std::uint32_t octant = 0; octant < octants; ++octant) begin_row(octant, step_y, step_z);
+        for (std::uint32_t octant = 0; octant < octants; ++octant) {
+          look_ahead(begun_[octant], forward(octant), 1, fours_[octant]);
+        }
+        for (std::uint32_t octant = 0; octant < octants; ++octant) {
+          const Place place = place_of(octant, step_y, step_z);
+          look_ahead(fours_[octant], 4 * forward(octant), 4, distances_[octant] + row(place.y, place.z));
+        }
       }
     }
   }
@@ -72,24 +85,26 @@ class Octants {
 
   static std::uint8_t lesser(std::uint8_t x, std::uint8_t y) { return x < y ? x : y; }
 
-  /// Along the row a distance is the least of what the rows beside it allow here, one more than they allow in the next
-  /// cell, and so on: looked up among four cells, then among four fours. Cells of the row beyond the grid count as
-  /// empty; what they are given is read only from there.
-  void measure_row(std::uint32_t octant, std::uint32_t step_y, std::uint32_t step_z) {
-    const bool up_y = (octant & 2) == 0;
-    const bool up_z = (octant & 4) == 0;
-    const std::uint32_t y = up_y ? cells_[1] - 1 - step_y : step_y;
-    const std::uint32_t z = up_z ? cells_[2] - 1 - step_z : step_z;
-    const auto beside = [&](bool beside_y, bool beside_z) -> const std::uint8_t* {
-      if ((beside_y && step_y == 0) || (beside_z && step_z == 0)) return outer_row_;
-      const std::uint32_t row_y = beside_y ? (up_y ? y + 1 : y - 1) : y;
-      const std::uint32_t row_z = beside_z ? (up_z ? z + 1 : z - 1) : z;
-      return distances_[octant] + row(row_y, row_z);
+  static std::ptrdiff_t forward(std::uint32_t octant) { return (octant & 1) == 0 ? 1 : -1; }
+
+  /// Of the row to which so many steps lead, from the end of the grid towards which the octant looks.
+  struct Place {
+    std::uint32_t y, z;
+  };
+  [[nodiscard]] Place place_of(std::uint32_t octant, std::uint32_t step_y, std::uint32_t step_z) const {
+    return {(octant & 2) == 0 ? cells_[1] - 1 - step_y : step_y, (octant & 4) == 0 ? cells_[2] - 1 - step_z : step_z};
+  }
+
+  /// What the rows beside it allow.
+  void begin_row(std::uint32_t octant, std::uint32_t step_y, std::uint32_t step_z) {
+    const Place here = place_of(octant, step_y, step_z);
+    const auto beside = [&](std::uint32_t back_y, std::uint32_t back_z) -> const std::uint8_t* {
+      if (step_y < back_y || step_z < back_z) return outer_row_;
+      const Place place = place_of(octant, step_y - back_y, step_z - back_z);
+      return distances_[octant] + row(place.y, place.z);
     };
-    const std::ptrdiff_t forward = (octant & 1) == 0 ? 1 : -1;
-    begin_row(emptiness_ + row(y, z), beside(true, false), beside(false, true), beside(true, true), forward, row_);
-    look_ahead(row_, forward, 1, next_);
-    look_ahead(next_, 4 * forward, 4, distances_[octant] + row(y, z));
+    begin_row(emptiness_ + row(here.y, here.z), beside(1, 0), beside(0, 1), beside(1, 1), forward(octant),
+              begun_[octant]);
   }
 
   void begin_row(Row emptiness, Row b0, Row b1, Row b2, std::ptrdiff_t forward, std::uint8_t* __restrict row) const {
@@ -127,8 +142,9 @@ class Octants {
   std::uint8_t* emptiness_;  ///< all bits set where a cell is empty
   std::array<std::uint8_t*, octants> distances_;
   std::uint8_t* outer_row_;
-  std::uint8_t* row_;
-  std::uint8_t* next_;
+  // Of the row that is being measured, in each octant.
+  std::array<std::uint8_t*, octants> begun_;  ///< what the rows beside it allow
+  std::array<std::uint8_t*, octants> fours_;  ///< the least of four cells
 };
 
 /// A brick's cells as bits; the last ones of each axis, upward or downward.
