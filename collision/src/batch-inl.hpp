@@ -344,9 +344,12 @@ class BatchRounding {
     }
     index_[count_] = index;
     id_[count_] = first.id(query_);
-    std::memcpy(&coordinates_[slot_size * count_], paths_.numbers(index), path_size * sizeof(float));
-    const void* const triangle = &first.triangle();  // nine floats, as the assertion below says
-    std::memcpy(&coordinates_[slot_size * count_ + path_size], triangle, 9 * sizeof(float));
+    const float* const path = paths_.numbers(index);
+    for (std::size_t k = 0; k < path_size; ++k) coordinates_[k][count_] = path[k];
+    std::array<float, 9> corners;
+    static_assert(sizeof(Triangle<float>) == sizeof corners);
+    std::memcpy(corners.data(), static_cast<const void*>(&first.triangle()), sizeof corners);
+    for (std::size_t k = 0; k < corners.size(); ++k) coordinates_[path_size + k][count_] = corners[k];
     count_ += first.is_found() ? 1 : 0;
     if (count_ == hn::Lanes(DoubleTag())) flush();
   }
@@ -356,9 +359,7 @@ class BatchRounding {
     const DoubleTag d;
     const FloatTag df;
     const auto vectors = [&](std::size_t first) -> Vectors<DoubleTag> {
-      const hn::RebindToSigned<FloatTag> di;
-      const auto places = hn::Mul(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(slot_size)));
-      const auto load = [&](std::size_t i) { return hn::PromoteTo(d, hn::GatherIndex(df, &coordinates_[i], places)); };
+      const auto load = [&](std::size_t k) { return hn::PromoteTo(d, hn::Load(df, coordinates_[k].data())); };
       return {load(first), load(first + 1), load(first + 2)};
     };
     const Vectors<DoubleTag> start = vectors(0);
@@ -402,10 +403,8 @@ class BatchRounding {
   std::span<Hit<float>> hits_;
   std::size_t count_ = 0;
   static constexpr std::size_t path_size = PathSpan<float>::numbers_each;
-  static constexpr std::size_t slot_size = 16;
   /// Of the path's start and end or direction, and of the triangle's corners. Beyond the last hit anything finite.
-  alignas(64) std::array<float, slot_size* most> coordinates_ = {};
-  static_assert(sizeof(Triangle<float>) == 9 * sizeof(float) && 9 <= slot_size - path_size);
+  alignas(most * sizeof(float)) std::array<std::array<float, most>, path_size + 9> coordinates_ = {};
   std::array<std::size_t, most> index_;
   std::array<std::uint32_t, most> id_;
 };
