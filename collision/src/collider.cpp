@@ -83,7 +83,7 @@ std::optional<InvalidMesh> Collider<Scalar>::move_vertices(const VertexView<Scal
   if (std::optional<InvalidMesh> invalid = find_invalid(mesh)) return invalid;
   const Box<Scalar> box = box_of(mesh);
   spare_.grid.rebuild(mesh, box, grid_options_, spare_.scratch, executor);
-  spare_.mesh.rebuild(mesh, spare_.grid, executor);
+  spare_.mesh.rebuild(mesh_, vertices, spare_.grid, executor);
   std::swap(spare_.grid, grid_);
   std::swap(spare_.mesh, mesh_);
   box_ = box;

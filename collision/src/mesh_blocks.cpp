@@ -24,18 +24,31 @@ MeshBlocks<Scalar>::MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid&
 
 template <typename Scalar>
 void MeshBlocks<Scalar>::rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor) {
-  vertices_.resize(mesh.vertex_count() + 1);
-  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) vertices_[i] = mesh.vertex(i);
-  vertices_.back().setZero();
+  copy_vertices(mesh);
   corners_.resize(mesh.triangle_count());
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     corners_[i] = {mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
   }
-  fill_blocks(grid, executor);
+  fill_blocks(corners_, grid, executor);
 }
 
 template <typename Scalar>
-void MeshBlocks<Scalar>::fill_blocks(const Grid& grid, const Executor* executor) {
+void MeshBlocks<Scalar>::rebuild(MeshBlocks& old, const VertexView<Scalar>& vertices, const Grid& grid,
+                                 const Executor* executor) {
+  copy_vertices(old.view_with(vertices));
+  fill_blocks(old.corners_, grid, executor);
+  corners_.swap(old.corners_);
+}
+
+template <typename Scalar>
+void MeshBlocks<Scalar>::copy_vertices(const TriangleMeshView<Scalar>& mesh) {
+  vertices_.resize(mesh.vertex_count() + 1);
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) vertices_[i] = mesh.vertex(i);
+  vertices_.back().setZero();
+}
+
+template <typename Scalar>
+void MeshBlocks<Scalar>::fill_blocks(const Corners& triangles, const Grid& grid, const Executor* executor) {
   blocks_.resize(offset(grid.lists().size(), grid.entries().size()) + slack);
   Scalar largest = 0;
   for (const Vector3<Scalar>& vertex : vertices_) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
@@ -45,7 +58,7 @@ void MeshBlocks<Scalar>::fill_blocks(const Grid& grid, const Executor* executor)
   const auto fill_four = [&](const std::uint32_t* ids, Scalar* list, std::size_t count, Four& longest) {
     std::array<FourPoints, 3> corners;
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::array<std::uint32_t, 3>& triangle = corners_[ids[k]];
+      const std::array<std::uint32_t, 3>& triangle = triangles[ids[k]];
       for (std::size_t corner = 0; corner < 3; ++corner) {
         const Vector3<Scalar>& vertex = vertices_[triangle[corner]];
         corners[corner].col(static_cast<Eigen::Index>(k)) = Eigen::Map<const Four>(vertex.data());

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "support/exact_cells.hpp"
@@ -74,6 +75,22 @@ TYPED_TEST(MeshBlocksTest, CopiesAnotherMeshIntoTheSameMemory) {
     const Grid grid = this->grid_of(mesh, {});
     blocks.rebuild(mesh.view(), grid);
     EXPECT_EQ(blocks.triangle_count(), count);
+    this->expect_copies(mesh, grid, blocks);
+  }
+}
+
+TYPED_TEST(MeshBlocksTest, TakesOverTheTrianglesOfAMeshThatMoves) {
+  Random random(8);
+  auto mesh = scattered_triangles<TypeParam>(300, TypeParam(0.2), random);
+  MeshBlocks<TypeParam> blocks(mesh.view(), this->grid_of(mesh, {}));
+  MeshBlocks<TypeParam> spare;
+  for (int move = 0; move < 3; ++move) {
+    for (auto& vertex : mesh.vertices) vertex *= TypeParam(1.5);
+    const Grid grid = this->grid_of(mesh, {});
+    spare.rebuild(blocks, mesh.view().vertices(), grid);
+    std::swap(spare, blocks);
+    ASSERT_EQ(blocks.triangle_count(), 300U);
+    EXPECT_EQ(blocks.triangle(299).c, mesh.view().triangle(299).c);
     this->expect_copies(mesh, grid, blocks);
   }
 }

@@ -22,6 +22,10 @@ class MeshBlocks {
 
   /// The same triangles with other vertices. Memory is reused.
   void rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor = nullptr);
+  /// Becomes `old` with other vertices, as many, and takes its indices over: `old` is good for the next rebuild only.
+  /// Memory is reused. If that throws, `old` is as before.
+  void rebuild(MeshBlocks& old, const VertexView<Scalar>& vertices, const Grid& grid,
+               const Executor* executor = nullptr);
 
   [[nodiscard]] std::size_t triangle_count() const noexcept { return corners_.size(); }
   [[nodiscard]] Triangle<Scalar> triangle(std::uint32_t id) const noexcept {
@@ -54,10 +58,13 @@ class MeshBlocks {
   static std::size_t offset(std::size_t list, std::size_t first_entry) noexcept {
     return coordinates * first_entry + list;  // each list before this one has an edge size too
   }
-  void fill_blocks(const Grid& grid, const Executor* executor);
+  using Corners = detail::UnsetVector<std::array<std::uint32_t, 3>>;
+
+  void copy_vertices(const TriangleMeshView<Scalar>& mesh);
+  void fill_blocks(const Corners& triangles, const Grid& grid, const Executor* executor);
 
   detail::UnsetVector<Vector3<Scalar>> vertices_;  ///< and one more, for a vector load of the last
-  detail::UnsetVector<std::array<std::uint32_t, 3>> corners_;
+  Corners corners_;
   detail::UnsetVector<Scalar> blocks_;
 };
 
