@@ -375,8 +375,9 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
     if (!for_kernel) for_kernel.emplace(path, range);
     const TriangleList<Scalar> list = list_of(query, traversal.word());
     prefetch(list);
-    if constexpr (Visitor::wants_order)
+    if constexpr (Visitor::wants_order) {
       hwy::Prefetch(query.grid.entries().data() + list.first_entry);  // for the hit's id
+    }
     query.statistics.candidates += list.count;
     const bool shorter = meet_list(query, range, path, for_kernel->path, for_kernel->weights, list, 0, visitor);
     if constexpr (Visitor::wants_order) {
