@@ -40,8 +40,8 @@ struct BuildOptions {
 /// the batch or the thread. A path with a NaN or an infinity misses everything.
 ///
 /// Queries are const, noexcept, allocate nothing (`all_hits` aside), use under 16 KiB of stack in an optimized build,
-/// batches under 32 KiB, and may run in many threads at once. No query may run during a rebuild. A collider copies what
-/// it needs of the mesh; copying a collider copies all of it.
+/// batches of floats under 32 KiB, and may run in many threads at once. No query may run during a rebuild. A collider
+/// copies what it needs of the mesh; copying a collider copies all of it.
 ///
 /// What is not promised: that `point(path, hit)` lies on the triangle (t is rounded), and that a collider is the same
 /// bytes from one version to the next.
