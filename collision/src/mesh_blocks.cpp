@@ -19,11 +19,6 @@ constexpr std::size_t cells_in_a_part = std::size_t{1} << 13;
 
 template <typename Scalar>
 MeshBlocks<Scalar>::MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor) {
-  rebuild(mesh, grid, executor);
-}
-
-template <typename Scalar>
-void MeshBlocks<Scalar>::rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor) {
   copy_vertices(mesh);
   corners_.resize(mesh.triangle_count());
   for (std::size_t i = 0; i < corners_.size(); ++i) {

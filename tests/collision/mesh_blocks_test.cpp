@@ -73,7 +73,8 @@ TYPED_TEST(MeshBlocksTest, CopiesAnotherMeshIntoTheSameMemory) {
   for (const std::size_t count : {500U, 20U, 900U, 1U}) {
     const auto mesh = scattered_triangles<TypeParam>(count, TypeParam(0.2), random);
     const Grid grid = this->grid_of(mesh, {});
-    blocks.rebuild(mesh.view(), grid);
+    MeshBlocks<TypeParam> old(mesh.view(), grid);
+    blocks.rebuild(old, mesh.view().vertices(), grid);
     EXPECT_EQ(blocks.triangle_count(), count);
     this->expect_copies(mesh, grid, blocks);
   }

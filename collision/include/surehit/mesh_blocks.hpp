@@ -20,8 +20,6 @@ class MeshBlocks {
   /// Of a valid mesh and its grid. May throw std::bad_alloc.
   MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor = nullptr);
 
-  /// The same triangles with other vertices. Memory is reused.
-  void rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor = nullptr);
   /// Becomes `old` with other vertices, as many, and takes its indices over: `old` is good for the next rebuild only.
   /// Memory is reused. If that throws, `old` is as before.
   void rebuild(MeshBlocks& old, const VertexView<Scalar>& vertices, const Grid& grid,
