@@ -29,7 +29,7 @@ struct Heat {
 /// fastest.
 ///
 /// Every round builds all contenders anew, so that where their structures lie in memory differs between rounds and not
-/// only between runs, and then asks everybody in each heat.
+/// only between runs, and then asks everybody in each heat; whoever comes first in one round comes last in the next.
 [[nodiscard]] std::vector<std::vector<Result>> run_contest(const std::vector<Entrant>& entrants,
                                                            const TriangleMeshViewf& mesh, std::span<const Heat> heats,
                                                            std::size_t rounds,

@@ -25,10 +25,11 @@ RoundSeries times_of(const Entrant& entrant, const Scene& scene, Question questi
                      std::size_t rounds) {
   RoundSeries times;
   Answers answers(sample.paths.size());
+  Answers uncounted(sample.warm_up.size());
   for (std::size_t round = 0; round < rounds; ++round) {
     const std::unique_ptr<Contender> contender = entrant.make();
     contender->build(scene.mesh.view());
-    ask(*contender, question, sample.warm_up, answers);
+    ask(*contender, question, sample.warm_up, uncounted);
     const double time = nanoseconds_of<ThreadClock>([&] { ask(*contender, question, sample.paths, answers); });
     times.push_back(time / static_cast<double>(sample.paths.size()));
   }
