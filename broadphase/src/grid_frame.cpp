@@ -88,6 +88,12 @@ double GridFrame::place(std::size_t axis, double scaled_coordinate) const noexce
 
 void GridFrame::coarsen(std::uint32_t factor) noexcept {
   division /= factor;
+  std::uint32_t pitch = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    top_pitch[axis] = static_cast<std::int32_t>(pitch);
+    last_top[axis] = static_cast<std::int32_t>(pitch * (cells[axis] - 1));
+    pitch *= cells[axis];
+  }
   has_floats = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     scale[axis] /= factor;

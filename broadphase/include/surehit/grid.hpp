@@ -37,6 +37,8 @@ struct GridFrame {
   std::array<float, 3> margin = {0, 0, 0};         ///< by which the outer planes stand off the box
   std::array<std::uint32_t, 3> cells = {0, 0, 0};  ///< top cells on each axis
   std::uint32_t division = 1;                      ///< finest cells along an edge of a top cell
+  detail::Int4 top_pitch = {0, 0, 0, 0};           ///< from one top cell to the next on an axis, among all of them,
+  detail::Int4 last_top = {0, 0, 0, 0};            ///< and from the first to the last
   /// For coordinates in float, X = (x - float_low) float_scale + margin: the same frame, where floats hold its numbers.
   /// The fourth lane moves nothing: its place is 1, between 0 and 2.
   bool has_floats = false;
