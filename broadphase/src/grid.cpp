@@ -27,6 +27,39 @@ constexpr double free_cells = 0x1p20;
 /// Cells are counted in float, exactly up to here.
 constexpr double most_cells = 0x1p24;
 constexpr double most_cells_on_an_axis = 0x1p11;
+/// Cells are cubes where the triangles' mean box is no longer on one axis than on another by more than this: the mean
+/// of a sample is no more exact.
+constexpr double least_stretch = 1.5;
+/// Of a cell's edge, over and under the mean of its edges.
+constexpr double most_stretch = 2;
+/// Cells that are less wide, counted in the triangles' mean boxes, are made fewer in proportion.
+constexpr double wide_cell = 2.6;
+/// Triangles that are looked at to know what they are like.
+constexpr std::size_t samples = 256;
+
+/// The edges of the triangles' boxes in the scaled frame: the mean of some triangles, taken from all over the mesh
+/// without a period, which the mesh may well have.
+template <typename Scalar>
+std::array<double, 3> mean_extent(const GridFrame& frame, const TriangleMeshView<Scalar>& mesh) {
+  const std::size_t triangles = mesh.triangle_count();
+  const std::size_t count = std::min(triangles, samples);
+  constexpr std::uint32_t golden_ratio = 0x9e3779b9;
+  std::array<double, 3> mean = {0, 0, 0};
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint64_t fraction = static_cast<std::uint32_t>(k) * golden_ratio;
+    const std::size_t i = triangles == count ? k : static_cast<std::size_t>(fraction * triangles >> 32);
+    const Vector3<Scalar> a = mesh.vertex(mesh.corner(i, 0));
+    const Vector3<Scalar> b = mesh.vertex(mesh.corner(i, 1));
+    const Vector3<Scalar> c = mesh.vertex(mesh.corner(i, 2));
+    const Vector3<Scalar> low = a.cwiseMin(b).cwiseMin(c);
+    const Vector3<Scalar> high = a.cwiseMax(b).cwiseMax(c);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<Eigen::Index>(axis);
+      mean[axis] += (frame.scaled(high[at]) - frame.scaled(low[at])) / static_cast<double>(count);
+    }
+  }
+  return mean;
+}
 
 /// Cubic cells, `cells` of them or fewer, where an axis that is thinner than a cell has just one.
 std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, double cells) {
@@ -57,15 +90,29 @@ std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, doubl
   return resolution;
 }
 
+/// As many cells as are wished a triangle, in the shape of the triangles' mean box: of all cells of a volume these are
+/// the ones that triangles cross least often (the sum of extent / edge over the axes is least, for a given product of
+/// the edges, where all quotients are equal). Where they are narrow for the triangles, so that each is listed again and
+/// again, there are fewer.
 template <typename Scalar>
-std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar>& box, std::size_t triangles,
-                                        const GridOptions& options) {
-  std::array<double, 3> width = {};
+std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar>& box,
+                                        const TriangleMeshView<Scalar>& mesh, const GridOptions& options) {
+  const std::array<double, 3> extent = mean_extent(frame, mesh);
+  const auto [least, greatest] = std::minmax({extent[0], extent[1], extent[2]});
+  const double mean = (extent[0] + extent[1] + extent[2]) / 3;
+  const bool are_stretched = greatest > least_stretch * least;
+  std::array<double, 3> width = {};  // stretched so that cells are cubes
   for (std::size_t axis = 0; axis < 3; ++axis) {
     width[axis] = frame.scaled(box.high[static_cast<Eigen::Index>(axis)]) - frame.origin[axis];
+    if (are_stretched) width[axis] /= std::clamp(extent[axis] / mean, 1 / most_stretch, most_stretch);
   }
-  const double count = static_cast<double>(triangles);
-  std::array<double, 3> wished = cubic_resolution(width, std::max(1.0, options.cells_per_triangle * count));
+  const auto count = static_cast<double>(mesh.triangle_count());
+  const double usual_cells = std::max(1.0, GridOptions().cells_per_triangle * count);
+  const std::array<double, 3> usual = cubic_resolution(width, usual_cells);
+  const double usual_edge = *std::max_element(width.begin(), width.end()) /  // that of an axis that is divided
+                            *std::max_element(usual.begin(), usual.end());
+  const double share = mean > 0 ? std::min(1.0, usual_edge / (wide_cell * mean)) : 1;
+  std::array<double, 3> wished = cubic_resolution(width, std::max(1.0, share * options.cells_per_triangle * count));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (options.resolution[axis] != 0) wished[axis] = options.resolution[axis];
     wished[axis] = std::clamp(std::floor(wished[axis]), 1.0, most_cells_on_an_axis);
@@ -96,8 +143,7 @@ class GridBuild {
     const std::size_t budget =
         std::min<std::size_t>(std::max(free_entries, entries_per_triangle * mesh.triangle_count()),
                               std::numeric_limits<std::uint32_t>::max());
-    std::array<double, 3> wished =
-        wished_resolution(GridFrame::around(box, {1, 1, 1}, division), box, mesh.triangle_count(), options);
+    std::array<double, 3> wished = wished_resolution(GridFrame::around(box, {1, 1, 1}, division), box, mesh, options);
     for (;;) {
       grid.frame_ = GridFrame::around(box, wished, division);
       place_vertices();

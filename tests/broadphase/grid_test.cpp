@@ -281,8 +281,11 @@ TYPED_TEST(GridTest, CountsItsCellsXFirst) {
 }
 
 TYPED_TEST(GridTest, AimsAtTheWishedNumberOfCubicCells) {
-  auto triangles = scattered_triangles<TypeParam>(1000, 0.1F, this->random_);
-  for (auto& vertex : triangles.vertices) vertex[0] *= 4;
+  GeneratedMesh<TypeParam> triangles;
+  for (const float x : {0.F, 2.F, 4.F, 6.F}) {
+    const auto some = scattered_triangles<TypeParam>(250, 0.02F, this->random_);
+    triangles = joined(std::move(triangles), placed<TypeParam>(some, 1, {x, 0, 0}));
+  }
   for (const double wish : {0.25, 2.0, 8.0}) {
     const Grid grid = this->grid_of(triangles, {.cells_per_triangle = wish, .crowded = 0});
     const double cells = static_cast<double>(grid.cell_count());
@@ -293,8 +296,30 @@ TYPED_TEST(GridTest, AimsAtTheWishedNumberOfCubicCells) {
   }
 }
 
+TYPED_TEST(GridTest, ShapesItsCellsAsTrianglesAre) {
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    auto triangles = scattered_triangles<TypeParam>(5000, 0.02F, this->random_);
+    for (auto& vertex : triangles.vertices) vertex[static_cast<Eigen::Index>(axis)] *= 3;
+    const Grid grid = this->grid_of(triangles, {.crowded = 0});
+    const auto& scale = grid.frame().scale;
+    for (const std::size_t other : {(axis + 1) % 3, (axis + 2) % 3}) {
+      EXPECT_GT(scale[other], 2.3 * scale[axis]);
+      EXPECT_LT(scale[other], 3.7 * scale[axis]);
+    }
+  }
+}
+
+TYPED_TEST(GridTest, HasFewerCellsWhereTheyWouldBeNarrowForTheTriangles) {
+  const auto cells_of = [&](TypeParam size) {
+    return this->grid_of(scattered_triangles<TypeParam>(1000, size, this->random_), {.crowded = 0}).cell_count();
+  };
+  EXPECT_GT(cells_of(0.02F), 500U);
+  EXPECT_LT(cells_of(0.3F), 250U);
+  EXPECT_GT(cells_of(0.3F), 50U);
+}
+
 TYPED_TEST(GridTest, DividesFlatMeshesAlongTheirPlane) {
-  const auto triangles = scattered_triangles<TypeParam>(1000, 0.05F, this->random_);
+  const auto triangles = scattered_triangles<TypeParam>(1000, 0.02F, this->random_);
   for (const int axis : {0, 1, 2}) {
     const Grid grid = this->grid_of(flattened<TypeParam>(triangles, axis, 3), {.crowded = 0});
     EXPECT_EQ(grid.resolution()[static_cast<std::size_t>(axis)], 1U);
