@@ -100,7 +100,7 @@ std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar
   const std::array<double, 3> extent = mean_extent(frame, mesh);
   const auto [least, greatest] = std::minmax({extent[0], extent[1], extent[2]});
   const double mean = (extent[0] + extent[1] + extent[2]) / 3;
-  const bool are_stretched = greatest > least_stretch * least;
+  const bool are_stretched = mean > 0 && greatest > least_stretch * least;
   std::array<double, 3> width = {};  // stretched so that cells are cubes
   for (std::size_t axis = 0; axis < 3; ++axis) {
     width[axis] = frame.scaled(box.high[static_cast<Eigen::Index>(axis)]) - frame.origin[axis];

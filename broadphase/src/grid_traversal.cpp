@@ -31,18 +31,19 @@ Pair exact_difference(double x, double y) {
 // becomes the whole part of the rounded place fl(p + tau r), off by u R for either rounding, but never less than where
 // the old cell begins: where planes of two axes are crossed at the same rounded tau, one after the other, a place
 // rounded down would hold the walk between two cells for ever. By induction x(tau) >= c - e on every axis when a cell
-// is entered, and x(tau) <= X + e until it is left, since tau does not exceed tau_X. So the intervals of tau cut the
-// path without a gap, and in each of them the exact path lies in the visited cell or cube grown by e. A step that ends
-// in a divided cell finds the finest one in the same way, and keeps it within that cell.
+// is entered, and x(tau) <= X + e until it is left, since tau does not exceed tau_X; where a rounded crossing comes
+// before the last one, tau stays, and the interval is empty. So the intervals of tau cut the path without a gap, and in
+// each of them the exact path lies in the visited cell or cube grown by e. A step that ends in a divided cell finds the
+// finest one in the same way, and keeps it within that cell.
 //
 // With |p - P| (next), e is below 16 u R, half the padding. A triangle that the path meets at tau is met
 // in the box, which the outer planes stand off by two paddings, so at a tau of the interval of some cell or cube; the
 // point where it is met is within e of that cell, or of some cell of that cube, which is then in the grid and lists the
 // triangle. That cell is the visited one: a cube has only cells that list nothing. A leap that lands one cell off for a
 // rounding is no exception: c then begins up to e before or behind the path, as above. The walk ends when tau reaches
-// `end`, or where it leaves the grid: where the first of the outer planes is crossed, as computed like any other, which
-// by the paddings is beyond all that the path meets. All that is not yet visited lies at or beyond that tau, exactly:
-// tau stands for the exact parameter, not for a rounded place.
+// `end`, or where it leaves the grid: where the first of the outer planes is crossed, as computed like any other, or a
+// leap's place is rounded up to one, which by the paddings is beyond all that the path meets. All that is not yet
+// visited lies at or beyond that tau, exactly: tau stands for the exact parameter, not for a rounded place.
 //
 // A list whose triangles take up only a part of its cell, the box B, need not be met by a path that passes B by. The
 // point where a triangle is met, within e of the cell, lies in the triangle's box, so within e of B, on every axis. The

@@ -318,6 +318,15 @@ TYPED_TEST(GridTest, HasFewerCellsWhereTheyWouldBeNarrowForTheTriangles) {
   EXPECT_GT(cells_of(0.3F), 50U);
 }
 
+/// Whose mean extent is zero when it is rounded, though not every triangle's is.
+TYPED_TEST(GridTest, DividesPointsOfWhichOneIsHardlyMore) {
+  GeneratedMesh<TypeParam> points;
+  points.add({{0, 0, 0}, {std::numeric_limits<TypeParam>::denorm_min(), 0, 0}, {0, 0, 0}});
+  points.add({{0.3F, 0.3F, 0.3F}, {0.3F, 0.3F, 0.3F}, {0.3F, 0.3F, 0.3F}});
+  const Grid grid = this->grid_of(points, {.cells_per_triangle = 1000, .crowded = 0});
+  EXPECT_GT(grid.cell_count(), 1000U);
+}
+
 TYPED_TEST(GridTest, DividesFlatMeshesAlongTheirPlane) {
   const auto triangles = scattered_triangles<TypeParam>(1000, 0.02F, this->random_);
   for (const int axis : {0, 1, 2}) {

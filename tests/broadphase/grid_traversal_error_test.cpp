@@ -76,7 +76,9 @@ class GridTraversalError : public GridWalk<Scalar> {
     bool is_first = true;
     for (GridTraversal traversal(this->grid_, placed); !traversal.at_end(); traversal.advance()) {
       const CellWord word = traversal.word();
-      const auto leap = static_cast<std::int32_t>(word.is_empty() ? word.distance(placed.octant) : 1);
+      const bool is_far = is_first || word.distance(placed.octant) >= GridTraversal::least_leap ||
+                          static_cast<std::uint32_t>(traversal.size()) != frame.division;
+      const auto leap = static_cast<std::int32_t>(word.is_empty() && is_far ? word.distance(placed.octant) : 1);
       Exact next;
       for (std::size_t axis = 0; axis < 3; ++axis) next[axis] = traversal.low()[axis];
       for (std::size_t j = 0; !is_first && j < 3; ++j) {
