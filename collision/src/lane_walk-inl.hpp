@@ -106,11 +106,9 @@ class LaneWalk {
  public:
   explicit LaneWalk(const Grid& grid) : grid_(grid) {
     const GridFrame& frame = grid.frame();
-    float pitch = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       stop_[axis] = static_cast<float>(frame.resolution(axis));
-      pitch_[axis] = pitch;
-      pitch *= static_cast<float>(frame.cells[axis]);
+      pitch_[axis] = static_cast<float>(frame.top_pitch[axis]);
     }
   }
 
@@ -170,7 +168,7 @@ class LaneWalk {
       enters = hn::Max(enters, hn::Mul(hn::Neg(from[k]), inverse));
       leaves = hn::Min(leaves, hn::Mul(hn::Sub(stop, from[k]), inverse));
       const Floats pitch = hn::Set(d, pitch_[k]);
-      const Floats turned = hn::Set(d, pitch_[k] * static_cast<float>(frame.cells[k] - 1));
+      const Floats turned = hn::Set(d, static_cast<float>(frame.last_top[k]));
       hn::Store(hn::IfThenElse(falls, hn::Neg(pitch), pitch), d, placed.pitch[k].data());
       hn::Store(inverse, d, placed.inverse_rate[k].data());
       hn::Store(by[k], d, placed.rate[k].data());
@@ -223,7 +221,7 @@ class LaneWalk {
       hn::Store(hn::Set(d, path.inverse_rate[axis]), d, pieces.inverse_rate[axis].data());
       hn::Store(hn::Floor(hn::Min(hn::MulAdd(begin, rate, start), last)), d, pieces.finest[axis].data());
       hn::Store(hn::Set(d, falls ? -pitch_[axis] : pitch_[axis]), d, pieces.pitch[axis].data());
-      if (falls) first_cell += pitch_[axis] * static_cast<float>(grid_.frame().cells[axis] - 1);
+      if (falls) first_cell += static_cast<float>(grid_.frame().last_top[axis]);
     }
     hn::Store(hn::Set(d, first_cell), d, pieces.first_cell.data());
     hn::Store(hn::Set(BitsTag(), path.octant), BitsTag(), pieces.octant.data());

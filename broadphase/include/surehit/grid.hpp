@@ -18,9 +18,9 @@ namespace surehit {
 /// How finely a grid divides the mesh's box. No setting changes an answer, only time and memory.
 struct GridOptions {
   /// Cells along x, y and z, before crowded ones are divided again; 0 leaves that axis to the grid, which aims at
-  /// `cells_per_triangle` cells in all, in the shape of the mean triangle's box, and at fewer where they would be
-  /// narrow for the triangles. Whatever is asked for is made coarser where it would break the grid's budget of memory
-  /// or its bound on rounding.
+  /// `cells_per_triangle` cells in all, cubes or in the shape of the triangles' mean box where that is far from one,
+  /// and at fewer where they would be narrow for the triangles. Whatever is asked for is made coarser where it would
+  /// break the grid's budget of memory or its bound on rounding.
   std::array<std::uint32_t, 3> resolution = {0, 0, 0};
   double cells_per_triangle = 0.7;
   /// Cells that list more triangles than this are divided into 4 × 4 × 4, if that parts the triangles. 0: never.

@@ -177,9 +177,10 @@ class GridTraversal {
     using namespace detail;
     const Float4 tau = least_lane(crossing_);
     const Int4 crossed = crossing_ == tau;
+    const auto size = static_cast<float>(size_);
     crossing_ = crossed ? next_crossing_ : crossing_;
-    planes_ += reinterpret_cast<Float4>(crossed & reinterpret_cast<Int4>(all_lanes(static_cast<float>(size_))));
-    next_crossing_ = (planes_ + static_cast<float>(size_) - path_.start) * path_.inverse_rate;
+    planes_ = crossed ? planes_ + size : planes_;
+    next_crossing_ = (planes_ + size - path_.start) * path_.inverse_rate;
     index_ += crossed & pitch();
     at_end_ = !(tau[0] < end_);
     if (at_end_) return;
