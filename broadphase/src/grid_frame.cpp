@@ -75,7 +75,14 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
     frame.margin[axis] = static_cast<float>(margin_share * resolution);
     frame.scale[axis] = std::min(finest > 0 ? finest : 1.0, resolution / 2);
   }
-  for (double& scale : frame.scale) scale = float_below(scale);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    frame.scale[axis] = float_below(frame.scale[axis]);
+    frame.low[axis] = box.low[i];
+    frame.high[axis] = box.high[i];
+    // Four paddings are a quarter of a finest cell or less.
+    frame.cell_size = std::max(frame.cell_size, 1.25 * division / frame.scale[axis] / frame.unit[0] / frame.unit[1]);
+  }
   frame.coarsen(1);
   return frame;
 }

@@ -95,7 +95,6 @@ class Batch {
   struct alignas(most_lanes * sizeof(float)) Crossing {
     LaneFloats height;
     LaneFloats det;
-    LaneFloats s_size;
   };
   /// So many triangles of each list become jobs before the verdicts on any of them are heeded. Where any hit will do,
   /// the rest of a list is often not asked for.
@@ -212,6 +211,7 @@ class Batch {
       const auto slot = static_cast<std::size_t>(std::countr_zero(left));
       const TriangleList<float>& list = lists_[slot] = list_of(query_, CellWord(words_[slot]));
       prefetch(list);
+      bounds_[slot] = Kernel::bounds(kernel_path_[slot], weights_, list);
       query_.statistics.candidates += list.count;
     }
     std::uint64_t done = 0;
@@ -223,9 +223,8 @@ class Batch {
         for (const auto& [slot, first_triangle, verdicts, first] : std::span(open_).first(open_jobs(some, from))) {
           query_.statistics.undecided +=
               static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
-          const bool shorter = visitors_[slot].meet(
-              Meeting<float, PathOfSlot>{query_, range_, PathOfSlot{paths_, index_[slot]}, kernel_path_[slot],
-                                         lists_[slot], first_triangle, verdicts, first});
+          const bool shorter = visitors_[slot].meet(Meeting<float, PathOfSlot>{
+              query_, range_, PathOfSlot{paths_, index_[slot]}, lists_[slot], first_triangle, verdicts, first});
           done |= heed(slot, shorter);
         }
       }
@@ -269,23 +268,20 @@ class Batch {
       const Kernel kernel(kernel_path_[job.slot], lists_[job.slot], from);
       open_[open].slot = job.slot;
       open_[open].from = from;
-      open_[open].lanes = kernel.classify(weights_);
+      open_[open].lanes = kernel.classify(weights_, bounds_[job.slot]);
       if constexpr (Visitor::wants_order) {
         const typename Kernel::Crossing crossing = kernel.crossing();
         hn::Store(crossing.height, d, crossings_[open].height.data());
         hn::Store(crossing.det, d, crossings_[open].det.data());
-        hn::Store(crossing.s_size, d, crossings_[open].s_size.data());
       }
       open += open_[open].lanes.possible != 0 ? 1 : 0;
     }
     if constexpr (Visitor::wants_order) {
       for (std::size_t i = 0; i < open; ++i) {
-        const auto& [height, det, s_size] = crossings_[i];
+        const auto& [height, det] = crossings_[i];
         const std::size_t slot = open_[i].slot;
-        open_[i].first =
-            Kernel::first_of(kernel_path_[slot], lists_[slot],
-                             {hn::Load(d, height.data()), hn::Load(d, det.data()), hn::Load(d, s_size.data())},
-                             open_[i].lanes.certain, visitors_[slot].t_upper());
+        open_[i].first = Kernel::first_of(bounds_[slot], {hn::Load(d, height.data()), hn::Load(d, det.data())},
+                                          open_[i].lanes.certain, visitors_[slot].t_upper());
       }
     }
     return open;
@@ -320,6 +316,7 @@ class Batch {
   std::array<Visitor, most_paths> visitors_;
   alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_paths> words_;  ///< of their cells,
   std::array<TriangleList<float>, most_paths> lists_;                                ///< and of these the lists
+  std::array<typename Kernel::Bounds, most_paths> bounds_;                           ///< of the path and its list
   std::array<Job, vectors * most_at_once> jobs_;  ///< each slot has most_at_once / lanes of them at most
   std::array<Open, most_jobs> open_;              ///< of some jobs,
   std::array<Crossing, Visitor::wants_order ? most_jobs : 0> crossings_;  ///< and where their paths cross

@@ -76,7 +76,6 @@ class BlockDeterminants {
     height_ = dot(f0, q0, f1, q1, f2, q2);
     u_ = dot(s0, p0, s1, p1, s2, p2);
     v_ = dot(d0, q0, d1, q1, d2, q2);
-    s_size_ = hn::Max(hn::Max(hn::Abs(s0), hn::Abs(s1)), hn::Abs(s2));
   }
 
   HWY_INLINE static V all(Scalar x) { return hn::Set(Tag(), x); }
@@ -84,7 +83,6 @@ class BlockDeterminants {
   [[no_unique_address]] Tag d_;
   std::size_t left_;  ///< triangles, and more lanes than these count for nothing
   V det_, height_, u_, v_;
-  V s_size_;  ///< the largest component of S
 };
 
 /// The determinants as their own filter: the bound stands in kernel_bound.hpp. Verdicts are certain, fused or not; what
@@ -97,30 +95,33 @@ class BlockKernel : BlockDeterminants<Scalar> {
   using Base::det_;
   using Base::height_;
   using Base::left_;
-  using Base::s_size_;
   using Base::u_;
   using Base::v_;
   using typename Base::Tag;
   using typename Base::V;
-  using Bound = KernelBound<Scalar>;
 
  public:
+  /// What any of the list's triangles are weighed with, in scalars that the kernel loads into all lanes.
+  using Bounds = ListBounds<Scalar>;
+  HWY_INLINE static Bounds bounds(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
+                                  const TriangleList<Scalar>& list) {
+    return {path.d_size, path.reach + list.edge_size, list.edge_size, range};
+  }
+
   HWY_INLINE BlockKernel(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list, std::size_t from)
-      : Base(path, list, from), bounds_(path, list) {}
+      : Base(path, list, from) {}
 
   /// U, V, W and the two that the range asks for must each be at least zero for a hit, with det's sign taken out. So
   /// two of certain and opposite signs are a miss, even where det's own sign is not certain: were det zero, a path that
   /// meets the triangle would lie in its plane and all of them would vanish. All certain and of one sign are a hit: det
   /// = U + V + W then has that sign too. Comparisons accept what is certain, and where sizes might overflow, the bound
   /// is infinite or NaN, so that nothing is.
-  [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<Scalar>& range) const {
+  [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<Scalar>& range, const Bounds& bounds) const {
     const V w = hn::Sub(hn::Sub(det_, u_), v_);
     const V first = hn::MulAdd(height_, all(range.t_first), hn::Mul(det_, all(range.det_first)));
     const V last = hn::MulAdd(height_, all(range.t_last), hn::Mul(det_, all(range.det_last)));
-    // U, V and W by the bound of W, both of the range's by the greater of theirs.
-    const V side_bound = hn::MulAdd(bounds_.d_edge, hn::MulAdd(s_size_, all(2), bounds_.edge), all(Bound::underflow));
-    const V range_bound = hn::MulAdd(s_size_, hn::Mul(hn::Mul(bounds_.edge, bounds_.edge), all(range.t_bound)),
-                                     hn::Mul(bounds_.det(), all(range.det_size)));
+    const V side_bound = all(bounds.side);
+    const V range_bound = all(bounds.range);
 
     const V least_side = hn::Min(hn::Min(u_, v_), w), greatest_side = hn::Max(hn::Max(u_, v_), w);
     const V least_end = hn::Min(first, last), greatest_end = hn::Max(first, last);
@@ -137,9 +138,8 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// Where the path crosses the triangles' planes: t = height / det.
   struct Crossing {
     V height, det;
-    V s_size;  ///< as the bounds need it
   };
-  [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, det_, s_size_}; }
+  [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, det_}; }
 
   /// Of `certain` hits those that may be the first, if none that begins after t = `limit` can be.
   ///
@@ -150,16 +150,13 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// det and height may be, make 3 u |t| each: room for the two roundings of the quotient, and four more. 2^-17 is far
   /// more than the radius needs for its own. A certain det is no denormal, so that its inverse is finite. Where t or
   /// the radius overflows, nothing is known.
-  [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(const KernelPath<Scalar>& path,
-                                                              const TriangleList<Scalar>& list,
-                                                              const Crossing& crossing, std::uint64_t certain,
-                                                              Scalar limit) {
+  [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(const Bounds& bounds, const Crossing& crossing,
+                                                              std::uint64_t certain, Scalar limit) {
     const Tag d;
     const V infinity = all(std::numeric_limits<Scalar>::infinity());
-    const Bounds bounds(path, list);
     const V inverse = hn::Div(all(1), crossing.det);
     const V t = hn::Mul(crossing.height, inverse);
-    const V radius = hn::Mul(hn::MulAdd(hn::Abs(t), bounds.det(), bounds.height(crossing.s_size)), hn::Abs(inverse));
+    const V radius = hn::Mul(hn::MulAdd(hn::Abs(t), all(bounds.det), all(bounds.height)), hn::Abs(inverse));
     const V bound = hn::MulAdd(radius, all(Scalar(1.5) + Scalar(0x1p-17)), all(std::numeric_limits<Scalar>::min()));
     const auto taken = mask_of(d, certain);
     const auto known = hn::And(hn::Ge(bound, hn::Zero(d)), hn::Lt(bound, infinity));
@@ -169,24 +166,6 @@ class BlockKernel : BlockDeterminants<Scalar> {
     const auto lanes = hn::And(taken, hn::Le(lower, all(std::min(t_upper, limit))));
     return {bits_of(d, lanes), hn::GetLane(hn::MinOfLanes(d, lower)), t_upper};
   }
-
- private:
-  /// What the bounds of one path and one list share: E1 and E2 count by the list's longest edge. In vectors throughout,
-  /// since going from scalars to all lanes takes as long as a multiplication.
-  struct Bounds {
-    HWY_INLINE Bounds(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list)
-        : edge(all(list.edge_size)), d_edge(hn::Mul(hn::Mul(all(path.d_size), edge), all(Bound::relative))) {}
-
-    HWY_INLINE V det() const { return hn::MulAdd(d_edge, edge, all(Bound::underflow)); }
-    HWY_INLINE V height(V s_size) const {
-      return hn::MulAdd(s_size, hn::Mul(hn::Mul(edge, edge), all(Bound::relative)), det());
-    }
-
-    V edge;
-    V d_edge;  ///< relative bound of what both multiply
-  };
-
-  Bounds bounds_;
 };
 
 // Not inlined: their frames are gone when the exact stage needs the stack, and the call costs nothing that can be
@@ -194,18 +173,18 @@ class BlockKernel : BlockDeterminants<Scalar> {
 
 template <typename Kernel, typename Scalar>
 HWY_NOINLINE Lanes classify(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
-                            const TriangleList<Scalar>& list, std::size_t from) {
-  return Kernel(path, list, from).classify(range);
+                            const TriangleList<Scalar>& list, const ListBounds<Scalar>& bounds, std::size_t from) {
+  return Kernel(path, list, from).classify(range, bounds);
 }
 
 /// Says of the certain hits too which may be the first, if none beyond t = `limit` can be.
 template <typename Kernel, typename Scalar>
 HWY_NOINLINE Lanes classify(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
-                            const TriangleList<Scalar>& list, std::size_t from, Scalar limit,
-                            FirstLanes<Scalar>& first) {
+                            const TriangleList<Scalar>& list, const ListBounds<Scalar>& bounds, std::size_t from,
+                            Scalar limit, FirstLanes<Scalar>& first) {
   const Kernel kernel(path, list, from);
-  const Lanes lanes = kernel.classify(range);
-  if (lanes.possible != 0) first = Kernel::first_of(path, list, kernel.crossing(), lanes.certain, limit);
+  const Lanes lanes = kernel.classify(range, bounds);
+  if (lanes.possible != 0) first = Kernel::first_of(bounds, kernel.crossing(), lanes.certain, limit);
   return lanes;
 }
 

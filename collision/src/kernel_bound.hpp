@@ -72,4 +72,27 @@ struct RangeWeights {
   }
 };
 
+/// What the determinants of one path and any triangle of one list are off by at most. `d` is the largest component of
+/// D, `edge` that of any E1 and E2, and `s` no less than that of any S, so that a list has one bound of each for all of
+/// its triangles: bounds for each lane would be a fifth of the kernel's operations. A size that is too large makes no
+/// bound smaller, nor what is lost when it underflows greater than with the true size.
+template <typename Scalar>
+struct ListBounds {
+  Scalar side;    ///< of U, V and W: the bound of W
+  Scalar range;   ///< of both that the range asks: the greater of theirs
+  Scalar det;     ///< of det,
+  Scalar height;  ///< of T, and no less than that of det
+
+  ListBounds() = default;
+  ListBounds(Scalar d, Scalar s, Scalar edge, const RangeWeights<Scalar>& weights) {
+    using Bound = KernelBound<Scalar>;
+    const Scalar d_edge = d * edge * Bound::relative;
+    const Scalar s_edges = s * (edge * edge);
+    side = d_edge * (2 * s + edge) + Bound::underflow;
+    det = d_edge * edge + Bound::underflow;
+    height = s_edges * Bound::relative + det;
+    range = s_edges * weights.t_bound + det * weights.det_size;
+  }
+};
+
 }  // namespace surehit::detail

@@ -5,9 +5,29 @@
 #include <limits>
 
 #include "kernel_bound.hpp"
+#include "surehit/grid.hpp"
 #include "surehit/path.hpp"
 
 namespace surehit::detail {
+
+/// How far from the start a corner of a triangle may be on any axis, if the path comes to a list in which the triangle
+/// is: no farther than this and the list's longest edge.
+///
+/// In the list's cell, but for paddings, are a point X of the path and a point Y of the triangle; from Y to any corner
+/// it is no farther than the longest edge. X is no farther from a segment's start than its end is, but for roundings.
+/// Where a path goes on for ever, the mesh's box bounds it.
+template <typename Scalar>
+[[nodiscard]] Scalar reach_of(const Path<Scalar>& path, Scalar d_size, const GridFrame& frame) {
+  constexpr double largest = std::numeric_limits<Scalar>::max();
+  if (path.has_end()) return d_size + static_cast<Scalar>(std::min(frame.cell_size, largest));
+  Scalar reach = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Scalar start = path.start[static_cast<Eigen::Index>(axis)];
+    reach = std::max({reach, std::fabs(start - static_cast<Scalar>(frame.low[axis])),
+                      std::fabs(start - static_cast<Scalar>(frame.high[axis]))});
+  }
+  return reach;
+}
 
 /// A path as the kernel takes it: plain numbers.
 template <typename Scalar>
@@ -15,11 +35,14 @@ struct KernelPath {
   Scalar start[3];
   Scalar d[3];
   Scalar d_size;  ///< D's largest component; infinite where sizes might overflow, so that nothing is certain
+  Scalar reach;   ///< S of any triangle of a list is at most this and the list's longest edge
 
   KernelPath() = default;
-  explicit KernelPath(const Path<Scalar>& path) {
+  KernelPath(const Path<Scalar>& path, const GridFrame& frame) : KernelPath(path, Scalar{0}) {
+    reach = reach_of(path, d_size, frame);
+  }
+  KernelPath(const Path<Scalar>& path, Scalar any_reach) : d_size(0), reach(any_reach) {
     Scalar start_size = 0;
-    d_size = 0;
     for (int axis = 0; axis < 3; ++axis) {
       start[axis] = path.start[axis];
       d[axis] = path.has_end() ? path.toward[axis] - path.start[axis] : path.toward[axis];

@@ -89,6 +89,7 @@ struct alignas(most_lanes * sizeof(float)) KernelLanes {
   std::array<LaneFloats, 3> start;
   std::array<LaneFloats, 3> d;
   LaneFloats d_size;
+  LaneFloats reach;
 
   [[nodiscard]] KernelPath<float> at(std::size_t lane) const {
     KernelPath<float> path;
@@ -97,6 +98,7 @@ struct alignas(most_lanes * sizeof(float)) KernelLanes {
       path.d[axis] = d[axis][lane];
     }
     path.d_size = d_size[lane];
+    path.reach = reach[lane];
     return path;
   }
 };
@@ -106,6 +108,7 @@ class LaneWalk {
  public:
   explicit LaneWalk(const Grid& grid) : grid_(grid) {
     const GridFrame& frame = grid.frame();
+    cell_size_ = static_cast<float>(frame.cell_size);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       stop_[axis] = static_cast<float>(frame.resolution(axis));
       pitch_[axis] = static_cast<float>(frame.top_pitch[axis]);
@@ -135,6 +138,7 @@ class LaneWalk {
     Floats fastest = zero;
     Floats start_size = zero;
     Floats way_size = zero;
+    Floats farthest = zero;
     Floats first_cell = zero;
     Words octant = hn::Zero(du);
     Floats from[3];
@@ -155,6 +159,11 @@ class LaneWalk {
       hn::Store(way, d, kernel_paths.d[k].data());
       start_size = hn::Max(start_size, hn::Abs(start));
       way_size = hn::Max(way_size, hn::Abs(way));
+      if (!is_segment) {
+        for (const double side : {frame.low[k], frame.high[k]}) {
+          farthest = hn::Max(farthest, hn::Abs(hn::Sub(start, hn::Set(d, static_cast<float>(side)))));
+        }
+      }
       const auto falls = hn::Lt(move, zero);
       from[k] = hn::IfThenElse(falls, hn::Sub(stop, place), place);
       const Floats speed = hn::Abs(move);
@@ -179,6 +188,7 @@ class LaneWalk {
                               hn::Le(way_size, hn::Set(d, KernelBound<float>::largest_size)));
     hn::Store(hn::IfThenElse(fits, way_size, hn::Set(d, std::numeric_limits<float>::infinity())), d,
               kernel_paths.d_size.data());
+    hn::Store(is_segment ? hn::Add(way_size, hn::Set(d, cell_size_)) : farthest, d, kernel_paths.reach.data());
     auto is_plain = is_near;
     if (!is_segment) is_plain = hn::And(is_plain, hn::Ge(fastest, hn::Set(d, PlacedPath::slow)));
     const auto taken = hn::FirstN(d, count);
@@ -359,6 +369,7 @@ class LaneWalk {
   const Grid& grid_;
   std::array<float, 3> stop_;
   std::array<float, 3> pitch_;
+  float cell_size_;
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

@@ -45,11 +45,10 @@ struct Meeting {
   const Query<Scalar>& query;
   const PathRange<Scalar>& range;
   const AnyPath& path;
-  const KernelPath<Scalar>& kernel_path;
   const TriangleList<Scalar>& list;
   std::size_t from;  ///< the triangle of lane 0
   Lanes lanes;
-  FirstLanes<Scalar> first;  ///< of the certain ones, where the visitor asks for it
+  const FirstLanes<Scalar>& first;  ///< of the certain ones, where the visitor asks for it
 
   [[nodiscard]] std::size_t entry(std::size_t lane) const { return list.first_entry + from + lane; }
   [[nodiscard]] Triangle<Scalar> triangle(std::size_t lane) const {
@@ -266,17 +265,18 @@ HWY_INLINE bool meet_list(const Query<Scalar>& query, const PathRange<Scalar>& r
                           const KernelPath<Scalar>& kernel_path, const RangeWeights<Scalar>& weights,
                           const TriangleList<Scalar>& list, std::size_t from, Visitor& visitor) {
   bool shorter = false;
+  const auto bounds = Visitor::Kernel::bounds(kernel_path, weights, list);
   for (; from < list.count; from += hn::Lanes(hn::ScalableTag<Scalar>())) {
     FirstLanes<Scalar> first = {};
     Lanes lanes;
     if constexpr (Visitor::wants_order) {
-      lanes = classify<typename Visitor::Kernel>(kernel_path, weights, list, from, visitor.t_upper(), first);
+      lanes = classify<typename Visitor::Kernel>(kernel_path, weights, list, bounds, from, visitor.t_upper(), first);
     } else {
-      lanes = classify<typename Visitor::Kernel>(kernel_path, weights, list, from);
+      lanes = classify<typename Visitor::Kernel>(kernel_path, weights, list, bounds, from);
     }
     if (lanes.possible == 0) continue;
     query.statistics.undecided += static_cast<std::uint64_t>(std::popcount(lanes.possible & ~lanes.certain));
-    shorter |= visitor.meet(Meeting<Scalar, AnyPath>{query, range, path, kernel_path, list, from, lanes, first});
+    shorter |= visitor.meet(Meeting<Scalar, AnyPath>{query, range, path, list, from, lanes, first});
     if (visitor.is_done()) return true;
   }
   return shorter;
@@ -285,7 +285,8 @@ HWY_INLINE bool meet_list(const Query<Scalar>& query, const PathRange<Scalar>& r
 /// What the kernel needs besides a list; most short paths meet none at all.
 template <typename Scalar>
 struct ForKernel {
-  ForKernel(const Path<Scalar>& any_path, const PathRange<Scalar>& range) : path(any_path), weights(range) {}
+  ForKernel(const Path<Scalar>& any_path, const PathRange<Scalar>& range, const GridFrame& frame)
+      : path(any_path, frame), weights(range) {}
   KernelPath<Scalar> path;
   RangeWeights<Scalar> weights;
 };
@@ -301,7 +302,7 @@ HWY_NOINLINE void walk_pieces(const Query<float>& query, const Path<float>& path
   const LaneWalk lanes(query.grid);
   WalkingPaths pieces;
   lanes.cut(placed, pieces);
-  const ForKernel<float> for_kernel(path, range);
+  const ForKernel<float> for_kernel(path, range, query.grid.frame());
   auto walking = static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(du)) - 1);
   while (walking != 0) {
     query.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking));
@@ -377,7 +378,7 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
   for (; !traversal.at_end(); traversal.advance()) {
     ++query.statistics.cells;
     if (traversal.word().is_empty() || !traversal.meets_box()) continue;
-    if (!for_kernel) for_kernel.emplace(path, range);
+    if (!for_kernel) for_kernel.emplace(path, range, query.grid.frame());
     const TriangleList<Scalar> list = list_of(query, traversal.word());
     prefetch(list);
     if constexpr (Visitor::wants_order) {
@@ -399,8 +400,8 @@ std::optional<Hit<Scalar>> find_first(const Query<Scalar>& query, const Path<Sca
   FirstHit<Scalar> first(query);
   walk(query, path, range, first);
   if (!first.is_found()) return std::nullopt;
-  Hit<Scalar> hit;
   if constexpr (std::is_same_v<Scalar, float>) {
+    Hit<Scalar> hit;
     if (first.is_located_only() && try_round(path, first.triangle(), hit)) {
       hit.triangle = first.id(query);
       return hit;

@@ -21,10 +21,16 @@ namespace surehit::detail::HWY_NAMESPACE {
 /// sign, but a det of zero is a miss, as is usual in inexact tests.
 class UnfilteredKernel : BlockDeterminants<float> {
  public:
+  struct Bounds {};
+  HWY_INLINE static Bounds bounds(const KernelPath<float>& /*path*/, const RangeWeights<float>& /*range*/,
+                                  const TriangleList<float>& /*list*/) {
+    return {};
+  }
+
   HWY_INLINE UnfilteredKernel(const KernelPath<float>& path, const TriangleList<float>& list, std::size_t from)
       : BlockDeterminants(path, list, from) {}
 
-  [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<float>& range) const {
+  [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<float>& range, const Bounds& /*bounds*/) const {
     const V zero = hn::Zero(d_);
     const V w = hn::Sub(hn::Sub(det_, u_), v_);
     const V first = hn::MulAdd(height_, all(range.t_first), hn::Mul(det_, all(range.det_first)));
@@ -37,16 +43,13 @@ class UnfilteredKernel : BlockDeterminants<float> {
     return {hits, hits};
   }
 
-  /// Has room for what bounds need, since the batch keeps it between two steps.
   struct Crossing {
-    V height, det, s_size;
+    V height, det;
   };
-  [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, det_, hn::Zero(d_)}; }
+  [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, det_}; }
 
-  [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of(const KernelPath<float>& /*path*/,
-                                                             const TriangleList<float>& /*list*/,
-                                                             const Crossing& crossing, std::uint64_t hits,
-                                                             float /*limit*/) {
+  [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of(const Bounds& /*bounds*/, const Crossing& crossing,
+                                                             std::uint64_t hits, float /*limit*/) {
     const Tag d;
     const auto taken = mask_of(d, hits);
     const V t =

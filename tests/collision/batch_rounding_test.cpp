@@ -142,11 +142,11 @@ TEST(BatchRounding, gives_zeros_their_sign) {
 /// than the least float.
 TEST(BatchRounding, gives_zeros_of_negative_t_their_sign) {
   GeneratedMesh<float> mesh;
-  mesh.add({{-0x1p-70F, 0, 0}, {0x1.8p-55F, -0x1.8p-55F, 0}, {0x1.8p-55F, 0x1.8p-55F, 0}});
+  mesh.add({{-0x1p-70F, 0, 0}, {0x1.8p-57F, -0x1.8p-57F, 0}, {0x1.8p-57F, 0x1.8p-57F, 0}});
   // Beside it, so that a lane has it alone: a list is filled up with its last one.
-  mesh.add({{0x1p-50F, 0, 0}, {0x1p-50F, 0x1p-56F, 0}, {0x1p-50F, 0, 0x1p-56F}});
-  // Far away, and so in other lists.
-  for (const float x : {-0x1p14F, 0x1p14F}) mesh.add({{x, x, x}, {x, x, x}, {x, x, x}});
+  mesh.add({{0x1p-57F, 0, 0}, {0x1p-57F, 0x1p-58F, 0}, {0x1p-57F, 0, 0x1p-58F}});
+  // In other lists, and not far, so that the kernel is certain.
+  for (const float x : {-0x1p-56F, 0x1p-56F}) mesh.add({{x, x, x}, {x, x, x}, {x, x, x}});
   const Collider<float> collider(mesh.view(), BuildOptions{{.resolution = {4, 4, 4}, .crowded = 0}, {}});
   const std::vector<Line<float>> lines(40, Line<float>{{0, 0, 0x1p-117F}, {0, 0, 0x1p34F}});  // t = -2^-151
   const auto expected = intersect(lines[0], mesh.view().triangle(0));

@@ -189,6 +189,18 @@ TYPED_TEST(BlockKernel, leaves_huge_coordinates_undecided) {
   });
 }
 
+/// Sizes that each are far from overflow, and of which only the determinants' products overflow, not their bounds.
+TYPED_TEST(BlockKernel, leaves_sizes_undecided_whose_products_overflow) {
+  const TypeParam size = detail::KernelBound<TypeParam>::largest_size;
+  const TypeParam quarter = size / 4;
+  const Triangle<TypeParam> triangle{{-quarter, -quarter, 0}, {quarter, -quarter, 0}, {0, quarter, 0}};
+  const TypeParam largest = std::numeric_limits<TypeParam>::max() / size / size;
+  on_every_instruction_set([&] {
+    EXPECT_EQ(this->verdict(Line<TypeParam>{{0, 0, -1}, {0, 0, size}}, triangle), Verdict::hit);
+    EXPECT_EQ(this->verdict(Line<TypeParam>{{0, 0, -1}, {0, 0, 6 * largest}}, triangle), Verdict::undecided);
+  });
+}
+
 /// The list's longest edge is every triangle's.
 TYPED_TEST(BlockKernel, leaves_a_list_undecided_if_one_of_its_triangles_is_huge) {
   const TypeParam huge = std::numeric_limits<TypeParam>::max();

@@ -23,8 +23,8 @@ using detail::KernelBound;
 using detail::PathRange;
 using detail::RangeWeights;
 
-// The bound, recomputed as the kernel computes it: it hides there, and only a true error against it tells how much room
-// there is.
+// The determinants, recomputed as the kernel computes them: they hide there, and only a true error against its bound
+// tells how much room there is.
 
 template <typename Scalar, bool fused>
 struct Arithmetic {
@@ -46,7 +46,6 @@ struct Arithmetic {
 template <typename Scalar, bool fused>
 double worst_share(const Path<Scalar>& path, const Triangle<Scalar>& triangle, Scalar limit) {
   using A = Arithmetic<Scalar, fused>;
-  using Bound = KernelBound<Scalar>;
   const Vector3<Scalar> d = path.has_end() ? Vector3<Scalar>(path.toward - path.start) : path.toward;
   const Vector3<Scalar> e1 = triangle.b - triangle.a;
   const Vector3<Scalar> e2 = triangle.c - triangle.a;
@@ -65,11 +64,7 @@ double worst_share(const Path<Scalar>& path, const Triangle<Scalar>& triangle, S
   const Scalar first = A::product_plus(height, weights.t_first, det * weights.det_first);
   const Scalar last = A::product_plus(height, weights.t_last, det * weights.det_last);
 
-  const Scalar edge_size = std::max(size(e1), size(e2));
-  const Scalar d_edge = size(d) * edge_size * Bound::relative;
-  const Scalar side_bound = A::product_plus(d_edge, A::product_plus(size(s), 2, edge_size), Bound::underflow);
-  const Scalar range_bound = A::product_plus(size(s), edge_size * edge_size * weights.t_bound,
-                                             A::product_plus(d_edge, edge_size, Bound::underflow) * weights.det_size);
+  const detail::ListBounds<Scalar> bounds(size(d), size(s), std::max(size(e1), size(e2)), weights);
 
   const RationalDeterminants exact = rational_determinants(path, triangle);
   double worst = 0;
@@ -77,12 +72,14 @@ double worst_share(const Path<Scalar>& path, const Triangle<Scalar>& triangle, S
     const mpq_class share = abs(mpq_class(double{value}) - truth) / mpq_class(double{bound});
     worst = std::max(worst, share.get_d());
   };
-  weigh(u, side_bound, exact.u);
-  weigh(v, side_bound, exact.v);
-  weigh(det - u - v, side_bound, exact.w);
+  weigh(u, bounds.side, exact.u);
+  weigh(v, bounds.side, exact.v);
+  weigh(det - u - v, bounds.side, exact.w);
   const mpq_class true_limit(double{limit});
-  weigh(first, range_bound, exact.height - true_limit * exact.det);
-  weigh(last, range_bound, true_limit * exact.det - exact.height);
+  weigh(det, bounds.det, exact.det);
+  weigh(height, bounds.height, exact.height);
+  weigh(first, bounds.range, exact.height - true_limit * exact.det);
+  weigh(last, bounds.range, true_limit * exact.det - exact.height);
   return worst;
 }
 

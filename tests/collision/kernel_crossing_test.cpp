@@ -193,10 +193,10 @@ class KernelCrossing : public testing::Test {
       edge_size = std::max({edge_size, std::fabs(x[9 + k] - x[6 + k]), std::fabs(x[12 + k] - x[6 + k])});
     }
     const KernelTriangles<Scalar> list{corners.data(), 1, edge_size};
-    const detail::KernelPath<Scalar> kernel_path(path);
+    const detail::KernelPath<Scalar> kernel_path(path, (segment.start - triangle.a).cwiseAbs().maxCoeff() - edge_size);
     const detail::RangeWeights<Scalar> weights(PathRange<Scalar>(path, {}));
     if (classify(kernel_path, weights, list, 0).certain == 0) return 0;
-    const auto [lanes, lower, upper] = first_of(kernel_path, list, 0, 1, no_limit<Scalar>);
+    const auto [lanes, lower, upper] = first_of(kernel_path, weights, list, 0, 1, no_limit<Scalar>);
     EXPECT_EQ(lanes, 1U);
     if (!std::isfinite(lower) || !std::isfinite(upper)) return 0;
     const mpq_class middle = (mpq_class(double{lower}) + mpq_class(double{upper})) / 2;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "kernel_on_targets.hpp"
 #include "support/grid_breaking_meshes.hpp"
@@ -18,7 +20,10 @@ class KernelList {
  public:
   explicit KernelList(std::span<const Triangle<Scalar>> triangles) {
     GeneratedMesh<Scalar> mesh;
-    for (const Triangle<Scalar>& triangle : triangles) mesh.add(triangle);
+    for (const Triangle<Scalar>& triangle : triangles) {
+      mesh.add(triangle);
+      a_.push_back(triangle.a);
+    }
     grid_ = Grid(mesh.view(), box_of(mesh.view()), {.resolution = {1, 1, 1}, .crowded = 0});
     blocks_ = MeshBlocks<Scalar>(mesh.view(), grid_);
     const CellWord word = grid_.top()[0];
@@ -42,15 +47,24 @@ class KernelList {
 
   [[nodiscard]] KernelVerdicts verdicts_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
                                              std::size_t from) const {
-    return classify(detail::KernelPath<Scalar>(path), detail::RangeWeights<Scalar>(range), list_, from);
+    return classify(kernel_path(path), detail::RangeWeights<Scalar>(range), list_, from);
   }
 
   [[nodiscard]] KernelFirst<Scalar> first_from(const Path<Scalar>& path, std::size_t from, std::uint64_t certain,
                                                Scalar limit) const {
-    return first_of(detail::KernelPath<Scalar>(path), list_, from, certain, limit);
+    const detail::RangeWeights<Scalar> weights(detail::PathRange<Scalar>(path, {}));
+    return first_of(kernel_path(path), weights, list_, from, certain, limit);
   }
 
  private:
+  /// For a path that need not come to the list: its bounds are those of the farthest corner a.
+  [[nodiscard]] detail::KernelPath<Scalar> kernel_path(const Path<Scalar>& path) const {
+    Scalar farthest = 0;
+    for (const Vector3<Scalar>& a : a_) farthest = std::max(farthest, (path.start - a).cwiseAbs().maxCoeff());
+    return {path, farthest - list_.edge_size};
+  }
+
+  std::vector<Vector3<Scalar>> a_;
   Grid grid_;
   MeshBlocks<Scalar> blocks_;
   KernelTriangles<Scalar> list_;

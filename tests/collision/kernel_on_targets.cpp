@@ -15,19 +15,33 @@ TriangleList<Scalar> list_of(const test::KernelTriangles<Scalar>& list) {
   return {list.corners, list.count, 0, list.edge_size};
 }
 
-#define SUREHIT_DEFINE(Scalar)                                                                                        \
-  test::KernelVerdicts verdicts_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,           \
-                                         const test::KernelTriangles<Scalar>& list, std::size_t from) {               \
-    const Lanes lanes = classify<BlockKernel<Scalar>>(path, range, list_of(list), from);                              \
-    return {lanes.possible, lanes.certain};                                                                           \
-  }                                                                                                                   \
-  test::KernelFirst<Scalar> first_##Scalar(const KernelPath<Scalar>& path, const test::KernelTriangles<Scalar>& list, \
-                                           std::size_t from, std::uint64_t certain, Scalar limit) {                   \
-    using Kernel = BlockKernel<Scalar>;                                                                               \
-    const auto triangles = list_of(list);                                                                             \
-    const auto first = Kernel::first_of(path, triangles, Kernel(path, triangles, from).crossing(), certain, limit);   \
-    return {first.lanes, first.t_lower, first.t_upper};                                                               \
-  }                                                                                                                   \
+template <typename Scalar>
+Lanes verdicts_of(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range, const TriangleList<Scalar>& list,
+                  std::size_t from) {
+  using Kernel = BlockKernel<Scalar>;
+  return classify<Kernel>(path, range, list, Kernel::bounds(path, range, list), from);
+}
+
+template <typename Scalar>
+FirstLanes<Scalar> first_lanes_of(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
+                                  const TriangleList<Scalar>& list, std::size_t from, std::uint64_t certain,
+                                  Scalar limit) {
+  using Kernel = BlockKernel<Scalar>;
+  return Kernel::first_of(Kernel::bounds(path, range, list), Kernel(path, list, from).crossing(), certain, limit);
+}
+
+#define SUREHIT_DEFINE(Scalar)                                                                                \
+  test::KernelVerdicts verdicts_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,   \
+                                         const test::KernelTriangles<Scalar>& list, std::size_t from) {       \
+    const Lanes lanes = verdicts_of<Scalar>(path, range, list_of(list), from);                                \
+    return {lanes.possible, lanes.certain};                                                                   \
+  }                                                                                                           \
+  test::KernelFirst<Scalar> first_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range, \
+                                           const test::KernelTriangles<Scalar>& list, std::size_t from,       \
+                                           std::uint64_t certain, Scalar limit) {                             \
+    const auto first = first_lanes_of(path, range, list_of(list), from, certain, limit);                      \
+    return {first.lanes, first.t_lower, first.t_upper};                                                       \
+  }                                                                                                           \
   std::size_t lanes_##Scalar() { return hn::Lanes(hn::ScalableTag<Scalar>()); }
 SUREHIT_DEFINE(float)
 SUREHIT_DEFINE(double)
@@ -39,18 +53,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace surehit::detail {
 
-#define SUREHIT_EXPORT(Scalar)                                                                                   \
-  HWY_EXPORT(verdicts_##Scalar);                                                                                 \
-  HWY_EXPORT(first_##Scalar);                                                                                    \
-  HWY_EXPORT(lanes_##Scalar);                                                                                    \
-  auto chosen_verdicts(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                        \
-                       const test::KernelTriangles<Scalar>& list, std::size_t from) {                            \
-    return HWY_DYNAMIC_DISPATCH(verdicts_##Scalar)(path, range, list, from);                                     \
-  }                                                                                                              \
-  auto chosen_first(const KernelPath<Scalar>& path, const test::KernelTriangles<Scalar>& list, std::size_t from, \
-                    std::uint64_t certain, Scalar limit) {                                                       \
-    return HWY_DYNAMIC_DISPATCH(first_##Scalar)(path, list, from, certain, limit);                               \
-  }                                                                                                              \
+#define SUREHIT_EXPORT(Scalar)                                                                          \
+  HWY_EXPORT(verdicts_##Scalar);                                                                        \
+  HWY_EXPORT(first_##Scalar);                                                                           \
+  HWY_EXPORT(lanes_##Scalar);                                                                           \
+  auto chosen_verdicts(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,               \
+                       const test::KernelTriangles<Scalar>& list, std::size_t from) {                   \
+    return HWY_DYNAMIC_DISPATCH(verdicts_##Scalar)(path, range, list, from);                            \
+  }                                                                                                     \
+  auto chosen_first(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                  \
+                    const test::KernelTriangles<Scalar>& list, std::size_t from, std::uint64_t certain, \
+                    Scalar limit) {                                                                     \
+    return HWY_DYNAMIC_DISPATCH(first_##Scalar)(path, range, list, from, certain, limit);               \
+  }                                                                                                     \
   auto chosen_lanes(Scalar) { return HWY_DYNAMIC_DISPATCH(lanes_##Scalar)(); }
 SUREHIT_EXPORT(float)
 SUREHIT_EXPORT(double)
@@ -67,9 +82,10 @@ KernelVerdicts classify(const detail::KernelPath<Scalar>& path, const detail::Ra
 }
 
 template <typename Scalar>
-KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>& path, const KernelTriangles<Scalar>& list,
-                             std::size_t from, std::uint64_t certain, Scalar limit) {
-  return detail::chosen_first(path, list, from, certain, limit);
+KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>& path, const detail::RangeWeights<Scalar>& range,
+                             const KernelTriangles<Scalar>& list, std::size_t from, std::uint64_t certain,
+                             Scalar limit) {
+  return detail::chosen_first(path, range, list, from, certain, limit);
 }
 
 template <typename Scalar>
@@ -77,11 +93,11 @@ std::size_t kernel_lanes() {
   return detail::chosen_lanes(Scalar{});
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                        \
-  template KernelVerdicts classify(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&, \
-                                   const KernelTriangles<Scalar>&, std::size_t);                           \
-  template KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>&, const KernelTriangles<Scalar>&, \
-                                        std::size_t, std::uint64_t, Scalar);                               \
+#define SUREHIT_INSTANTIATE(Scalar)                                                                             \
+  template KernelVerdicts classify(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&,      \
+                                   const KernelTriangles<Scalar>&, std::size_t);                                \
+  template KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&, \
+                                        const KernelTriangles<Scalar>&, std::size_t, std::uint64_t, Scalar);    \
   template std::size_t kernel_lanes<Scalar>();
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

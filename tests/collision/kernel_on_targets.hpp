@@ -36,8 +36,10 @@ template <typename Scalar>
 
 /// `detail::first_of` there.
 template <typename Scalar>
-[[nodiscard]] KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>& path, const KernelTriangles<Scalar>& list,
-                                           std::size_t from, std::uint64_t certain, Scalar limit);
+[[nodiscard]] KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>& path,
+                                           const detail::RangeWeights<Scalar>& range,
+                                           const KernelTriangles<Scalar>& list, std::size_t from, std::uint64_t certain,
+                                           Scalar limit);
 
 /// Triangles that they take at once.
 template <typename Scalar>

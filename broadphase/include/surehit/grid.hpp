@@ -31,11 +31,15 @@ struct GridOptions {
 /// cells: the planes between them are the whole numbers from 0 to the resolution. The bounds are derived in
 /// grid_frame.cpp.
 struct GridFrame {
-  int exponent = 0;                                ///< brings the mesh's box to a size of about 1 first
-  std::array<double, 2> unit = {1, 1};             ///< 2^exponent, as a product: one double may not hold it
-  std::array<double, 3> origin = {0, 0, 0};        ///< the box's low corner, scaled
-  std::array<double, 3> scale = {0, 0, 0};         ///< finest cells in a scaled unit of length: a float
-  std::array<float, 3> margin = {0, 0, 0};         ///< by which the outer planes stand off the box
+  int exponent = 0;                          ///< brings the mesh's box to a size of about 1 first
+  std::array<double, 2> unit = {1, 1};       ///< 2^exponent, as a product: one double may not hold it
+  std::array<double, 3> origin = {0, 0, 0};  ///< the box's low corner, scaled
+  std::array<double, 3> scale = {0, 0, 0};   ///< finest cells in a scaled unit of length: a float
+  std::array<float, 3> margin = {0, 0, 0};   ///< by which the outer planes stand off the box
+  std::array<double, 3> low = {0, 0, 0};     ///< the mesh's box
+  std::array<double, 3> high = {0, 0, 0};    //
+  /// More than any two points of a top cell's box, grown by two paddings, are apart on any axis.
+  double cell_size = 0;
   std::array<std::uint32_t, 3> cells = {0, 0, 0};  ///< top cells on each axis
   std::uint32_t division = 1;                      ///< finest cells along an edge of a top cell
   detail::Int4 top_pitch = {0, 0, 0, 0};           ///< from one top cell to the next on an axis, among all of them,
