@@ -152,6 +152,7 @@ class GridBuild {
     }
     emit_all();
     shrink_division();
+    grid.cover_ = GridCover(grid);
   }
 
  private:

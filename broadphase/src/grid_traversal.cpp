@@ -51,6 +51,10 @@ Pair exact_difference(double x, double y) {
 // them costs: so the exact path is beyond each near plane and before each far one at that tau, and these are crossed,
 // as computed, before and after it. It lies between 0 and `end` like every tau that counts.
 //
+// The boxes of the grid's cover hold those of the lists, and their planes are taken as far out. So tau lies between
+// where the first of them is entered and the last one left, as computed, and the walk may begin there instead of at 0,
+// as after a leap: at the whole part of the rounded place, or at the last cell where it is rounded out of the grid.
+//
 // With w <= R the way that the path has in the grid on an axis, what is left of these is 3 u w for the crossing and 2 u
 // w for the rate, and |p - P| is what follows.
 //

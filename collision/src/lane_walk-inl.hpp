@@ -210,15 +210,16 @@ class LaneWalk {
             static_cast<std::uint32_t>(bits_of(d, hn::AndNot(is_plain, taken)))};
   }
 
-  /// Cuts a path into pieces, one after the other, one for each lane. To begin a walk at some tau is to go on with it
-  /// there: the place is rounded as in any step.
-  HWY_INLINE void cut(const PlacedPath& path, WalkingPaths& pieces) const {
+  /// Cuts a path, from some tau on, into pieces, one after the other, one for each lane. To begin a walk at some tau is
+  /// to go on with it there: the place is rounded as in any step.
+  HWY_INLINE void cut(const PlacedPath& path, float enters, WalkingPaths& pieces) const {
     const FloatTag d;
     const std::size_t last_lane = hn::Lanes(d) - 1;
-    const Floats length = hn::Set(d, std::min(path.end, path.exit) / static_cast<float>(last_lane + 1));
+    const Floats from = hn::Set(d, enters);
+    const Floats length = hn::Set(d, (std::min(path.end, path.exit) - enters) / static_cast<float>(last_lane + 1));
     const Floats whole = hn::Set(d, path.end);
-    const Floats begin = hn::Mul(hn::Iota(d, 0.0F), length);
-    const Floats end = hn::Mul(hn::Iota(d, 1.0F), length);  // where the next one begins
+    const Floats begin = hn::MulAdd(hn::Iota(d, 0.0F), length, from);
+    const Floats end = hn::MulAdd(hn::Iota(d, 1.0F), length, from);  // where the next one begins
     hn::Store(hn::IfThenElse(hn::FirstN(d, last_lane), hn::Min(end, whole), whole), d, pieces.end.data());
     float first_cell = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {

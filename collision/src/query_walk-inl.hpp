@@ -291,17 +291,25 @@ struct ForKernel {
   RangeWeights<Scalar> weights;
 };
 
+/// Whether a path has so many cells before it, from some tau on, that what is done once for all of them pays.
+HWY_INLINE bool is_long(const Grid& grid, const PlacedPath& placed, float enters) {
+  constexpr float least_cells = 12;
+  const float rate = placed.rate[0] + placed.rate[1] + placed.rate[2];
+  const float way = (std::min(placed.end, placed.exit) - enters) * rate;
+  return way >= least_cells * static_cast<float>(grid.frame().division) && way < 0x1p20F;
+}
+
 #if HWY_TARGET != HWY_SCALAR
 /// Walks a long path in pieces side by side, for a visitor that is content with any hit: some piece soon meets one, and
 /// no step has to wait for the cell that the step before it loads. Where the first hit is wanted, what the later pieces
 /// find would be in vain.
 template <bool has_levels, typename Visitor>
-HWY_NOINLINE void walk_pieces(const Query<float>& query, const Path<float>& path, const PathRange<float>& range,
-                              const PlacedPath& placed, Visitor& visitor) {
+HWY_NOINLINE void walk_pieces(float enters, const Query<float>& query, const Path<float>& path,
+                              const PathRange<float>& range, const PlacedPath& placed, Visitor& visitor) {
   const BitsTag du;
   const LaneWalk lanes(query.grid);
   WalkingPaths pieces;
-  lanes.cut(placed, pieces);
+  lanes.cut(placed, enters, pieces);
   const ForKernel<float> for_kernel(path, range, query.grid.frame());
   auto walking = static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(du)) - 1);
   while (walking != 0) {
@@ -342,35 +350,25 @@ HWY_NOINLINE void meet_all(const Query<Scalar>& query, const Path<Scalar>& path,
   }
 }
 
-/// Shows the visitor the triangles that the path may meet, cell by cell, until it is done or the walk ends.
+/// Shows the visitor the triangles that the path may meet from some tau on, cell by cell, until it is done or the walk
+/// ends.
 template <typename Scalar, typename Visitor>
-HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
-                     Visitor& visitor) {
-  ++query.statistics.paths;
-  if (range.is_empty()) return;
-  const PlacedPath placed(query.grid, path, range.first, range.last);
-  if (placed.place == PlacedPath::Place::outside) return;
-  if (placed.place == PlacedPath::Place::unclipped) {
-    meet_all(query, path, range, visitor);
-    return;
-  }
+HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<Scalar>& path,
+                          const PathRange<Scalar>& range, const PlacedPath& placed, Visitor& visitor) {
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (std::is_same_v<Visitor, AnyHit<float>>) {
-    constexpr float least_cells = 12;  // that are worth it
-    const float rate = placed.rate[0] + placed.rate[1] + placed.rate[2];
-    const float way = std::min(placed.end, placed.exit) * rate;
-    if (way >= least_cells * static_cast<float>(query.grid.frame().division) && way < 0x1p20F) {
+    if (is_long(query.grid, placed, enters)) {
       if (query.grid.levels() > 0) {
-        walk_pieces<true>(query, path, range, placed, visitor);
+        walk_pieces<true>(enters, query, path, range, placed, visitor);
       } else {
-        walk_pieces<false>(query, path, range, placed, visitor);
+        walk_pieces<false>(enters, query, path, range, placed, visitor);
       }
       return;
     }
   }
 #endif
   std::optional<ForKernel<Scalar>> for_kernel;
-  GridTraversal traversal(query.grid, placed);
+  GridTraversal traversal(query.grid, placed, enters);
   if (traversal.word().is_empty()) {  // most short paths end with that
     ++query.statistics.cells;
     traversal.advance();
@@ -392,6 +390,37 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
       return;
     }
   }
+}
+
+/// The same for a long path, from where it enters the grid's cover to where it leaves that.
+template <typename Visitor>
+HWY_NOINLINE void walk_in_cover(const Query<float>& query, const Path<float>& path, const PathRange<float>& range,
+                                PlacedPath& placed, Visitor& visitor) {
+  const GridCover::Part part = query.grid.cover().part_of(placed.start, placed.inverse_rate, placed.octant, placed.end);
+  if (part.enters > part.leaves) return;
+  placed.end = part.leaves;
+  walk_from(part.enters, query, path, range, placed, visitor);
+}
+
+/// Shows the visitor the triangles that the path may meet, until it is done.
+template <typename Scalar, typename Visitor>
+HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
+                     Visitor& visitor) {
+  ++query.statistics.paths;
+  if (range.is_empty()) return;
+  PlacedPath placed(query.grid, path, range.first, range.last);
+  if (placed.place == PlacedPath::Place::outside) return;
+  if (placed.place == PlacedPath::Place::unclipped) {
+    meet_all(query, path, range, visitor);
+    return;
+  }
+  if constexpr (std::is_same_v<Scalar, float>) {  // for double, the second walk would take too much stack
+    if (query.grid.cover().is_useful() && is_long(query.grid, placed, 0)) {
+      walk_in_cover(query, path, range, placed, visitor);
+      return;
+    }
+  }
+  walk_from(0, query, path, range, placed, visitor);
 }
 
 template <typename Scalar>

@@ -49,6 +49,7 @@ class LaneWalk : public testing::Test {
         EXPECT_EQ(any[i] != 0, expected[i].triangle != no_triangle);
         const Hit<Scalar> single = collider.first_hit(paths[i]).value_or(Hit<Scalar>{});
         EXPECT_TRUE(same_bits(single, expected[i])) << hex_text(single) << " and not " << hex_text(expected[i]);
+        EXPECT_EQ(collider.any_hit(paths[i]), expected[i].triangle != no_triangle);
       }
     }
   }
@@ -107,6 +108,31 @@ TYPED_TEST(LaneWalk, of_paths_of_every_octant) {
   for (const GridOptions& options : {uniform, nested}) {
     this->expect_found(mesh, options, segments);
     this->expect_found(mesh, options, rays);
+  }
+  EXPECT_GT(this->hits_, case_count(1000));
+}
+
+/// Where long paths alone begin with what the grid's cover leaves of them.
+TYPED_TEST(LaneWalk, of_paths_past_a_mesh_that_stands_askew) {
+  Random random(101);
+  const auto mesh = grounds_askew<TypeParam>(random);
+  PathDrawer<TypeParam> drawer(mesh.view(), 102);
+  std::vector<Segment<TypeParam>> segments;
+  std::vector<Line<TypeParam>> lines;
+  for (std::size_t i = case_count(1000); i > 0; --i) {
+    const Vector3<TypeParam> start = drawer.point_around_mesh();
+    const Vector3<TypeParam> target = random.one_in(3) ? drawer.point_around_mesh() : drawer.point_on_mesh();
+    segments.push_back({start, target});
+    lines.push_back({target, start - target});
+    // Through one ground and over another.
+    const auto offset = Vector3<TypeParam>::NullaryExpr([&] { return random.symmetric<TypeParam>() / 4; });
+    lines.push_back({target, drawer.point_on_mesh() + offset - target});
+  }
+  for (const GridOptions& options :
+       {GridOptions{.resolution = {60, 50, 60}, .crowded = 0}, GridOptions{.resolution = {5, 6, 4}, .crowded = 4}}) {
+    ASSERT_TRUE(Grid(mesh.view(), box_of(mesh.view()), options).cover().is_useful());
+    this->expect_found(mesh, options, segments);
+    this->expect_found(mesh, options, lines);
   }
   EXPECT_GT(this->hits_, case_count(1000));
 }

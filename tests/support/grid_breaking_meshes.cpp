@@ -192,6 +192,14 @@ GeneratedMesh<Scalar> joined(GeneratedMesh<Scalar> mesh, const GeneratedMesh<Sca
 }
 
 template <typename Scalar>
+GeneratedMesh<Scalar> grounds_askew(Random& random) {
+  const auto ground = [&](Scalar size, Scalar place) {
+    return placed<Scalar>(rough_ground<Scalar>(4, Scalar{0.7F}, random), size, {place, 2 * place, -place});
+  };
+  return joined(joined(ground(Scalar{0.5F}, -2), ground(Scalar{0.25F}, 1)), ground(Scalar{0.125F}, 3));
+}
+
+template <typename Scalar>
 GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>& mesh, const Vector3<Scalar>& offset) {
   return joined(mesh, placed(mesh, 1 / Scalar{24}, offset));
 }
@@ -208,6 +216,7 @@ GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>& mesh, const V
   template GeneratedMesh<Scalar> placed(GeneratedMesh<Scalar>, Scalar, const Vector3<Scalar>&); \
   template GeneratedMesh<Scalar> flattened(GeneratedMesh<Scalar>, int, Scalar);                 \
   template GeneratedMesh<Scalar> joined(GeneratedMesh<Scalar>, const GeneratedMesh<Scalar>&);   \
+  template GeneratedMesh<Scalar> grounds_askew(Random&);                                        \
   template GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>&, const Vector3<Scalar>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

@@ -65,6 +65,10 @@ template <typename Scalar>
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> joined(GeneratedMesh<Scalar> mesh, const GeneratedMesh<Scalar>& other);
 
+/// Grounds far apart, on the way from one corner of their box to the opposite one, most of which is empty.
+template <typename Scalar>
+[[nodiscard]] GeneratedMesh<Scalar> grounds_askew(Random& random);
+
 /// Joined with a copy of itself a 24th as large, at `offset`: a spot crowded with small triangles.
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>& mesh, const Vector3<Scalar>& offset);

@@ -11,6 +11,7 @@
 #include "surehit/default_init_allocator.hpp"
 #include "surehit/executor.hpp"
 #include "surehit/float4.hpp"
+#include "surehit/grid_cover.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 
 namespace surehit {
@@ -207,6 +208,8 @@ class Grid {
                GridScratch& scratch, const Executor* executor = nullptr);
 
   [[nodiscard]] const GridFrame& frame() const noexcept { return frame_; }
+  /// Boxes around all lists.
+  [[nodiscard]] const GridCover& cover() const noexcept { return cover_; }
   /// Top cells on each axis.
   [[nodiscard]] const std::array<std::uint32_t, 3>& resolution() const noexcept { return frame_.cells; }
   [[nodiscard]] bool is_empty() const noexcept { return entries_.empty(); }
@@ -247,6 +250,7 @@ class Grid {
   friend class GridBuild;
 
   GridFrame frame_;
+  GridCover cover_;
   std::uint32_t levels_ = 0;
   std::size_t top_count_ = 0;
   std::vector<CellWord> top_;  ///< and as many more as one vector load may read beyond the last

@@ -114,14 +114,19 @@ class GridTraversal {
   /// paths.
   static constexpr std::uint32_t least_leap = 6;
 
-  /// Stands at the first cell, or at the end where the path is not inside the grid. Both outlive the walk.
-  [[gnu::always_inline]] GridTraversal(const Grid& grid, const PlacedPath& path) noexcept
+  /// Stands at the first cell, or at the end where the path is not inside the grid. Both outlive the walk. One that
+  /// begins later, where the path enters the grid's cover, leaves out what lies before.
+  [[gnu::always_inline]] GridTraversal(const Grid& grid, const PlacedPath& path, float enters = 0) noexcept
       : grid_(grid), path_(path), end_(path.end) {
     using namespace detail;
     if (path.place != PlacedPath::Place::inside) return;
     falls_ = (all_lanes(static_cast<std::int32_t>(path.octant)) & Int4{1, 2, 4, 0}) != all_lanes(0);
     at_end_ = false;
-    enter(to_int(path.start));
+    Float4 place = path.start;
+    if (enters > 0) [[unlikely]] {
+      place = least(place + enters * path.rate, grid.frame().float_stop * (1 - 0x1p-24F));
+    }
+    enter(to_int(place));
     if (!word_.is_empty()) begin_steps();
   }
 

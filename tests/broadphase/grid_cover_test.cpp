@@ -1,0 +1,114 @@
+#include "surehit/grid_cover.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "grid_walk.hpp"
+#include "support/scalars.hpp"
+
+namespace surehit::test {
+namespace {
+
+template <typename Scalar>
+class GridCoverTest : public GridWalk<Scalar> {
+ protected:
+  void place_askew(const GridOptions& options) {
+    Random random(31);
+    this->build(with_small_copy<Scalar>(grounds_askew<Scalar>(random), {3.3F, 6.2F, -3.1F}), options);
+  }
+
+  /// Walks from where the path enters the cover to where it leaves that.
+  Walk walk_in_cover(const Path<Scalar>& path, const Range& range) const {
+    Walk walk;
+    PlacedPath path_in_grid(this->grid_, path, range.first, range.last);
+    if (path_in_grid.place != PlacedPath::Place::inside) return walk;
+    const GridCover::Part part = this->grid_.cover().part_of(path_in_grid.start, path_in_grid.inverse_rate,
+                                                             path_in_grid.octant, path_in_grid.end);
+    if (part.enters > part.leaves) return walk;
+    EXPECT_GE(part.enters, 0);
+    EXPECT_LE(part.leaves, path_in_grid.end);
+    path_in_grid.end = part.leaves;
+    for (GridTraversal walked(this->grid_, path_in_grid, part.enters); !walked.at_end(); walked.advance()) {
+      walk.visited.push_back(this->expect_on_path(path, range, path_in_grid, walked));
+      if (!walked.word().is_empty() && walked.meets_box()) walk.met.push_back(walk.visited.back());
+    }
+    return walk;
+  }
+
+  void expect_found_in_cover(const Path<Scalar>& path) {
+    const Range range(path);
+    const Walk walk = walk_in_cover(path, range);
+    this->met_ += this->expect_listed(path, range, walk);
+    visited_ += walk.visited.size();
+    visited_in_all_ += this->walk(path, range).visited.size();
+  }
+
+  std::size_t visited_ = 0;
+  std::size_t visited_in_all_ = 0;
+};
+TYPED_TEST_SUITE(GridCoverTest, Scalars, ScalarNames);
+
+TYPED_TEST(GridCoverTest, HoldsAllThatThePathMeets) {
+  for (const GridOptions& options : {GridOptions{.resolution = {11, 9, 13}, .crowded = 0},
+                                     GridOptions{.resolution = {5, 6, 4}, .crowded = 4}, GridOptions{}}) {
+    this->place_askew(options);
+    ASSERT_TRUE(this->grid_.cover().is_useful());
+    PathDrawer<TypeParam> drawer(this->mesh_.view(), 7);
+    for (std::size_t i = case_count(400); i > 0; --i) {
+      this->expect_found_in_cover(drawer.draw());
+      this->expect_found_in_cover(drawer.any_kind({drawer.point_around_mesh(), drawer.point_around_mesh()}));
+      this->expect_found_in_cover(drawer.draw_axis_parallel());
+      this->expect_found_in_cover(drawer.draw_from_afar(100));
+    }
+  }
+  EXPECT_GT(this->met_, 0U);
+  EXPECT_LT(this->visited_, this->visited_in_all_ * 3 / 4) << "little is left out";
+  this->RecordProperty("visited_percent", std::to_string(100 * this->visited_ / this->visited_in_all_));
+}
+
+/// In the planes of its boxes, along the walls that made them.
+TYPED_TEST(GridCoverTest, HoldsWallsInThePlanesOfItsBoxes) {
+  const auto cube = lattice_cube<TypeParam>(2);
+  this->build(joined(cube, placed<TypeParam>(cube, TypeParam{0.5}, {30, 20, 40})), {.resolution = {8, 8, 8}});
+  ASSERT_TRUE(this->grid_.cover().is_useful());
+  PathDrawer<TypeParam> drawer(this->mesh_.view(), 7);
+  for (std::size_t i = case_count(500); i > 0; --i) {
+    Vector3<TypeParam> start = drawer.point_on_mesh();
+    Vector3<TypeParam> way = drawer.point_on_mesh() - start;
+    way[static_cast<Eigen::Index>(drawer.random().below(3))] = 0;
+    start -= static_cast<TypeParam>(drawer.random().below(3)) * way;
+    this->expect_found_in_cover(drawer.any_kind({start, start + 4 * way}));
+  }
+  EXPECT_GT(this->met_, 0U);
+}
+
+/// To ask a cover takes time, and so does to make one.
+TYPED_TEST(GridCoverTest, IsOfUseWhereMuchIsEmpty) {
+  EXPECT_FALSE(Grid().cover().is_useful());
+  EXPECT_FALSE(this->grid_.cover().is_useful());
+  this->place_ground(1, {0, 0, 0}, this->nested());
+  EXPECT_FALSE(this->grid_.cover().is_useful());
+  Random random(32);
+  this->build(scattered_triangles<TypeParam>(300, 0.2F, random), {});
+  EXPECT_FALSE(this->grid_.cover().is_useful());
+  this->place_askew({});
+  EXPECT_TRUE(this->grid_.cover().is_useful());
+  // The edges of a cube take up little of it, but no few boxes leave much out.
+  GeneratedMesh<TypeParam> edges;
+  for (int i = 0; i < 64 * 12; ++i) {
+    Vector3<TypeParam> point = {0, 0, 0};
+    point[i % 3] = static_cast<TypeParam>(i / 12) / 64;
+    point[(i + 1) % 3] = static_cast<TypeParam>(i / 3 % 2);
+    point[(i + 2) % 3] = static_cast<TypeParam>(i / 6 % 2);
+    edges.add({point, point, point});
+  }
+  this->build(edges, {.resolution = {16, 16, 16}});
+  EXPECT_FALSE(this->grid_.cover().is_useful());
+  this->build(lattice_cube<TypeParam>(4), {});
+  EXPECT_FALSE(this->grid_.cover().is_useful());
+}
+
+}  // namespace
+}  // namespace surehit::test
