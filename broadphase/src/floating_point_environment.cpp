@@ -12,8 +12,8 @@
 
 namespace surehit {
 
-// The compiler does not know that arithmetic depends on the control word. It is kept from moving any across by the
-// constructor and the destructor being functions it cannot see into from where the arithmetic is.
+// The compiler does not know that arithmetic depends on the control word. It is kept from moving any across by what
+// sets and restores it being functions it cannot see into from where the arithmetic is.
 
 #if defined(__SSE2__) || defined(_M_X64)
 
@@ -31,9 +31,7 @@ FloatingPointEnvironment::FloatingPointEnvironment() noexcept {
   _mm_setcsr(default_control);
 }
 
-FloatingPointEnvironment::~FloatingPointEnvironment() {
-  if (restore_) _mm_setcsr(static_cast<unsigned>(caller_));
-}
+void FloatingPointEnvironment::restore() noexcept { _mm_setcsr(static_cast<unsigned>(caller_)); }
 
 #elif defined(__aarch64__)
 
@@ -46,9 +44,7 @@ FloatingPointEnvironment::FloatingPointEnvironment() noexcept {
   __asm__ volatile("msr fpcr, %0" : : "r"(std::uint64_t{0}));
 }
 
-FloatingPointEnvironment::~FloatingPointEnvironment() {
-  if (restore_) __asm__ volatile("msr fpcr, %0" : : "r"(caller_));
-}
+void FloatingPointEnvironment::restore() noexcept { __asm__ volatile("msr fpcr, %0" : : "r"(caller_)); }
 
 #else
 
@@ -60,9 +56,7 @@ FloatingPointEnvironment::FloatingPointEnvironment() noexcept {
   std::fesetround(FE_TONEAREST);
 }
 
-FloatingPointEnvironment::~FloatingPointEnvironment() {
-  if (restore_) std::fesetround(static_cast<int>(caller_));
-}
+void FloatingPointEnvironment::restore() noexcept { std::fesetround(static_cast<int>(caller_)); }
 
 #endif
 

@@ -291,9 +291,8 @@ struct ForKernel {
   RangeWeights<Scalar> weights;
 };
 
-/// Whether a path has so many cells before it, from some tau on, that what is done once for all of them pays.
-HWY_INLINE bool is_long(const Grid& grid, const PlacedPath& placed, float enters) {
-  constexpr float least_cells = 12;
+/// Whether a path has so many cells before it, from some tau on.
+HWY_INLINE bool is_long(float least_cells, const Grid& grid, const PlacedPath& placed, float enters) {
   const float rate = placed.rate[0] + placed.rate[1] + placed.rate[2];
   const float way = (std::min(placed.end, placed.exit) - enters) * rate;
   return way >= least_cells * static_cast<float>(grid.frame().division) && way < 0x1p20F;
@@ -357,7 +356,8 @@ HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<S
                           const PathRange<Scalar>& range, const PlacedPath& placed, Visitor& visitor) {
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (std::is_same_v<Visitor, AnyHit<float>>) {
-    if (is_long(query.grid, placed, enters)) {
+    constexpr float least_cells = 12;  // that are worth it
+    if (is_long(least_cells, query.grid, placed, enters)) {
       if (query.grid.levels() > 0) {
         walk_pieces<true>(enters, query, path, range, placed, visitor);
       } else {
@@ -415,7 +415,8 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
     return;
   }
   if constexpr (std::is_same_v<Scalar, float>) {  // for double, the second walk would take too much stack
-    if (query.grid.cover().is_useful() && is_long(query.grid, placed, 0)) {
+    constexpr float least_cells = 4;              // that are worth it
+    if (query.grid.cover().is_useful() && is_long(least_cells, query.grid, placed, 0)) {
       walk_in_cover(query, path, range, placed, visitor);
       return;
     }

@@ -13,11 +13,15 @@ namespace surehit {
 class FloatingPointEnvironment {
  public:
   FloatingPointEnvironment() noexcept;
-  ~FloatingPointEnvironment();
+  ~FloatingPointEnvironment() {
+    if (restore_) restore();
+  }
   FloatingPointEnvironment(const FloatingPointEnvironment&) = delete;
   FloatingPointEnvironment& operator=(const FloatingPointEnvironment&) = delete;
 
  private:
+  void restore() noexcept;
+
   std::uint64_t caller_ = 0;
   bool restore_ = false;
 };
