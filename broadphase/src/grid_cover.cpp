@@ -10,10 +10,10 @@ namespace {
 
 /// In finest cells.
 struct CoverBox {
-  static constexpr float far = 0x1p20F;  ///< beyond the grid
+  static constexpr float outside = 0x1p20F;  ///< the grid
 
-  std::array<float, 3> low = {far, far, far};
-  std::array<float, 3> high = {-far, -far, -far};
+  std::array<float, 3> low = {outside, outside, outside};
+  std::array<float, 3> high = {-outside, -outside, -outside};
 
   [[nodiscard]] bool is_empty() const { return low[0] > high[0]; }
   void grow_around(const CoverBox& other) {
@@ -88,10 +88,14 @@ class ListingParts {
     float surface = 0;
     float whole = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const detail::Float4& stop = grid_.frame().float_stop;
-      const float face = stop[(axis + 1) % 3] * stop[(axis + 2) % 3];
+      const std::size_t next = (axis + 1) % 3;
+      const std::size_t last = (axis + 2) % 3;
+      const auto& cells = grid_.resolution();
+      // Where there are fewer cells, each has a part of its own.
+      const auto parts = static_cast<float>(std::min(cells[next], n) * std::min(cells[last], n));
+      const float face = grid_.frame().float_stop[next] * grid_.frame().float_stop[last];
       whole += face;
-      surface += face * static_cast<float>(std::count(seen[axis].begin(), seen[axis].end(), true)) / (n * n);
+      surface += face * static_cast<float>(std::count(seen[axis].begin(), seen[axis].end(), true)) / parts;
     }
     return surface / whole;
   }
@@ -171,8 +175,8 @@ GridCover::GridCover(const Grid& grid) {
     whole.low[axis] = 0;
     whole.high[axis] = grid.frame().float_stop[axis];
     for (Sides& sides : sides_[axis]) {
-      sides.near.fill(detail::all_lanes(far));
-      sides.far.fill(detail::all_lanes(-far));
+      sides.near.fill(detail::all_lanes(never));
+      sides.far.fill(detail::all_lanes(-never));
     }
   }
   for (std::size_t i = 0; i < count; ++i) {

@@ -81,7 +81,7 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
     frame.low[axis] = box.low[i];
     frame.high[axis] = box.high[i];
     // Four paddings are a quarter of a finest cell or less.
-    frame.cell_size = std::max(frame.cell_size, 1.25 * division / frame.scale[axis] / frame.unit[0] / frame.unit[1]);
+    frame.cell_size[axis] = 1.25 * division / frame.scale[axis] / frame.unit[0] / frame.unit[1];
   }
   frame.coarsen(1);
   return frame;

@@ -53,7 +53,9 @@ Pair exact_difference(double x, double y) {
 //
 // The boxes of the grid's cover hold those of the lists, and their planes are taken as far out. So tau lies between
 // where the first of them is entered and the last one left, as computed, and the walk may begin there instead of at 0,
-// as after a leap: at the whole part of the rounded place, or at the last cell where it is rounded out of the grid.
+// as after a leap: at the whole part of the rounded place. That is out of the grid, where the planes stand a padding
+// outside, only if an outer plane is crossed before: by the paddings beyond all that the path meets. Then the walk
+// begins in the last cell, lest it look outside, and ends with its first step.
 //
 // With w <= R the way that the path has in the grid on an axis, what is left of these is 3 u w for the crossing and 2 u
 // w for the rate, and |p - P| is what follows.

@@ -10,21 +10,25 @@
 
 namespace surehit::detail {
 
-/// How far from the start a corner of a triangle may be on any axis, if the path comes to a list in which the triangle
-/// is: no farther than this and the list's longest edge.
+/// How far from the start the corner a of a triangle may be on any axis, if the path comes to a list in which the
+/// triangle is: no farther than this and the list's longest edge.
 ///
-/// In the list's cell, but for paddings, are a point X of the path and a point Y of the triangle; from Y to any corner
-/// it is no farther than the longest edge. X is no farther from a segment's start than its end is, but for roundings.
-/// Where a path goes on for ever, the mesh's box bounds it.
+/// In the list's cell, but for paddings, are a point X of the path and a point Y of the triangle's box, which is no
+/// farther from a than the longer of b - a and c - a. X is no farther from a segment's start than its end is, but for
+/// the 2^-21 of it by which a walk may go on. And a is in the mesh's box, however thick the cells of a flat mesh are
+/// and however long the path.
 template <typename Scalar>
-[[nodiscard]] Scalar reach_of(const Path<Scalar>& path, Scalar d_size, const GridFrame& frame) {
+[[nodiscard]] Scalar reach_of(const Path<Scalar>& path, const Scalar (&d)[3], const GridFrame& frame) {
   constexpr double largest = std::numeric_limits<Scalar>::max();
-  if (path.has_end()) return d_size + static_cast<Scalar>(std::min(frame.cell_size, largest));
   Scalar reach = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Scalar start = path.start[static_cast<Eigen::Index>(axis)];
-    reach = std::max({reach, std::fabs(start - static_cast<Scalar>(frame.low[axis])),
-                      std::fabs(start - static_cast<Scalar>(frame.high[axis]))});
+    Scalar way = std::max(std::fabs(start - static_cast<Scalar>(frame.low[axis])),
+                          std::fabs(start - static_cast<Scalar>(frame.high[axis])));
+    if (path.has_end()) {
+      way = std::min(way, std::fabs(d[axis]) + static_cast<Scalar>(std::min(frame.cell_size[axis], largest)));
+    }
+    reach = std::max(reach, way);
   }
   return reach;
 }
@@ -39,7 +43,7 @@ struct KernelPath {
 
   KernelPath() = default;
   KernelPath(const Path<Scalar>& path, const GridFrame& frame) : KernelPath(path, Scalar{0}) {
-    reach = reach_of(path, d_size, frame);
+    reach = reach_of(path, d, frame);
   }
   KernelPath(const Path<Scalar>& path, Scalar any_reach) : d_size(0), reach(any_reach) {
     Scalar start_size = 0;

@@ -108,10 +108,13 @@ class LaneWalk {
  public:
   explicit LaneWalk(const Grid& grid) : grid_(grid) {
     const GridFrame& frame = grid.frame();
-    cell_size_ = static_cast<float>(frame.cell_size);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       stop_[axis] = static_cast<float>(frame.resolution(axis));
       pitch_[axis] = static_cast<float>(frame.top_pitch[axis]);
+      if (!frame.has_floats) continue;  // nothing is placed here
+      low_[axis] = static_cast<float>(frame.low[axis]);
+      high_[axis] = static_cast<float>(frame.high[axis]);
+      cell_size_[axis] = static_cast<float>(frame.cell_size[axis]);
     }
   }
 
@@ -138,7 +141,7 @@ class LaneWalk {
     Floats fastest = zero;
     Floats start_size = zero;
     Floats way_size = zero;
-    Floats farthest = zero;
+    Floats reach = zero;
     Floats first_cell = zero;
     Words octant = hn::Zero(du);
     Floats from[3];
@@ -159,11 +162,10 @@ class LaneWalk {
       hn::Store(way, d, kernel_paths.d[k].data());
       start_size = hn::Max(start_size, hn::Abs(start));
       way_size = hn::Max(way_size, hn::Abs(way));
-      if (!is_segment) {
-        for (const double side : {frame.low[k], frame.high[k]}) {
-          farthest = hn::Max(farthest, hn::Abs(hn::Sub(start, hn::Set(d, static_cast<float>(side)))));
-        }
-      }
+      Floats reach_here =
+          hn::Max(hn::Abs(hn::Sub(start, hn::Set(d, low_[k]))), hn::Abs(hn::Sub(start, hn::Set(d, high_[k]))));
+      if (is_segment) reach_here = hn::Min(reach_here, hn::Add(hn::Abs(way), hn::Set(d, cell_size_[k])));
+      reach = hn::Max(reach, reach_here);
       const auto falls = hn::Lt(move, zero);
       from[k] = hn::IfThenElse(falls, hn::Sub(stop, place), place);
       const Floats speed = hn::Abs(move);
@@ -188,7 +190,7 @@ class LaneWalk {
                               hn::Le(way_size, hn::Set(d, KernelBound<float>::largest_size)));
     hn::Store(hn::IfThenElse(fits, way_size, hn::Set(d, std::numeric_limits<float>::infinity())), d,
               kernel_paths.d_size.data());
-    hn::Store(is_segment ? hn::Add(way_size, hn::Set(d, cell_size_)) : farthest, d, kernel_paths.reach.data());
+    hn::Store(reach, d, kernel_paths.reach.data());
     auto is_plain = is_near;
     if (!is_segment) is_plain = hn::And(is_plain, hn::Ge(fastest, hn::Set(d, PlacedPath::slow)));
     const auto taken = hn::FirstN(d, count);
@@ -370,7 +372,9 @@ class LaneWalk {
   const Grid& grid_;
   std::array<float, 3> stop_;
   std::array<float, 3> pitch_;
-  float cell_size_;
+  std::array<float, 3> low_ = {};  ///< the mesh's box,
+  std::array<float, 3> high_ = {};
+  std::array<float, 3> cell_size_ = {};
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "grid_walk.hpp"
 #include "support/scalars.hpp"
@@ -82,6 +84,52 @@ TYPED_TEST(GridCoverTest, HoldsWallsInThePlanesOfItsBoxes) {
     this->expect_found_in_cover(drawer.any_kind({start, start + 4 * way}));
   }
   EXPECT_GT(this->met_, 0U);
+}
+
+/// Within a padding of the grid, where the cover's outer planes stand, past a near plane of the box in the last corner.
+TYPED_TEST(GridCoverTest, LooksNowhereOutsideTheGrid) {
+  const auto cube = placed<TypeParam>(lattice_cube<TypeParam>(2), TypeParam{0.1F}, {0, 0, 0});
+  this->build(joined(cube, placed<TypeParam>(cube, TypeParam{1}, {0.8F, 0.8F, 0.8F})), {.resolution = {40, 40, 40}});
+  ASSERT_TRUE(this->grid_.cover().is_useful());
+  const GridFrame& frame = this->grid_.frame();
+  Random random(33);
+  std::size_t outside = 0;
+  for (std::size_t i = case_count(2'000); i > 0; --i) {
+    const std::size_t out = random.below(3);
+    const std::size_t along = (out + 1 + random.below(2)) % 3;
+    const bool falls = random.one_in(2);
+    // Counted from the corner at which the box is, or from the opposite one.
+    const double corner = falls ? 0 : 40;
+    const double inward = falls ? 1 : -1;
+    const double box = corner + inward * (8 - 2.0 * frame.padding(0));
+    std::array<double, 3> at = {};
+    at.fill(corner + inward * 4);
+    at[along] = box + inward * 0.5 * random.unit<double>() * frame.padding(0);
+    at[out] = corner - inward * 0.5 * random.unit<double>() * frame.padding(0);
+    std::array<double, 3> from = at;
+    std::array<double, 3> to = at;
+    from[along] += inward * 5;
+    to[along] -= inward * 5;
+    from[out] += inward * 3 * frame.padding(0);
+    to[out] -= inward * 3 * frame.padding(0);
+    Segment<TypeParam> segment;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      segment.start[k] = static_cast<TypeParam>(out_of_frame(frame, axis, from[axis]));
+      segment.end[k] = static_cast<TypeParam>(out_of_frame(frame, axis, to[axis]));
+    }
+    const Path<TypeParam> path = segment;
+    const PlacedPath in_grid(this->grid_, path, 0, 1);
+    if (in_grid.place != PlacedPath::Place::inside) continue;
+    const GridCover::Part part =
+        this->grid_.cover().part_of(in_grid.start, in_grid.inverse_rate, in_grid.octant, in_grid.end);
+    if (part.enters > part.leaves) continue;
+    outside += in_grid.start[out] + part.enters * in_grid.rate[out] >= 40 ? 1 : 0;
+    const GridTraversal begun(this->grid_, in_grid, part.enters);
+    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_LT(begun.low()[axis], 40) << hex_text(path);
+  }
+  EXPECT_GT(outside, 0U) << "none begins there";
+  this->RecordProperty("outside", std::to_string(outside));
 }
 
 /// To ask a cover takes time, and so does to make one.

@@ -92,6 +92,18 @@ TYPED_TEST(KernelPathOf, reaches_every_corner_of_the_lists_that_it_comes_to) {
   this->RecordProperty("worst_share_of_others", std::to_string(of_others));
 }
 
+/// Its cells are as thick as they are wide, or more.
+TYPED_TEST(KernelPathOf, reaches_no_farther_than_a_flat_mesh) {
+  Random random(34);
+  const auto ground = rough_ground<TypeParam>(40, TypeParam{0.5F}, random);
+  const auto mesh = flattened<TypeParam>(placed<TypeParam>(ground, TypeParam{20}, {0, 0, 0}), 2, TypeParam{0});
+  const Grid grid(mesh.view(), box_of(mesh.view()), {});
+  const Path<TypeParam> path = Segment<TypeParam>{{1, 2, TypeParam{0.25F}}, {1, 2, TypeParam{-0.25F}}};
+  EXPECT_LE(detail::KernelPath<TypeParam>(path, grid.frame()).reach, 2);
+  const auto shares = this->worst_shares(mesh, {}, random);
+  EXPECT_LE(std::max(shares.of_segments, shares.of_others), 1 + 0x1p-18);
+}
+
 TYPED_TEST(KernelPathOf, reaches_as_far_as_a_scalar_does_where_the_mesh_is_wider) {
   const TypeParam huge = std::numeric_limits<TypeParam>::max();
   GeneratedMesh<TypeParam> mesh;

@@ -39,8 +39,8 @@ struct GridFrame {
   std::array<float, 3> margin = {0, 0, 0};   ///< by which the outer planes stand off the box
   std::array<double, 3> low = {0, 0, 0};     ///< the mesh's box
   std::array<double, 3> high = {0, 0, 0};    //
-  /// More than any two points of a top cell's box, grown by two paddings, are apart on any axis.
-  double cell_size = 0;
+  /// More than two points of a top cell's box, grown by two paddings, are apart on an axis, but where it is a denormal.
+  std::array<double, 3> cell_size = {0, 0, 0};
   std::array<std::uint32_t, 3> cells = {0, 0, 0};  ///< top cells on each axis
   std::uint32_t division = 1;                      ///< finest cells along an edge of a top cell
   detail::Int4 top_pitch = {0, 0, 0, 0};           ///< from one top cell to the next on an axis, among all of them,

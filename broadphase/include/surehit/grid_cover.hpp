@@ -39,8 +39,8 @@ class GridCover {
     const Sides& x = sides_[0][octant & 1];
     const Sides& y = sides_[1][octant >> 1 & 1];
     const Sides& z = sides_[2][octant >> 2 & 1];
-    Float4 first = all_lanes(far);
-    Float4 last = all_lanes(-far);
+    Float4 first = all_lanes(never);
+    Float4 last = all_lanes(-never);
     for (std::size_t i = 0; i < most_boxes / 4; ++i) {
       const auto crosses = [&](const Float4& sides, std::size_t axis) {
         return (sides - start[axis]) * inverse_rate[axis];
@@ -57,7 +57,7 @@ class GridCover {
   }
 
  private:
-  static constexpr float far = 0x1p120F;  ///< the near side of a box that is not there, and beyond every tau
+  static constexpr float never = 0x1p120F;  ///< beyond every tau, and the near side of a box that is not there
 
   /// Of all boxes on an axis, in finest cells, one padding farther out than the boxes.
   struct Sides {
