@@ -24,10 +24,10 @@ CellLister::CellLister(CellEntries& entries, bool may_grow, const CellRange& cel
       per_size_(1 / size_),  // a power of two
       cell_padding_(padding),
       padding_(padding[0], padding[1], padding[2], 0),
-      order_{{}, cells.length(0), cells.length(0) * cells.length(1)} {
+      order_{cells.length(0), cells.length(0) * cells.length(1)},
+      pitch_(1, static_cast<float>(order_.row), static_cast<float>(order_.layer), 0) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    order_.first[axis] = static_cast<float>(cells.low[axis]);
-    first_[static_cast<Eigen::Index>(axis)] = order_.first[axis];
+    first_[static_cast<Eigen::Index>(axis)] = static_cast<float>(cells.low[axis]);
     last_[static_cast<Eigen::Index>(axis)] = static_cast<float>(cells.high[axis] - 1);
   }
   first_[3] = last_[3] = 0;
@@ -82,8 +82,9 @@ void CellLister::add_blocks(std::uint32_t triangle, const Corners& corners, cons
 
 void CellLister::ask() {
   const std::size_t filled = std::exchange(filled_, 0);
+  const std::size_t blocks = std::exchange(block_count_, 0);
   if (entries_.count == CellEntries::too_many) return;
-  const std::size_t most = entries_.count + OverlapLanes::count * OverlapLanes::cells_of_a_block;
+  const std::size_t most = entries_.count + ListedBlocks::most * OverlapLanes::cells_of_a_block;
   if (entries_.cells.size() < most) {
     if (!may_grow_) {
       entries_.count = CellEntries::too_many;
@@ -91,9 +92,12 @@ void CellLister::ask() {
     }
     entries_.make_room(2 * most);
   }
-  OverlapLanes::Row<std::int32_t> overlaps;
-  find_overlaps(lanes_, cell_padding_, size_, overlaps);
-  entries_.count += write_overlaps(lanes_, overlaps, triangles_, filled, order_, entries_.cells.data() + entries_.count,
+  if (filled > 0) {
+    OverlapLanes::Row<std::int32_t> overlaps;
+    find_overlaps(lanes_, cell_padding_, size_, overlaps);
+    for (std::size_t lane = 0; lane < filled; ++lane) blocks_.overlaps[block_of_lane_[lane]] = overlaps[lane];
+  }
+  entries_.count += write_overlaps(blocks_, blocks, order_, entries_.cells.data() + entries_.count,
                                    entries_.triangles.data() + entries_.count);
 }
 

@@ -14,7 +14,7 @@
 namespace surehit::detail {
 
 /// Finds which cells of a box triangles meet, which come one by one. Their boxes are cut into blocks of cells, many of
-/// which are asked at once whether they meet their triangle.
+/// which are asked at once whether they meet their triangle, where that is not known beforehand.
 class CellLister {
  public:
   using Corners = std::array<PaddedPoint, 3>;
@@ -26,11 +26,17 @@ class CellLister {
   /// A triangle whose box, once it is padded, overlaps some of the cells. Entries keep the order in which triangles are
   /// added.
   void add(std::uint32_t triangle, const Corners& corners, const PaddedBox& box) {
-    const Cell first = cell_of(box.low - padding_).max(first_);
-    const Cell last = cell_of(box.high + padding_).min(last_);
+    const Cell low = cell_of(box.low - padding_);
+    const Cell high = cell_of(box.high + padding_);
+    const Cell first = low.max(first_);
+    const Cell last = high.min(last_);
     const Cell more = last - first;
     assert(more.minCoeff() >= 0);
-    if (more.maxCoeff() > 1) {
+    if ((high - low).sum() <= 1) {
+      // Within one cell, or across one plane between cells: some corner is in each that the box overlaps, but for the
+      // padding.
+      list(triangle, first, 1 + (more * Cell(2, 4, 16, 0)).sum());
+    } else if (more.maxCoeff() > 1) {
       add_range(triangle, corners, first, last);
     } else {
       add_block(triangle, corners, first, more);
@@ -52,23 +58,37 @@ class CellLister {
 
   /// Of one more cell on some axes, or none.
   void add_block(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& more) {
-    for (std::size_t i = 0; i < 3; ++i) lanes_.corners[i][filled_] = corners[i];
-    lanes_.low[filled_] = first;
-    lanes_.more[filled_] = more;
-    triangles_[filled_] = triangle;
-    if (++filled_ == OverlapLanes::count) ask();
+    const std::size_t lane = filled_++;
+    for (std::size_t i = 0; i < 3; ++i) lanes_.corners[i][lane] = corners[i];
+    lanes_.low[lane] = first;
+    lanes_.more[lane] = more;
+    block_of_lane_[lane] = block_count_;
+    list(triangle, first, 0);
+    if (lane + 1 == OverlapLanes::count) ask();
+  }
+
+  /// A block of which it is known, or will be, which cells the triangle meets. Numbers are whole, and exact: cells are
+  /// no more than floats can count.
+  void list(std::uint32_t triangle, const Cell& first, float overlaps) {
+    const std::size_t block = block_count_++;
+    blocks_.triangles[block] = triangle;
+    blocks_.first[block] = static_cast<std::uint32_t>(static_cast<std::int32_t>(((first - first_) * pitch_).sum()));
+    blocks_.overlaps[block] = static_cast<std::int32_t>(overlaps);
+    if (block + 1 == ListedBlocks::most) ask();
   }
 
   void add_range(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last);
   void add_parts(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last,
                  const TriangleOverlap& overlap);
   void add_blocks(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last);
-  /// Asks what is in the lanes, and makes entries of the answers.
+  /// Asks what is in the lanes, and makes entries of all blocks.
   void ask();
 
   OverlapLanes lanes_;
-  OverlapLanes::Row<std::uint32_t> triangles_;
-  std::size_t filled_ = 0;
+  std::array<std::size_t, OverlapLanes::count> block_of_lane_;
+  std::size_t filled_ = 0;  ///< lanes
+  ListedBlocks blocks_;
+  std::size_t block_count_ = 0;
   CellEntries& entries_;
   bool may_grow_;
   float size_;
@@ -78,6 +98,7 @@ class CellLister {
   Cell first_;
   Cell last_;
   CellOrder order_;
+  Cell pitch_;  ///< the same of each axis
 };
 
 /// Sorts the entries of so many cells into lists, by counting.

@@ -122,25 +122,19 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
   }
 }
 
-std::size_t write_from_lanes(const OverlapLanes& lanes, const OverlapLanes::Row<std::int32_t>& overlaps,
-                             const OverlapLanes::Row<std::uint32_t>& triangles, std::size_t count,
-                             const CellOrder& order, std::uint32_t* cells, std::uint32_t* owners) {
+std::size_t write_blocks(const ListedBlocks& blocks, std::size_t count, const CellOrder& order, std::uint32_t* cells,
+                         std::uint32_t* owners) {
   const hn::CappedTag<std::uint32_t, OverlapLanes::cells_of_a_block> d;
   std::array<std::uint32_t, OverlapLanes::cells_of_a_block> beyond;
   for (std::uint32_t i = 0; i < beyond.size(); ++i) {
     beyond[i] = (i & 1) + (i >> 1 & 1) * order.row + (i >> 2) * order.layer;
   }
-  const auto row = static_cast<float>(order.row);
-  const auto layer = static_cast<float>(order.layer);
   std::size_t written = 0;
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    // Exact: cells are no more than floats can count.
-    const PaddedPoint& low = lanes.low[lane];
-    const float place = (low[0] - order.first[0]) + (low[1] - order.first[1]) * row + (low[2] - order.first[2]) * layer;
-    const auto first = hn::Set(d, static_cast<std::uint32_t>(static_cast<std::int32_t>(place)));
-    const auto triangle = hn::Set(d, triangles[lane]);
+  for (std::size_t block = 0; block < count; ++block) {
+    const auto first = hn::Set(d, blocks.first[block]);
+    const auto triangle = hn::Set(d, blocks.triangles[block]);
     for (std::size_t i = 0; i < beyond.size(); i += hn::Lanes(d)) {
-      const std::uint64_t bits = static_cast<std::uint32_t>(overlaps[lane]) >> i;
+      const std::uint64_t bits = static_cast<std::uint32_t>(blocks.overlaps[block]) >> i;
       const auto meets = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&bits));
       hn::StoreU(hn::Compress(hn::Add(first, hn::LoadU(d, &beyond[i])), meets), d, cells + written);
       hn::StoreU(triangle, d, owners + written);
@@ -157,17 +151,16 @@ HWY_AFTER_NAMESPACE();
 namespace surehit::detail {
 
 HWY_EXPORT(find_in_lanes);
-HWY_EXPORT(write_from_lanes);
+HWY_EXPORT(write_blocks);
 
 void find_overlaps(const OverlapLanes& lanes, const CellPoint& padding, float size,
                    OverlapLanes::Row<std::int32_t>& overlaps) {
   HWY_DYNAMIC_DISPATCH(find_in_lanes)(lanes, padding, size, overlaps);
 }
 
-std::size_t write_overlaps(const OverlapLanes& lanes, const OverlapLanes::Row<std::int32_t>& overlaps,
-                           const OverlapLanes::Row<std::uint32_t>& triangles, std::size_t count, const CellOrder& order,
-                           std::uint32_t* cells, std::uint32_t* owners) {
-  return HWY_DYNAMIC_DISPATCH(write_from_lanes)(lanes, overlaps, triangles, count, order, cells, owners);
+std::size_t write_overlaps(const ListedBlocks& blocks, std::size_t count, const CellOrder& order, std::uint32_t* cells,
+                           std::uint32_t* owners) {
+  return HWY_DYNAMIC_DISPATCH(write_blocks)(blocks, count, order, cells, owners);
 }
 
 }  // namespace surehit::detail

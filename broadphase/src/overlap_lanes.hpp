@@ -35,17 +35,24 @@ struct OverlapLanes {
 void find_overlaps(const OverlapLanes& lanes, const CellPoint& padding, float size,
                    OverlapLanes::Row<std::int32_t>& overlaps);
 
-/// Cells in the order in which they are listed, x first.
+/// Cells are listed in this order, x first.
 struct CellOrder {
-  CellPoint first;      ///< whole numbers
   std::uint32_t row;    ///< cells from one to the next on axis y
   std::uint32_t layer;  ///< and on axis z
 };
 
-/// Writes the cells of which the first `count` lanes' overlaps tell, each lane's in turn, by their places in the order,
-/// and for each of them the lane's triangle. Returns how many; of the rest up to 8 a lane, anything may be written.
-std::size_t write_overlaps(const OverlapLanes& lanes, const OverlapLanes::Row<std::int32_t>& overlaps,
-                           const OverlapLanes::Row<std::uint32_t>& triangles, std::size_t count, const CellOrder& order,
-                           std::uint32_t* cells, std::uint32_t* owners);
+/// Blocks of up to 2 × 2 × 2 cells, each with a triangle that is known to meet some of them.
+struct ListedBlocks {
+  static constexpr std::size_t most = 64;
+
+  std::array<std::uint32_t, most> triangles;
+  std::array<std::uint32_t, most> first;    ///< the first cell's place in the order
+  std::array<std::int32_t, most> overlaps;  ///< as `find_overlaps` tells them
+};
+
+/// Writes the cells that are met in the first `count` blocks, block by block, by their places in the order, and for
+/// each of them the triangle. Returns how many; of the rest up to 8 a block, anything may be written.
+std::size_t write_overlaps(const ListedBlocks& blocks, std::size_t count, const CellOrder& order, std::uint32_t* cells,
+                           std::uint32_t* owners);
 
 }  // namespace surehit::detail

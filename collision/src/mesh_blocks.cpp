@@ -13,7 +13,7 @@ namespace {
 /// What the widest vector load may read beyond the last triangle.
 constexpr std::size_t slack = 64;
 /// In an executor's task.
-constexpr std::size_t cells_in_a_part = std::size_t{1} << 13;
+constexpr std::size_t lists_in_a_part = std::size_t{1} << 12;
 
 }  // namespace
 
@@ -71,10 +71,13 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners& triangles, const Grid& grid,
       }
     }
   };
-  const auto fill = [&](CellWord word) {
-    if (word.is_empty() || word.is_divided()) return;
-    const std::span<const std::uint32_t> ids = grid.triangles(word);
-    Scalar* edge_size = blocks_.data() + offset(word.number(), grid.first_entry(word));
+  const std::span<const CellList> lists = grid.lists();
+  const std::span<const std::uint32_t> entries = grid.entries();
+  const auto fill = [&](std::size_t number) {
+    const std::size_t first_entry = lists[number].first_entry;
+    const std::span<const std::uint32_t> ids =
+        entries.subspan(first_entry, lists[number + 1].first_entry - first_entry);
+    Scalar* edge_size = blocks_.data() + offset(number, first_entry);
     Scalar* list = edge_size + 1;
     Four longest = Four::Zero();
     if (ids.size() >= 4) {
@@ -93,11 +96,10 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners& triangles, const Grid& grid,
     }
     *edge_size = too_large ? std::numeric_limits<Scalar>::infinity() : longest.maxCoeff();
   };
-  for (const std::span<const CellWord> words : {grid.top(), grid.bricks()}) {
-    detail::in_parts(executor, words.size(), cells_in_a_part, [&](std::size_t first, std::size_t last) {
-      for (std::size_t cell = first; cell < last; ++cell) fill(words[cell]);
-    });
-  }
+  if (lists.empty()) return;
+  detail::in_parts(executor, lists.size() - 1, lists_in_a_part, [&](std::size_t first, std::size_t last) {
+    for (std::size_t list = first; list < last; ++list) fill(list);
+  });
 }
 
 template <typename Scalar>
