@@ -204,6 +204,14 @@ class Batch {
     return (inside & ~leaving) | walk_.advance(cells, leaving, placed_);
   }
 
+  /// Fetches the beginning of a list into the cache, or what lies behind it. More lines would cost more than they save;
+  /// so does one for a single path, which needs the list at once.
+  static void prefetch(const TriangleList<float>& list) {
+    constexpr std::size_t line = 64 / sizeof(float);
+    constexpr std::size_t lines = 4;
+    for (std::size_t from = 0; from < lines * line; from += line) hwy::Prefetch(list.corners + from);
+  }
+
   /// Lets these paths meet the lists of their cells, and ends those that are done. The kernel runs over some lists, of
   /// whatever length, before anything is done about its verdicts: neither can be foretold.
   HWY_INLINE void meet_lists(std::uint64_t arriving) {

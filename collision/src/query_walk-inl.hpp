@@ -245,19 +245,6 @@ HWY_INLINE TriangleList<Scalar> list_of(const Query<Scalar>& query, CellWord wor
           MeshBlocks<Scalar>::edge_size(block)};
 }
 
-/// Fetches the beginning of a list into the cache. More lines would cost more than they save. Without branches on the
-/// list's length, which nobody could foretell: what lies beyond its end is the first line again.
-template <typename Scalar>
-HWY_INLINE void prefetch(const TriangleList<Scalar>& list) {
-  constexpr std::ptrdiff_t line = 64 / sizeof(Scalar);
-  constexpr std::ptrdiff_t lines = 6;
-  const auto end = static_cast<std::ptrdiff_t>(MeshBlocks<Scalar>::coordinates * list.count);
-  for (std::ptrdiff_t from = 0; from < lines * line; from += line) {
-    const std::ptrdiff_t is_beyond = (end - from) >> std::numeric_limits<std::ptrdiff_t>::digits;  // all bits, or none
-    hwy::Prefetch(list.corners + (from & ~is_beyond));
-  }
-}
-
 /// Shows the visitor the triangles of a list, from one of them on, that the path may meet. Returns whether the path is
 /// shorter now.
 template <typename Scalar, typename AnyPath, typename Visitor>
@@ -320,9 +307,6 @@ HWY_NOINLINE void walk_pieces(float enters, const Query<float>& query, const Pat
     if (arriving != 0) {
       alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_lanes> words;
       hn::Store(cells.word, du, words.data());
-      for (std::uint32_t left = arriving; left != 0; left &= left - 1) {
-        prefetch(list_of(query, CellWord(words[static_cast<std::size_t>(std::countr_zero(left))])));
-      }
       for (; arriving != 0; arriving &= arriving - 1) {
         const TriangleList<float> list =
             list_of(query, CellWord(words[static_cast<std::size_t>(std::countr_zero(arriving))]));
@@ -378,10 +362,6 @@ HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<S
     if (traversal.word().is_empty() || !traversal.meets_box()) continue;
     if (!for_kernel) for_kernel.emplace(path, range, query.grid.frame());
     const TriangleList<Scalar> list = list_of(query, traversal.word());
-    prefetch(list);
-    if constexpr (Visitor::wants_order) {
-      hwy::Prefetch(query.grid.entries().data() + list.first_entry);  // for the hit's id
-    }
     query.statistics.candidates += list.count;
     const bool shorter = meet_list(query, range, path, for_kernel->path, for_kernel->weights, list, 0, visitor);
     if constexpr (Visitor::wants_order) {
