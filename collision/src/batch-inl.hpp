@@ -123,12 +123,13 @@ class Batch {
         arriving |= slots_of(i, walk_.meet_boxes(cells_[i], standing, lanes_[i]));
         hn::Store(cells_[i].word, du, &words_[i * most_lanes]);
       }
-      meet_lists(arriving);
+      const std::uint64_t walked = walking_;
+      walking_ &= ~meet_lists(arriving);
       std::uint64_t still = 0;
       for (std::size_t i = 0; i < used; ++i) {
         still |= slots_of(i, walk_.advance(cells_[i], of_vector(i, walking_), lanes_[i]));
       }
-      end_paths(walking_ & ~still);
+      end_paths(walked & ~still);
     }
   }
 
@@ -212,20 +213,14 @@ class Batch {
     for (std::size_t from = 0; from < lines * line; from += line) hwy::Prefetch(list.corners + from);
   }
 
-  /// Lets these paths meet the lists of their cells, and ends those that are done. The kernel runs over some lists, of
-  /// whatever length, before anything is done about its verdicts: neither can be foretold.
-  HWY_INLINE void meet_lists(std::uint64_t arriving) {
-    for (std::uint64_t left = arriving; left != 0; left &= left - 1) {
-      const auto slot = static_cast<std::size_t>(std::countr_zero(left));
-      const TriangleList<float>& list = lists_[slot] = list_of(query_, CellWord(words_[slot]));
-      prefetch(list);
-      bounds_[slot] = Kernel::bounds(kernel_path_[slot], weights_, list);
-      query_.statistics.candidates += list.count;
-    }
+  /// Lets these paths meet the lists of their cells, and returns those that are done. The kernel runs over some lists,
+  /// of whatever length, before anything is done about its verdicts: neither can be foretold.
+  HWY_INLINE std::uint64_t meet_lists(std::uint64_t arriving) {
     std::uint64_t done = 0;
     for (std::size_t from = 0; arriving != 0; from += most_at_once) {
       std::uint64_t longer = 0;
-      const std::size_t jobs = list_jobs(arriving, from, longer);
+      const std::size_t jobs =
+          from == 0 ? list_jobs<true>(arriving, 0, longer) : list_jobs<false>(arriving, from, longer);
       for (std::size_t first_job = 0; first_job < jobs; first_job += most_jobs) {
         const auto some = std::span(jobs_).subspan(first_job, std::min(jobs - first_job, most_jobs));
         for (const auto& [slot, first_triangle, verdicts, first] : std::span(open_).first(open_jobs(some, from))) {
@@ -238,16 +233,24 @@ class Batch {
       }
       arriving = longer & ~done;
     }
-    end_paths(done);
+    return done;
   }
 
   /// Of the lists of these slots' paths the triangles from one of them on, as many as become jobs at once. Says how
-  /// many jobs there are, and whose lists are longer.
+  /// many jobs there are, and whose lists are longer. The first time it finds the lists: a loop of its own, over as
+  /// many as nobody could foretell, would cost a branch more.
+  template <bool finds_lists>
   HWY_INLINE std::size_t list_jobs(std::uint64_t slots, std::size_t from, std::uint64_t& longer) {
     const std::size_t lanes = hn::Lanes(hn::ScalableTag<float>());
     std::size_t jobs = 0;
     for (; slots != 0; slots &= slots - 1) {
       const auto slot = static_cast<std::uint16_t>(std::countr_zero(slots));
+      if constexpr (finds_lists) {
+        const TriangleList<float>& list = lists_[slot] = list_of(query_, CellWord(words_[slot]));
+        prefetch(list);
+        bounds_[slot] = Kernel::bounds(kernel_path_[slot], weights_, list);
+        query_.statistics.candidates += list.count;
+      }
       const std::size_t left = lists_[slot].count - from;
       for (std::size_t i = 0; i < most_at_once; i += lanes) {
         jobs_[jobs + i / lanes] = {slot, static_cast<std::uint16_t>(i)};
