@@ -321,6 +321,24 @@ TYPED_TEST(GridTraversalTest, IsUnclippedOnlyWhereItCannotBePlaced) {
   EXPECT_TRUE(GridTraversal(this->grid_, unclipped).at_end());
 }
 
+TYPED_TEST(GridTraversalTest, IsOutsideWhereItEndsBeforeTheGridOrBeginsBehindIt) {
+  using Place = PlacedPath::Place;
+  const double low = this->grid_.frame().low[0];
+  const double width = this->grid_.frame().high[0] - low;
+  const auto along_x = [&](double from, double to, double first = 0, double last = 1) {
+    const auto at = [&](double share) { return Vector3<TypeParam>(TypeParam(low + share * width), 0, 0.3F); };
+    return PlacedPath(this->grid_, Path<TypeParam>(Segment<TypeParam>{at(from), at(to)}), first, last).place;
+  };
+  EXPECT_EQ(along_x(-0.75, -0.25), Place::outside);
+  EXPECT_EQ(along_x(-0.75, 0.25), Place::inside);
+  EXPECT_EQ(along_x(-0.75, 0.25, 0, 0.5), Place::outside);
+  EXPECT_EQ(along_x(-0.75, 0.25, 0.5, 1), Place::inside);
+  EXPECT_EQ(along_x(0.75, 1.25), Place::inside);
+  EXPECT_EQ(along_x(0.75, 1.25, 0.75, 1), Place::outside);
+  EXPECT_EQ(along_x(1.25, 1.75), Place::outside);
+  EXPECT_EQ(along_x(1.25, 0.75), Place::inside);
+}
+
 TYPED_TEST(GridTraversalTest, StartsNearAndEndsAnywhere) {
   constexpr TypeParam largest = std::numeric_limits<TypeParam>::max();
   for (const TypeParam far : {TypeParam{0x1p63F}, largest / 4, largest}) {

@@ -86,11 +86,18 @@ template <typename Scalar>
   const Float4 from = falls ? stop - at : at;
   rate = stands ? all_lanes(0.0F) : speed;
   inverse_rate = stands ? all_lanes(greatest_inverse) : 1 / speed;
-  const Float4 limits = greatest_lanes(-from * inverse_rate, (from - stop) * inverse_rate, speed,
-                                       is_near ? all_lanes(0.0F) : all_lanes(1.0F));
+  Float4 leaving = (from - stop) * inverse_rate;
+  leaving[3] = -last_t;
+  const Float4 limits =
+      greatest_lanes(-from * inverse_rate, leaving, speed, is_near ? all_lanes(0.0F) : all_lanes(1.0F));
   if (limits[3] != 0 || !(limits[2] >= slow || path.has_end())) return false;
-  const float enters = std::max(first_t, limits[0]);
-  const float leaves = std::min(last_t, -limits[1]);
+  // Whether it begins outside is known before the divisions are done. Most begin inside, and need not wait for them.
+  const bool begins_outside = any_lane(from < all_lanes(0.0F)) || !(first_t >= 0);
+  float enters = first_t;
+  if (begins_outside) [[unlikely]] {
+    enters = std::max(first_t, limits[0]);
+  }
+  const float leaves = -limits[1];
   if (!(enters <= leaves)) return true;
   place = Place::inside;
   octant = static_cast<std::uint32_t>((falls[0] & 1) | (falls[1] & 2) | (falls[2] & 4));
