@@ -83,8 +83,8 @@ void CellLister::add_blocks(std::uint32_t triangle, const Corners& corners, cons
 void CellLister::ask() {
   const std::size_t filled = std::exchange(filled_, 0);
   const std::size_t blocks = std::exchange(block_count_, 0);
-  if (entries_.count == CellEntries::too_many) return;
-  const std::size_t most = entries_.count + ListedBlocks::most * OverlapLanes::cells_of_a_block;
+  if (blocks == 0 || entries_.count == CellEntries::too_many) return;
+  const std::size_t most = entries_.count + blocks * OverlapLanes::cells_of_a_block;
   if (entries_.cells.size() < most) {
     if (!may_grow_) {
       entries_.count = CellEntries::too_many;

@@ -34,7 +34,7 @@ class CellLister {
     assert(more.minCoeff() >= 0);
     if ((high - low).sum() <= 1) {
       // Within one cell, or across one plane between cells: some corner is in each that the box overlaps, but for the
-      // padding.
+      // padding and its rounding. All of the box counts: what is beyond a brick may cross other planes.
       list(triangle, first, 1 + (more * Cell(2, 4, 16, 0)).sum());
     } else if (more.maxCoeff() > 1) {
       add_range(triangle, corners, first, last);
@@ -64,11 +64,11 @@ class CellLister {
     lanes_.more[lane] = more;
     block_of_lane_[lane] = block_count_;
     list(triangle, first, 0);
-    if (lane + 1 == OverlapLanes::count) ask();
+    if (filled_ == OverlapLanes::count) ask();
   }
 
-  /// A block of which it is known, or will be, which cells the triangle meets. Numbers are whole, and exact: cells are
-  /// no more than floats can count.
+  /// A block and the bits of its overlaps, or 0 for what the lanes are yet to tell. Numbers are whole, and exact: cells
+  /// are no more than floats can count.
   void list(std::uint32_t triangle, const Cell& first, float overlaps) {
     const std::size_t block = block_count_++;
     blocks_.triangles[block] = triangle;
@@ -98,7 +98,7 @@ class CellLister {
   Cell first_;
   Cell last_;
   CellOrder order_;
-  Cell pitch_;  ///< the same of each axis
+  Cell pitch_;  ///< from one cell to the next on each axis, in that order
 };
 
 /// Sorts the entries of so many cells into lists, by counting.

@@ -41,7 +41,7 @@ struct CellOrder {
   std::uint32_t layer;  ///< and on axis z
 };
 
-/// Blocks of up to 2 × 2 × 2 cells, each with a triangle that is known to meet some of them.
+/// Blocks of up to 2 × 2 × 2 cells, each with a triangle, and which of the cells this meets.
 struct ListedBlocks {
   static constexpr std::size_t most = 64;
 

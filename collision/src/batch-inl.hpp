@@ -123,7 +123,7 @@ class Batch {
         arriving |= slots_of(i, walk_.meet_boxes(cells_[i], standing, lanes_[i]));
         hn::Store(cells_[i].word, du, &words_[i * most_lanes]);
       }
-      const std::uint64_t walked = walking_;
+      const std::uint64_t walked = walking_;  // those that are done end with the rest
       walking_ &= ~meet_lists(arriving);
       std::uint64_t still = 0;
       for (std::size_t i = 0; i < used; ++i) {

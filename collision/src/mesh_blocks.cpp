@@ -71,13 +71,10 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners& triangles, const Grid& grid,
       }
     }
   };
-  const std::span<const CellList> lists = grid.lists();
-  const std::span<const std::uint32_t> entries = grid.entries();
   const auto fill = [&](std::size_t number) {
-    const std::size_t first_entry = lists[number].first_entry;
-    const std::span<const std::uint32_t> ids =
-        entries.subspan(first_entry, lists[number + 1].first_entry - first_entry);
-    Scalar* edge_size = blocks_.data() + offset(number, first_entry);
+    const CellWord word = CellWord::listing(static_cast<std::uint32_t>(number));
+    const std::span<const std::uint32_t> ids = grid.triangles(word);
+    Scalar* edge_size = blocks_.data() + offset(number, grid.first_entry(word));
     Scalar* list = edge_size + 1;
     Four longest = Four::Zero();
     if (ids.size() >= 4) {
@@ -96,8 +93,8 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners& triangles, const Grid& grid,
     }
     *edge_size = too_large ? std::numeric_limits<Scalar>::infinity() : longest.maxCoeff();
   };
-  if (lists.empty()) return;
-  detail::in_parts(executor, lists.size() - 1, lists_in_a_part, [&](std::size_t first, std::size_t last) {
+  if (grid.lists().empty()) return;
+  detail::in_parts(executor, grid.lists().size() - 1, lists_in_a_part, [&](std::size_t first, std::size_t last) {
     for (std::size_t list = first; list < last; ++list) fill(list);
   });
 }

@@ -335,6 +335,7 @@ TYPED_TEST(GridTraversalTest, IsOutsideWhereItEndsBeforeTheGridOrBeginsBehindIt)
   EXPECT_EQ(along_x(-0.75, 0.25, 0.5, 1), Place::inside);
   EXPECT_EQ(along_x(0.75, 1.25), Place::inside);
   EXPECT_EQ(along_x(0.75, 1.25, 0.75, 1), Place::outside);
+  EXPECT_EQ(along_x(-0.25, 1.75, 0.9, 1), Place::outside);
   EXPECT_EQ(along_x(1.25, 1.75), Place::outside);
   EXPECT_EQ(along_x(1.25, 0.75), Place::inside);
 }

@@ -91,10 +91,10 @@ template <typename Scalar>
   const Float4 limits =
       greatest_lanes(-from * inverse_rate, leaving, speed, is_near ? all_lanes(0.0F) : all_lanes(1.0F));
   if (limits[3] != 0 || !(limits[2] >= slow || path.has_end())) return false;
-  // Whether it begins outside is known before the divisions are done. Most begin inside, and need not wait for them.
-  const bool begins_outside = any_lane(from < all_lanes(0.0F)) || !(first_t >= 0);
+  // Whether it may enter later is known before the divisions are done. Most paths begin inside, and wait for none.
+  const bool may_enter_later = any_lane(from < all_lanes(0.0F)) || !(first_t >= 0);
   float enters = first_t;
-  if (begins_outside) [[unlikely]] {
+  if (may_enter_later) [[unlikely]] {
     enters = std::max(first_t, limits[0]);
   }
   const float leaves = -limits[1];
