@@ -1,34 +1,64 @@
 #include "empty_space.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace surehit::detail {
 namespace {
 
 constexpr std::uint8_t farthest = CellWord::farthest;
-/// Rows are as long as some of these, so that loops along them are whole vectors, and lie one apart: room for what is
-/// beyond the grid, as far as a row is looked along.
-constexpr std::size_t row_unit = 16;
 constexpr std::uint32_t octants = 8;
+
+/// What some cells side by side allow, a byte each, in vectors that any target has.
+using Cells = std::uint8_t __attribute__((vector_size(16)));
+using Halves = std::uint64_t __attribute__((vector_size(16)));
+constexpr std::size_t row_unit = sizeof(Cells);
+static_assert(std::endian::native == std::endian::little);  // for what it means to shift halves
+
+[[gnu::always_inline]] inline Cells lesser(Cells x, Cells y) { return x < y ? x : y; }
+[[gnu::always_inline]] inline Cells all_cells(std::uint8_t x) { return Cells{} + x; }
+
+[[gnu::always_inline]] inline Cells load(const std::uint8_t* from) {
+  Cells cells;
+  std::memcpy(&cells, from, sizeof cells);
+  return cells;
+}
+
+[[gnu::always_inline]] inline void store(Cells cells, std::uint8_t* to) { std::memcpy(to, &cells, sizeof cells); }
+
+/// What is `by` cells ahead of each, towards which an octant looks: upward, or downward. `next` are the cells behind
+/// these that way.
+template <bool is_upward, int by>
+[[gnu::always_inline]] inline Cells ahead(Cells cells, Cells next) {
+  const auto near = reinterpret_cast<Halves>(cells);
+  const auto far = reinterpret_cast<Halves>(next);
+  const Halves middle = is_upward ? __builtin_shufflevector(near, far, 1, 2) : __builtin_shufflevector(far, near, 1, 2);
+  if constexpr (by == 8) return reinterpret_cast<Cells>(middle);
+  const Halves& first = by < 8 ? near : middle;
+  const Halves& second = by < 8 ? middle : far;
+  constexpr int bits = by % 8 * 8;
+  return reinterpret_cast<Cells>(is_upward ? first >> bits | second << (64 - bits)
+                                           : first << bits | second >> (64 - bits));
+}
 
 /// Distances in each octant, row by row. A cube with a corner in an empty cell is one larger than the least of those
 /// that have it in the seven next cells.
 class Octants {
  public:
+  /// Rows are whole vectors: their cells beyond the grid count as empty, and what they are given is read only from
+  /// there.
   Octants(const std::array<std::uint32_t, 3>& cells, std::vector<std::uint8_t>& scratch)
-      : cells_(cells), length_((cells[0] + row_unit - 1) / row_unit * row_unit), pitch_(length_ + row_unit) {
+      : cells_(cells), pitch_((cells[0] + row_unit - 1) / row_unit * row_unit) {
     const std::size_t all_rows = std::size_t{cells[1]} * cells[2] * pitch_;
-    scratch.assign(row_unit + (1 + octants) * all_rows + (1 + 2 * octants) * pitch_, farthest);
-    emptiness_ = scratch.data() + row_unit;
+    scratch.resize((1 + octants) * all_rows + pitch_);
+    emptiness_ = scratch.data();
     for (std::uint32_t octant = 0; octant < octants; ++octant)
       distances_[octant] = emptiness_ + (1 + octant) * all_rows;
     outer_row_ = emptiness_ + (1 + octants) * all_rows;
-    for (std::uint32_t octant = 0; octant < octants; ++octant) {
-      begun_[octant] = outer_row_ + (1 + octant) * pitch_;
-      fours_[octant] = outer_row_ + (1 + octants + octant) * pitch_;
-    }
+    std::fill_n(outer_row_, pitch_, farthest);
   }
 
   /// Where the cells of a row begin.
@@ -38,25 +68,17 @@ class Octants {
 
   void set_row(std::size_t row, const std::uint32_t* words) {
     std::uint8_t* const emptiness = emptiness_ + row;
-    std::fill_n(emptiness, length_, no_bits_clear);
+    std::fill_n(emptiness, pitch_, no_bits_clear);
     for (std::size_t x = 0; x < cells_[0]; ++x) emptiness[x] = words[x] == 0 ? no_bits_clear : 0;
   }
 
-  /// Along a row a distance is the least of what the rows beside it allow here, one more than they allow in the next
-  /// cell, and so on: looked up among four cells, then among four fours. Cells of the row beyond the grid count as
-  /// empty; what they are given is read only from there.
-  ///
-  /// All octants by turns: their rows do not wait for one another, nor does a look ahead for what was just stored.
+  /// All octants by turns: their rows do not wait for one another.
   void measure() {
     for (std::uint32_t step_z = 0; step_z < cells_[2]; ++step_z) {
       for (std::uint32_t step_y = 0; step_y < cells_[1]; ++step_y) {
-        for (std::uint32_t octant = 0; octant < octants; ++octant) begin_row(octant, step_y, step_z);
-        for (std::uint32_t octant = 0; octant < octants; ++octant) {
-          look_ahead(begun_[octant], forward(octant), 1, fours_[octant]);
-        }
-        for (std::uint32_t octant = 0; octant < octants; ++octant) {
-          const Place place = place_of(octant, step_y, step_z);
-          look_ahead(fours_[octant], 4 * forward(octant), 4, distances_[octant] + row(place.y, place.z));
+        for (std::uint32_t octant = 0; octant < octants; octant += 2) {
+          measure_row<true>(octant, step_y, step_z);
+          measure_row<false>(octant + 1, step_y, step_z);
         }
       }
     }
@@ -64,87 +86,71 @@ class Octants {
 
   /// Adds the distances of all octants to a row of words.
   void add_row(std::size_t row, std::uint32_t* words) const {
-    std::array<std::array<std::uint8_t, row_unit>, octants / 2> pairs;
     for (std::size_t first = 0; first < cells_[0]; first += row_unit) {
+      std::array<std::array<std::uint8_t, row_unit>, octants / 2> pairs;
       for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const std::uint8_t* const even = distances_[2 * i] + row + first;
-        const std::uint8_t* const odd = distances_[2 * i + 1] + row + first;
-        for (std::size_t x = 0; x < row_unit; ++x) pairs[i][x] = static_cast<std::uint8_t>(even[x] | odd[x] << 4);
+        store(load(distances_[2 * i] + row + first) | load(distances_[2 * i + 1] + row + first) << 4, pairs[i].data());
       }
-      for (std::size_t x = 0; x < std::min(row_unit, cells_[0] - first); ++x) {
-        words[first + x] |= std::uint32_t{pairs[0][x]} | std::uint32_t{pairs[1][x]} << 8 |
-                            std::uint32_t{pairs[2][x]} << 16 | std::uint32_t{pairs[3][x]} << 24;
+      std::array<std::uint32_t, row_unit> added;
+      for (std::size_t x = 0; x < row_unit; ++x) {
+        added[x] = std::uint32_t{pairs[0][x]} | std::uint32_t{pairs[1][x]} << 8 | std::uint32_t{pairs[2][x]} << 16 |
+                   std::uint32_t{pairs[3][x]} << 24;
       }
+      const std::size_t count = std::min(row_unit, cells_[0] - first);
+      for (std::size_t x = 0; x < count; ++x) words[first + x] |= added[x];
     }
   }
 
  private:
   static constexpr std::uint8_t no_bits_clear = 0xff;
 
-  using Row = const std::uint8_t* __restrict;
+  /// Along a row a distance is the least of what the rows beside it allow here, one more than they allow in the next
+  /// cell, and so on: looked up among four cells, then among four fours.
+  template <bool is_upward>
+  [[gnu::always_inline]] void measure_row(std::uint32_t octant, std::uint32_t step_y, std::uint32_t step_z) {
+    const std::uint32_t y = (octant & 2) == 0 ? cells_[1] - 1 - step_y : step_y;
+    const std::uint32_t z = (octant & 4) == 0 ? cells_[2] - 1 - step_z : step_z;
+    const std::uint32_t next_y = (octant & 2) == 0 ? y + 1 : y - 1;
+    const std::uint32_t next_z = (octant & 4) == 0 ? z + 1 : z - 1;
+    std::uint8_t* const distances = distances_[octant];
+    const std::uint8_t* const beside_y = step_y == 0 ? outer_row_ : distances + row(next_y, z);
+    const std::uint8_t* const beside_z = step_z == 0 ? outer_row_ : distances + row(y, next_z);
+    const std::uint8_t* const beside_both = step_y == 0 || step_z == 0 ? outer_row_ : distances + row(next_y, next_z);
+    const std::uint8_t* const emptiness = emptiness_ + row(y, z);
+    std::uint8_t* const measured = distances + row(y, z);
 
-  static std::uint8_t lesser(std::uint8_t x, std::uint8_t y) { return x < y ? x : y; }
-
-  static std::ptrdiff_t forward(std::uint32_t octant) { return (octant & 1) == 0 ? 1 : -1; }
-
-  /// Of the row to which so many steps lead, from the end of the grid towards which the octant looks.
-  struct Place {
-    std::uint32_t y, z;
-  };
-  [[nodiscard]] Place place_of(std::uint32_t octant, std::uint32_t step_y, std::uint32_t step_z) const {
-    return {(octant & 2) == 0 ? cells_[1] - 1 - step_y : step_y, (octant & 4) == 0 ? cells_[2] - 1 - step_z : step_z};
-  }
-
-  /// What the rows beside it allow.
-  void begin_row(std::uint32_t octant, std::uint32_t step_y, std::uint32_t step_z) {
-    const Place here = place_of(octant, step_y, step_z);
-    const auto beside = [&](std::uint32_t back_y, std::uint32_t back_z) -> const std::uint8_t* {
-      if (step_y < back_y || step_z < back_z) return outer_row_;
-      const Place place = place_of(octant, step_y - back_y, step_z - back_z);
-      return distances_[octant] + row(place.y, place.z);
-    };
-    begin_row(emptiness_ + row(here.y, here.z), beside(1, 0), beside(0, 1), beside(1, 1), forward(octant),
-              begun_[octant]);
-  }
-
-  void begin_row(Row emptiness, Row b0, Row b1, Row b2, std::ptrdiff_t forward, std::uint8_t* __restrict row) const {
-    const Row ahead0 = b0 + forward;
-    const Row ahead1 = b1 + forward;
-    const Row ahead2 = b2 + forward;
-    for (std::size_t first = 0; first < length_; first += row_unit) {
-      for (std::size_t x = first; x < first + row_unit; ++x) {
-        const std::uint8_t here = lesser(lesser(b0[x], b1[x]), b2[x]);
-        const std::uint8_t ahead = lesser(lesser(ahead0[x], ahead1[x]), ahead2[x]);
-        const std::uint8_t least = lesser(lesser(here, ahead), farthest - 1);
-        row[x] = static_cast<std::uint8_t>((least + 1) & emptiness[x]);
-      }
+    // Of the cells beyond these on the row.
+    Cells next_beside = all_cells(farthest);
+    Cells next_begun = all_cells(farthest);
+    Cells next_of_four = all_cells(farthest);
+    for (std::size_t step = 0; step < pitch_; step += row_unit) {
+      const std::size_t x = is_upward ? pitch_ - row_unit - step : step;
+      const Cells beside = lesser(lesser(load(beside_y + x), load(beside_z + x)), load(beside_both + x));
+      const Cells least = lesser(lesser(beside, ahead<is_upward, 1>(beside, next_beside)), all_cells(farthest - 1));
+      const Cells begun = (least + 1) & load(emptiness + x);
+      const Cells of_four = least_of_four<is_upward, 1>(begun, next_begun);
+      const Cells distance = least_of_four<is_upward, 4>(of_four, next_of_four);
+      store(distance, measured + x);
+      next_beside = beside;
+      next_begun = begun;
+      next_of_four = of_four;
     }
   }
 
-  /// The least of a cell and the three after it, `by` apart, each of which allows `more` than the one before.
-  void look_ahead(Row row, std::ptrdiff_t by, std::uint8_t more, std::uint8_t* __restrict farther) const {
-    const Row one = row + by;
-    const Row two = row + 2 * by;
-    const Row three = row + 3 * by;
-    const auto plus = [](std::uint8_t x, int y) { return static_cast<std::uint8_t>(x + y); };
-    for (std::size_t first = 0; first < length_; first += row_unit) {
-      for (std::size_t x = first; x < first + row_unit; ++x) {
-        farther[x] =
-            lesser(lesser(row[x], plus(one[x], more)), lesser(plus(two[x], 2 * more), plus(three[x], 3 * more)));
-      }
-    }
+  /// The least of a cell and the three ahead of it, `by` apart, each of which allows `by` more than the one before.
+  template <bool is_upward, int by>
+  [[gnu::always_inline]] static Cells least_of_four(Cells cells, Cells next) {
+    return lesser(
+        lesser(cells, ahead<is_upward, by>(cells, next) + by),
+        lesser(ahead<is_upward, 2 * by>(cells, next) + 2 * by, ahead<is_upward, 3 * by>(cells, next) + 3 * by));
   }
 
   std::array<std::uint32_t, 3> cells_;
-  std::size_t length_;
   std::size_t pitch_;
   // All in the scratch.
   std::uint8_t* emptiness_;  ///< all bits set where a cell is empty
   std::array<std::uint8_t*, octants> distances_;
   std::uint8_t* outer_row_;
-  // Of the row that is being measured, in each octant.
-  std::array<std::uint8_t*, octants> begun_;  ///< what the rows beside it allow
-  std::array<std::uint8_t*, octants> fours_;  ///< the least of four cells
 };
 
 /// A brick's cells as bits; the last ones of each axis, upward or downward.
