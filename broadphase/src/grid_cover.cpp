@@ -100,8 +100,8 @@ class ListingParts {
     return surface / whole;
   }
 
-  /// With the boxes of what they list.
-  [[nodiscard]] std::span<GridPart> boxed() {
+  /// With the boxes of what they list. Returns how many there are.
+  [[nodiscard]] std::size_t boxed(std::array<GridPart, GridPart::most>& parts) const {
     std::array<CoverBox, GridPart::most> boxes;
     const auto size = static_cast<float>(grid_.frame().division);
     visit_cells([&](std::size_t part, const std::array<std::uint32_t, 3>& place, CellWord word) {
@@ -118,9 +118,9 @@ class ListingParts {
     });
     std::size_t count = 0;
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-      if (lists_[i]) parts_[count++] = GridPart{place_of(i), boxes[i]};
+      if (lists_[i]) parts[count++] = GridPart{place_of(i), boxes[i]};
     }
-    return std::span(parts_).first(count);
+    return count;
   }
 
  private:
@@ -146,17 +146,17 @@ class ListingParts {
 
   const Grid& grid_;
   std::array<bool, GridPart::most> lists_ = {};
-  std::array<GridPart, GridPart::most> parts_;
 };
 
 }  // namespace
 
 GridCover::GridCover(const Grid& grid) {
-  ListingParts parts(grid);
-  if (parts.silhouette() >= useful_share) return;
+  const ListingParts listing(grid);
+  if (listing.silhouette() >= useful_share) return;
+  std::array<GridPart, GridPart::most> parts;
   std::array<PartGroup, most_boxes> groups;
   std::size_t count = 0;
-  groups[count++] = PartGroup(parts.boxed());
+  groups[count++] = PartGroup(std::span(parts).first(listing.boxed(parts)));
   while (count < most_boxes) {
     PartGroup& best = *std::max_element(groups.begin(), groups.begin() + count,
                                         [](const PartGroup& a, const PartGroup& b) { return a.gain < b.gain; });
