@@ -1,28 +1,38 @@
 #include "surehit/box.hpp"
 
-#include <array>
+#include <algorithm>
+
+#include "vertex_lanes.hpp"
 
 namespace surehit {
 
 template <typename Scalar>
 Box<Scalar> box_of(const TriangleMeshView<Scalar>& mesh) {
-  // As many as vectors hold, and a box for each corner, so that none waits for another.
-  using Point = Eigen::Array<Scalar, 4, 1>;
+  // A box for each corner, so that none waits for another.
+  using Point = typename detail::VertexLanes<Scalar>::Point;
   const Box<Scalar> none;
-  std::array<Point, 3> low;
-  std::array<Point, 3> high;
-  low.fill(Point::Constant(none.low[0]));
-  high.fill(Point::Constant(none.high[0]));
+  Point low[3];
+  Point high[3];
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    low[corner] = Point{} + none.low[0];
+    high[corner] = Point{} + none.high[0];
+  }
+  const detail::VertexLanes<Scalar> vertices(mesh);
   for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
+    Point corners[3];
+    vertices.load_corners(i, corners);
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      const Vector3<Scalar> vertex = mesh.vertex(mesh.corner(i, corner));
-      const Point point(vertex[0], vertex[1], vertex[2], vertex[2]);
-      low[corner] = low[corner].min(point);
-      high[corner] = high[corner].max(point);
+      low[corner] = corners[corner] < low[corner] ? corners[corner] : low[corner];
+      high[corner] = corners[corner] > high[corner] ? corners[corner] : high[corner];
     }
   }
-  return {.low = low[0].min(low[1]).min(low[2]).template head<3>(),
-          .high = high[0].max(high[1]).max(high[2]).template head<3>()};
+  Box<Scalar> box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    box.low[k] = std::min({low[0][axis], low[1][axis], low[2][axis]});
+    box.high[k] = std::max({high[0][axis], high[1][axis], high[2][axis]});
+  }
+  return box;
 }
 
 template Box<float> box_of(const TriangleMeshView<float>&);

@@ -11,7 +11,8 @@ namespace {
 constexpr float most_blocks = 16;
 
 float count_blocks(const PaddedPoint& first, const PaddedPoint& last) {
-  return (PaddedPoint((last - first) / 2).floor() + 1).prod();
+  const PaddedPoint blocks = to_float(to_int((last - first) * 0.5F)) + 1;
+  return blocks[0] * blocks[1] * blocks[2];
 }
 
 }  // namespace
@@ -23,12 +24,12 @@ CellLister::CellLister(CellEntries& entries, bool may_grow, const CellRange& cel
       size_(static_cast<float>(size)),
       per_size_(1 / size_),  // a power of two
       cell_padding_(padding),
-      padding_(padding[0], padding[1], padding[2], 0),
+      padding_{padding[0], padding[1], padding[2], 0},
       order_{cells.length(0), cells.length(0) * cells.length(1)},
-      pitch_(1, static_cast<float>(order_.row), static_cast<float>(order_.layer), 0) {
+      pitch_{1, static_cast<float>(order_.row), static_cast<float>(order_.layer), 0} {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    first_[static_cast<Eigen::Index>(axis)] = static_cast<float>(cells.low[axis]);
-    last_[static_cast<Eigen::Index>(axis)] = static_cast<float>(cells.high[axis] - 1);
+    first_[axis] = static_cast<float>(cells.low[axis]);
+    last_[axis] = static_cast<float>(cells.high[axis] - 1);
   }
   first_[3] = last_[3] = 0;
   entries_.count = 0;
@@ -51,8 +52,9 @@ void CellLister::add_parts(std::uint32_t triangle, const Corners& corners, const
     add_blocks(triangle, corners, first, last);
     return;
   }
-  Eigen::Index longest = 0;
-  (last - first).maxCoeff(&longest);
+  const Cell more = last - first;
+  std::size_t longest = 0;
+  for (std::size_t axis = 1; axis < 3; ++axis) longest = more[axis] > more[longest] ? axis : longest;
   for (const bool upper : {false, true}) {
     Cell part_first = first;
     Cell part_last = last;
@@ -74,7 +76,7 @@ void CellLister::add_blocks(std::uint32_t triangle, const Corners& corners, cons
   for (block[2] = first[2]; block[2] <= last[2]; block[2] += 2) {
     for (block[1] = first[1]; block[1] <= last[1]; block[1] += 2) {
       for (block[0] = first[0]; block[0] <= last[0]; block[0] += 2) {
-        add_block(triangle, corners, block, (last - block).min(1));
+        add_block(triangle, corners, block, least(last - block, all_lanes(1.0F)));
       }
     }
   }

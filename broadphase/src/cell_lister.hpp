@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -28,15 +27,15 @@ class CellLister {
   void add(std::uint32_t triangle, const Corners& corners, const PaddedBox& box) {
     const Cell low = cell_of(box.low - padding_);
     const Cell high = cell_of(box.high + padding_);
-    const Cell first = low.max(first_);
-    const Cell last = high.min(last_);
+    const Cell first = greatest(low, first_);
+    const Cell last = least(high, last_);
     const Cell more = last - first;
-    assert(more.minCoeff() >= 0);
-    if ((high - low).sum() <= 1) {
+    assert(!any_lane(more < all_lanes(0.0F)));
+    if (sum_of(high - low) <= 1) {
       // Within one cell, or across one plane between cells: some corner is in each that the box overlaps, but for the
       // padding and its rounding. All of the box counts: what is beyond a brick may cross other planes.
-      list(triangle, first, 1 + (more * Cell(2, 4, 16, 0)).sum());
-    } else if (more.maxCoeff() > 1) {
+      list(triangle, first, 1 + sum_of(more * Cell{2, 4, 16, 0}));
+    } else if (any_lane(more > all_lanes(1.0F))) {
       add_range(triangle, corners, first, last);
     } else {
       add_block(triangle, corners, first, more);
@@ -50,11 +49,7 @@ class CellLister {
   using Cell = PaddedPoint;
 
   /// Rounded towards 0, where it is not floor that counts: no cell lies below.
-  [[nodiscard]] Cell cell_of(const PaddedPoint& point) const {
-    Cell cell = point * per_size_;
-    for (Eigen::Index k = 0; k < 4; ++k) cell[k] = static_cast<float>(static_cast<std::int32_t>(cell[k]));
-    return cell;
-  }
+  [[nodiscard]] Cell cell_of(const PaddedPoint& point) const { return to_float(to_int(point * per_size_)); }
 
   /// Of one more cell on some axes, or none.
   void add_block(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& more) {
@@ -72,7 +67,7 @@ class CellLister {
   void list(std::uint32_t triangle, const Cell& first, float overlaps) {
     const std::size_t block = block_count_++;
     blocks_.triangles[block] = triangle;
-    blocks_.first[block] = static_cast<std::uint32_t>(static_cast<std::int32_t>(((first - first_) * pitch_).sum()));
+    blocks_.first[block] = static_cast<std::uint32_t>(static_cast<std::int32_t>(sum_of((first - first_) * pitch_)));
     blocks_.overlaps[block] = static_cast<std::int32_t>(overlaps);
     if (block + 1 == ListedBlocks::most) ask();
   }

@@ -10,6 +10,7 @@
 #include "surehit/floating_point_environment.hpp"
 #include "surehit/in_parts.hpp"
 #include "triangle_overlap.hpp"
+#include "vertex_lanes.hpp"
 
 namespace surehit {
 namespace {
@@ -169,18 +170,25 @@ class GridBuild {
     const GridFrame& frame = grid_.frame_;
     auto& points = scratch_.points_;
     points.resize(mesh_.vertex_count());
-    const bool in_float = std::is_same_v<Scalar, float> && frame.has_floats;
-    detail::in_parts(executor_, points.size(), triangles_in_a_part, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const Vector3<Scalar> vertex = mesh_.vertex(i);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const auto k = static_cast<Eigen::Index>(axis);
-          points[i][k] = in_float ? (static_cast<float>(vertex[k]) - frame.float_low[axis]) * frame.float_scale[axis] +
-                                        frame.margin[axis]
-                                  : static_cast<float>(frame.place(axis, frame.scaled(vertex[k])));
+    const detail::VertexLanes<Scalar> vertices(mesh_);
+    detail::Float4 margin = frame.float_margin;
+    margin[3] = 0;
+    const auto place = [&](std::size_t i) -> detail::PaddedPoint {
+      if constexpr (std::is_same_v<Scalar, float>) {
+        if (frame.has_floats) {
+          detail::Float4 vertex;
+          vertices.load(i, vertex);
+          return (vertex - frame.float_low) * frame.float_scale + margin;
         }
-        points[i][3] = 0;
       }
+      const Vector3<Scalar> vertex = mesh_.vertex(i);
+      const auto coordinate = [&](std::size_t axis) {
+        return static_cast<float>(frame.place(axis, frame.scaled(vertex[static_cast<Eigen::Index>(axis)])));
+      };
+      return detail::PaddedPoint{coordinate(0), coordinate(1), coordinate(2), 0};
+    };
+    detail::in_parts(executor_, points.size(), triangles_in_a_part, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) points[i] = place(i);
     });
     for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame.padding(axis);
   }
@@ -194,12 +202,12 @@ class GridBuild {
     const auto& points = scratch_.points_;
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t triangle = id(i);
-      const detail::CellLister::Corners corners = {points[mesh_.corner(triangle, 0)], points[mesh_.corner(triangle, 1)],
-                                                   points[mesh_.corner(triangle, 2)]};
+      const auto point = [&](std::size_t corner) { return points[mesh_.corner(triangle, corner)]; };
+      const detail::CellLister::Corners corners = {point(0), point(1), point(2)};
       detail::PaddedBox& box = scratch_.boxes_[triangle];
       if constexpr (is_top) {
         const auto& [a, b, c] = corners;
-        box = {a.min(b).min(c), a.max(b).max(c)};
+        box = {detail::least(detail::least(a, b), c), detail::greatest(detail::greatest(a, b), c)};
       }
       lister.add(triangle, corners, box);
       if (entries.count > most_entries) return false;
@@ -301,22 +309,30 @@ class GridBuild {
   /// Of the triangles' boxes and the cell. They are padded as when they were listed, and so each meets the cell.
   [[nodiscard]] CellBox box_of(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& place,
                                std::uint32_t size) const {
-    constexpr float parts = CellBox::parts;
-    detail::PaddedBox whole = scratch_.boxes_[ids.front()];
+    using namespace detail;
+    auto [low, high] = scratch_.boxes_[ids.front()];
     for (const std::uint32_t id : ids.subspan(1)) {
-      whole.low = whole.low.min(scratch_.boxes_[id].low);
-      whole.high = whole.high.max(scratch_.boxes_[id].high);
+      low = least(low, scratch_.boxes_[id].low);
+      high = greatest(high, scratch_.boxes_[id].high);
     }
+    constexpr float parts = CellBox::parts;
+    const auto edge = static_cast<float>(size);
+    const float per_part = parts / edge;  // a power of two
+    const Float4 corner = to_float(Int4{static_cast<std::int32_t>(place[0]), static_cast<std::int32_t>(place[1]),
+                                        static_cast<std::int32_t>(place[2]), 0}) *
+                          edge;
+    const Float4 padding = {padding_[0], padding_[1], padding_[2], 0};
+    const Float4 from = (low - padding - corner) * per_part;
+    const Float4 to = (high + padding - corner) * per_part;
+    const Int4 first_part = to_int(least(greatest(from, all_lanes(0.0F)), all_lanes(parts - 1)));
+    const Float4 last = least(greatest(to, all_lanes(1.0F)), all_lanes(parts));
+    const Int4 whole = to_int(last);
+    const Int4 end_part = whole - (to_float(whole) < last);
     std::array<std::uint32_t, 3> first;
     std::array<std::uint32_t, 3> end;
-    const auto edge = static_cast<float>(size);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto k = static_cast<Eigen::Index>(axis);
-      const float corner = static_cast<float>(place[axis]) * edge;
-      const float from = (whole.low[k] - padding_[axis] - corner) / edge * parts;
-      const float to = (whole.high[k] + padding_[axis] - corner) / edge * parts;
-      first[axis] = static_cast<std::uint32_t>(std::clamp(from, 0.0F, parts - 1));
-      end[axis] = static_cast<std::uint32_t>(std::ceil(std::clamp(to, 1.0F, parts)));
+      first[axis] = static_cast<std::uint32_t>(first_part[axis]);
+      end[axis] = static_cast<std::uint32_t>(end_part[axis]);
     }
     return CellBox::around(first, end);
   }

@@ -34,7 +34,7 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
   for (std::size_t lane = 0; lane < OverlapLanes::count; lane += hn::Lanes(d)) {
     const auto load = [&](const OverlapLanes::Points& points, V(&axes)[3]) {
       V padding_lane;
-      hn::LoadInterleaved4(d, points[lane].data(), axes[0], axes[1], axes[2], padding_lane);
+      hn::LoadInterleaved4(d, reinterpret_cast<const float*>(&points[lane]), axes[0], axes[1], axes[2], padding_lane);
     };
     V corners[3][3];
     for (std::size_t i = 0; i < 3; ++i) load(lanes.corners[i], corners[i]);

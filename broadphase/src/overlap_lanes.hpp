@@ -23,9 +23,9 @@ struct OverlapLanes {
   Points more;  ///< 1 if it has another on the axis, else 0
 
   OverlapLanes() {
-    for (Points& corner : corners) corner.fill(PaddedPoint::Zero());
-    low.fill(PaddedPoint::Zero());
-    more.fill(PaddedPoint::Zero());
+    for (Points& corner : corners) corner.fill(PaddedPoint{});
+    low.fill(PaddedPoint{});
+    more.fill(PaddedPoint{});
   }
 };
 

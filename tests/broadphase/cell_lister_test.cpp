@@ -26,13 +26,15 @@ class TrianglesInTwoRows {
   /// Within one cell of the first row.
   void add_small(std::uint32_t cell) {
     const auto x = static_cast<float>(cell);
-    add({PaddedPoint(x + 0.4F, 0.4F, 0.5F, 0), {x + 0.6F, 0.4F, 0.5F, 0}, {x + 0.5F, 0.6F, 0.5F, 0}});
+    add({PaddedPoint{x + 0.4F, 0.4F, 0.5F, 0}, PaddedPoint{x + 0.6F, 0.4F, 0.5F, 0},
+         PaddedPoint{x + 0.5F, 0.6F, 0.5F, 0}});
     expected_.push_back({triangles_ - 1, cell});
   }
   /// Across two planes: in four cells, which only the lanes can tell.
   void add_large(std::uint32_t cell) {
     const auto x = static_cast<float>(cell);
-    add({PaddedPoint(x + 0.5F, 0.5F, 0.5F, 0), {x + 1.5F, 0.5F, 0.5F, 0}, {x + 1, 1.5F, 0.5F, 0}});
+    add({PaddedPoint{x + 0.5F, 0.5F, 0.5F, 0}, PaddedPoint{x + 1.5F, 0.5F, 0.5F, 0},
+         PaddedPoint{x + 1, 1.5F, 0.5F, 0}});
     for (const std::uint32_t met : {cell, cell + 1, cell + row, cell + row + 1}) {
       expected_.push_back({triangles_ - 1, met});
     }
@@ -59,7 +61,8 @@ class TrianglesInTwoRows {
 
   void add(const CellLister::Corners& corners) {
     const auto& [a, b, c] = corners;
-    lister_.add(triangles_++, corners, {a.min(b).min(c), a.max(b).max(c)});
+    using namespace detail;
+    lister_.add(triangles_++, corners, {least(least(a, b), c), greatest(greatest(a, b), c)});
   }
 
   static constexpr detail::CellRange cells = {{0, 0, 0}, {row, 2, 1}};

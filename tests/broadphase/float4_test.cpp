@@ -84,6 +84,7 @@ TEST(Float4, LanesAreComparedAndConvertedOneByOne) {
       EXPECT_EQ(to_float(whole)[lane], static_cast<float>(whole[lane]));
       EXPECT_EQ(without_fourth(a)[lane], a[std::min(lane, 2)]);
     }
+    EXPECT_EQ(sum_of(to_float(whole)), static_cast<float>(whole[0] + whole[1] + whole[2] + whole[3]));
     const Int4 other = to_int(100 * b);
     for (int lane = 0; lane < 4; ++lane) {
       EXPECT_EQ(least(whole, other)[lane], std::min<std::int32_t>(whole[lane], other[lane]));

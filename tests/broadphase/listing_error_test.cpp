@@ -33,7 +33,7 @@ class ListingError : public CellPointDraws, public testing::WithParamInterface<s
   static bool is_listed_in_lanes(const Case& drawn, float padding) {
     OverlapLanes lanes;
     const auto padded = [](const detail::CellPoint& point) {
-      return detail::PaddedPoint(point[0], point[1], point[2], 0);
+      return detail::PaddedPoint{point[0], point[1], point[2], 0};
     };
     for (std::size_t i = 0; i < 3; ++i) lanes.corners[i].fill(padded(drawn.corners[i]));
     lanes.low.fill(padded(drawn.cell));

@@ -135,7 +135,7 @@ struct CellList {
 namespace detail {
 
 /// A point counted in finest cells, as long as a vector load; its fourth number is 0.
-using PaddedPoint = Eigen::Array4f;
+using PaddedPoint = Float4;
 struct PaddedBox {
   PaddedPoint low, high;
 };
