@@ -58,6 +58,19 @@ TEST(Float4, AnyLaneSeesEachOne) {
   EXPECT_FALSE(any_lane(Float4{1, 2, 3, 4} < Float4{1, 2, 3, 4}));
 }
 
+TEST(Float4, AnyLaneIsComparedWithAny) {
+  EXPECT_FALSE(any_lane_exceeds_any(Float4{1, 2, 3, 4}, Float4{4, 5, 6, 7}));
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      Float4 a = {0, 0, 0, 0};
+      Float4 b = {3, 3, 3, 3};
+      a[i] = 2;
+      b[j] = 1;
+      EXPECT_TRUE(any_lane_exceeds_any(a, b)) << i << ' ' << j;
+    }
+  }
+}
+
 TEST(Float4, ToIntGoesTowardZero) {
   const Int4 whole = to_int(Float4{0.99F, 1.0F, -0.99F, -1.5F});
   EXPECT_EQ(whole[0], 0);
@@ -83,8 +96,10 @@ TEST(Float4, LanesAreComparedAndConvertedOneByOne) {
       EXPECT_EQ(absolute(a)[lane], a[lane] < 0 ? -a[lane] : a[lane]);
       EXPECT_EQ(to_float(whole)[lane], static_cast<float>(whole[lane]));
       EXPECT_EQ(without_fourth(a)[lane], a[std::min(lane, 2)]);
+      EXPECT_EQ(with_fourth(a, b[0])[lane], lane == 3 ? b[0] : a[lane]);
     }
     EXPECT_EQ(sum_of(to_float(whole)), static_cast<float>(whole[0] + whole[1] + whole[2] + whole[3]));
+    EXPECT_EQ(any_lane_exceeds_any(a, b + 1), greatest_of(a) > least_of(b) + 1);
     const Int4 other = to_int(100 * b);
     for (int lane = 0; lane < 4; ++lane) {
       EXPECT_EQ(least(whole, other)[lane], std::min<std::int32_t>(whole[lane], other[lane]));

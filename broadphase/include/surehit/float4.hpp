@@ -31,6 +31,10 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
 /// The third lane instead of the fourth one.
 [[gnu::always_inline]] inline Float4 without_fourth(Float4 x) { return __builtin_shufflevector(x, x, 0, 1, 2, 2); }
 
+[[gnu::always_inline]] inline Float4 with_fourth(Float4 x, float fourth) {
+  return __builtin_shufflevector(x, all_lanes(fourth), 0, 1, 2, 4);
+}
+
 /// The greatest lane of each of four vectors.
 [[gnu::always_inline]] inline Float4 greatest_lanes(Float4 a, Float4 b, Float4 c, Float4 d) {
   const Float4 ab = greatest(__builtin_shufflevector(a, b, 0, 4, 1, 5), __builtin_shufflevector(a, b, 2, 6, 3, 7));
@@ -54,6 +58,14 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
   using Long2 = std::int64_t __attribute__((vector_size(16)));
   const auto halves = reinterpret_cast<Long2>(mask);
   return (halves[0] | halves[1]) != 0;
+}
+
+/// Whether the greatest lane of a is beyond the least one of b: sooner known than these are.
+[[gnu::always_inline]] inline bool any_lane_exceeds_any(Float4 a, Float4 b) {
+  const Int4 next = a > __builtin_shufflevector(b, b, 1, 2, 3, 0);
+  const Int4 second = a > __builtin_shufflevector(b, b, 2, 3, 0, 1);
+  const Int4 third = a > __builtin_shufflevector(b, b, 3, 0, 1, 2);
+  return any_lane((a > b) | next | second | third);
 }
 
 }  // namespace surehit::detail

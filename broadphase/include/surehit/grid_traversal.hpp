@@ -174,10 +174,9 @@ class GridTraversal {
     const Float4 tau_of_part = part * path_.inverse_rate;
     const Float4 first_tau = (corner - padding) * path_.inverse_rate;
     const Float4 last_tau = (corner + (part + padding)) * path_.inverse_rate;
-    const Float4 enters = without_fourth(to_float(first) * tau_of_part + first_tau);
-    const Float4 leaves = without_fourth(to_float(last) * tau_of_part + last_tau);
-    const Float4 limits = greatest_lanes(enters, -leaves, enters, -leaves);
-    return std::max(limits[0], 0.0F) <= std::min(-limits[1], end_);
+    const Float4 enters = to_float(first) * tau_of_part + first_tau;
+    const Float4 leaves = to_float(last) * tau_of_part + last_tau;
+    return !any_lane_exceeds_any(with_fourth(enters, 0), with_fourth(leaves, end_));
   }
 
   /// What the path meets beyond parameter t is of no interest any more.
