@@ -17,28 +17,34 @@ namespace {
 /// Large enough that what a task costs is nothing beside it, small enough that the last ones end together.
 constexpr std::size_t paths_in_a_task = 4096;
 
-/// Calls `answer(first, count, statistics)` for parts of `count` paths: all at once, or by the executor's tasks. Each
-/// holds an environment, for it may run on another thread.
+/// By the executor's tasks, each of which holds an environment of its own, for it may run on another thread. Apart, so
+/// that other batches need not its stack.
+template <typename Answer>
+[[gnu::noinline]] void run_tasks(std::size_t count, const Executor& executor, QueryStatistics* statistics,
+                                 const Answer& answer) {
+  std::mutex mutex;
+  executor.run((count + paths_in_a_task - 1) / paths_in_a_task, [&](std::size_t task) {
+    const FloatingPointEnvironment environment;
+    const std::size_t first = task * paths_in_a_task;
+    QueryStatistics of_task;
+    answer(first, std::min(paths_in_a_task, count - first), of_task);
+    if (statistics == nullptr) return;
+    const std::lock_guard lock(mutex);
+    *statistics += of_task;
+  });
+}
+
+/// Calls `answer(first, count, statistics)` for parts of `count` paths: all at once, or by the executor's tasks.
 template <typename Answer>
 void in_tasks(std::size_t count, const Executor* executor, QueryStatistics* statistics, const Answer& answer) {
   if (count == 0) return;
-  std::mutex mutex;
-  const auto answer_part = [&](std::size_t first, std::size_t part) {
-    const FloatingPointEnvironment environment;
-    QueryStatistics of_part;
-    answer(first, part, of_part);
-    if (statistics == nullptr) return;
-    const std::lock_guard lock(mutex);
-    *statistics += of_part;
-  };
-  if (executor == nullptr) {
-    answer_part(0, count);
+  if (executor != nullptr) {
+    run_tasks(count, *executor, statistics, answer);
     return;
   }
-  executor->run((count + paths_in_a_task - 1) / paths_in_a_task, [&](std::size_t task) {
-    const std::size_t first = task * paths_in_a_task;
-    answer_part(first, std::min(paths_in_a_task, count - first));
-  });
+  const FloatingPointEnvironment environment;
+  QueryStatistics unread;
+  answer(std::size_t{0}, count, statistics != nullptr ? *statistics : unread);
 }
 
 }  // namespace
