@@ -290,9 +290,14 @@ class Batch {
     if constexpr (Visitor::wants_order) {
       for (std::size_t i = 0; i < open; ++i) {
         const auto& [height, det] = crossings_[i];
-        const std::size_t slot = open_[i].slot;
-        open_[i].first = Kernel::first_of(bounds_[slot], {hn::Load(d, height.data()), hn::Load(d, det.data())},
-                                          open_[i].lanes.certain, visitors_[slot].t_upper());
+        auto& [slot, from, lanes, first] = open_[i];
+        const float limit = visitors_[slot].t_upper();
+        first = Kernel::first_of(bounds_[slot], {hn::Load(d, height.data()), hn::Load(d, det.data())}, lanes.certain,
+                                 limit);
+        const bool is_clear = lanes.certain == lanes.possible && (first.lanes & (first.lanes - 1)) == 0;
+        if (!is_clear) [[unlikely]] {
+          Kernel::weigh_each(kernel_path_[slot], lists_[slot], from, weights_, limit, lanes, first);
+        }
       }
     }
     return open;

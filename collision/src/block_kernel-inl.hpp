@@ -78,6 +78,25 @@ class BlockDeterminants {
     v_ = dot(d0, q0, d1, q1, d2, q2);
   }
 
+  /// Of each triangle the largest components of its edges and of S.
+  struct Sizes {
+    V edge, s;
+  };
+  HWY_INLINE static Sizes sizes(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list, std::size_t from) {
+    const auto load = [&](std::size_t coordinate) {
+      return hn::LoadU(Tag(), list.corners + (coordinate * list.count + from));
+    };
+    Sizes sizes{hn::Zero(Tag()), hn::Zero(Tag())};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const V a = load(axis);
+      for (const std::size_t corner : {1, 2}) {
+        sizes.edge = hn::Max(sizes.edge, hn::Abs(hn::Sub(load(3 * corner + axis), a)));
+      }
+      sizes.s = hn::Max(sizes.s, hn::Abs(hn::Sub(all(path.start[axis]), a)));
+    }
+    return sizes;
+  }
+
   HWY_INLINE static V all(Scalar x) { return hn::Set(Tag(), x); }
 
   [[no_unique_address]] Tag d_;
@@ -117,11 +136,48 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// = U + V + W then has that sign too. Comparisons accept what is certain, and where sizes might overflow, the bound
   /// is infinite or NaN, so that nothing is.
   [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<Scalar>& range, const Bounds& bounds) const {
+    return classify(range, all(bounds.side), all(bounds.range));
+  }
+
+  /// Where the path crosses the triangles' planes: t = height / det.
+  struct Crossing {
+    V height, det;
+  };
+  [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, det_}; }
+
+  /// Of `certain` hits those that may be the first, if none that begins after t = `limit` can be.
+  [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(const Bounds& bounds, const Crossing& crossing,
+                                                              std::uint64_t certain, Scalar limit) {
+    return first_of(all(bounds.det), all(bounds.height), crossing, certain, limit);
+  }
+
+  /// Weighs the triangles of a list that the path may meet once more, each with its own sizes: the list's longest edge
+  /// may be that of one large triangle among small ones. Apart, for few lists ask for it.
+  HWY_NOINLINE static void weigh_each(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list,
+                                      std::size_t from, const RangeWeights<Scalar>& range, Scalar limit, Lanes& lanes,
+                                      FirstLanes<Scalar>& first) {
+    using Bound = KernelBound<Scalar>;
+    if (!(list.edge_size < std::numeric_limits<Scalar>::infinity())) return;
+    const BlockKernel kernel(path, list, from);
+    // The bounds of `ListBounds`, lane by lane.
+    const auto [edge, s] = Base::sizes(path, list, from);
+    const V d_edge = hn::Mul(hn::Mul(all(path.d_size), edge), all(Bound::relative));
+    const V s_edges = hn::Mul(s, hn::Mul(edge, edge));
+    const V side_bound = hn::MulAdd(d_edge, hn::Add(hn::Add(s, s), edge), all(Bound::underflow));
+    const V det_bound = hn::MulAdd(d_edge, edge, all(Bound::underflow));
+    const V height_bound = hn::MulAdd(s_edges, all(Bound::relative), det_bound);
+    const V range_bound = hn::MulAdd(s_edges, all(range.t_bound), hn::Mul(det_bound, all(range.det_size)));
+    const Lanes each = kernel.classify(range, side_bound, range_bound);
+    lanes.possible &= each.possible;
+    lanes.certain = lanes.possible & (lanes.certain | each.certain);
+    first = first_of(det_bound, height_bound, kernel.crossing(), lanes.certain, limit);
+  }
+
+ private:
+  [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<Scalar>& range, V side_bound, V range_bound) const {
     const V w = hn::Sub(hn::Sub(det_, u_), v_);
     const V first = hn::MulAdd(height_, all(range.t_first), hn::Mul(det_, all(range.det_first)));
     const V last = hn::MulAdd(height_, all(range.t_last), hn::Mul(det_, all(range.det_last)));
-    const V side_bound = all(bounds.side);
-    const V range_bound = all(bounds.range);
 
     const V least_side = hn::Min(hn::Min(u_, v_), w), greatest_side = hn::Max(hn::Max(u_, v_), w);
     const V least_end = hn::Min(first, last), greatest_end = hn::Max(first, last);
@@ -135,14 +191,6 @@ class BlockKernel : BlockDeterminants<Scalar> {
     return {possible_bits, range.decides ? possible_bits & bits_of(d_, hn::Or(all_positive, all_negative)) : 0};
   }
 
-  /// Where the path crosses the triangles' planes: t = height / det.
-  struct Crossing {
-    V height, det;
-  };
-  [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, det_}; }
-
-  /// Of `certain` hits those that may be the first, if none that begins after t = `limit` can be.
-  ///
   /// t is within (r_height + |t| r_det) / (|det| - r_det) of the quotient of what is computed, where r_height and r_det
   /// are the determinants' bounds. The det of a certain hit is the sum of U, V and W, each beyond r_det and of its
   /// sign: |det| - r_det is at least 2 / 3 |det| but for roundings, so that its inverse, a second division, is not
@@ -150,13 +198,13 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// det and height may be, make 3 u |t| each: room for the two roundings of the quotient, and four more. 2^-17 is far
   /// more than the radius needs for its own. A certain det is no denormal, so that its inverse is finite. Where t or
   /// the radius overflows, nothing is known.
-  [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(const Bounds& bounds, const Crossing& crossing,
+  [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(V det_bound, V height_bound, const Crossing& crossing,
                                                               std::uint64_t certain, Scalar limit) {
     const Tag d;
     const V infinity = all(std::numeric_limits<Scalar>::infinity());
     const V inverse = hn::Div(all(1), crossing.det);
     const V t = hn::Mul(crossing.height, inverse);
-    const V radius = hn::Mul(hn::MulAdd(hn::Abs(t), all(bounds.det), all(bounds.height)), hn::Abs(inverse));
+    const V radius = hn::Mul(hn::MulAdd(hn::Abs(t), det_bound, height_bound), hn::Abs(inverse));
     const V bound = hn::MulAdd(radius, all(Scalar(1.5) + Scalar(0x1p-17)), all(std::numeric_limits<Scalar>::min()));
     const auto taken = mask_of(d, certain);
     const auto known = hn::And(hn::Ge(bound, hn::Zero(d)), hn::Lt(bound, infinity));

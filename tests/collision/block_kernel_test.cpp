@@ -35,10 +35,15 @@ void expect_never_wrong(const Path<Scalar>& path, const std::vector<Triangle<Sca
   std::optional<bool> truth;
   for (const std::int64_t target : instruction_sets()) {
     const ForcedInstructionSet forced(target);
-    const Verdict verdict = list.verdict(path, range, i);
-    if (verdict == Verdict::undecided) continue;
+    const Verdict by_list = list.verdict(path, range, i);
+    const Verdict by_itself = list.verdict_of_its_own(path, range, i);
+    if (by_list != Verdict::undecided || list.size() == 1) {
+      EXPECT_EQ(by_itself, by_list) << name_of_instruction_set(target) << ": " << hex_text(path)
+                                    << hex_text(triangles[i]);
+    }
+    if (by_itself == Verdict::undecided) continue;
     if (!truth) truth = exact_contact(path, triangles[i], options).has_value();
-    EXPECT_EQ(verdict == Verdict::hit, *truth)
+    EXPECT_EQ(by_itself == Verdict::hit, *truth)
         << name_of_instruction_set(target) << ": " << hex_text(path) << hex_text(triangles[i]) << hex_text(options)
         << ", triangle " << i << " of " << triangles.size();
   }
@@ -210,6 +215,26 @@ TYPED_TEST(BlockKernel, leaves_a_list_undecided_if_one_of_its_triangles_is_huge)
   on_every_instruction_set([&] {
     EXPECT_EQ(KernelList<TypeParam>(unit).verdict(path, PathRange<TypeParam>(path, {}), 0), Verdict::hit);
     EXPECT_EQ(KernelList<TypeParam>(triangles).verdict(path, PathRange<TypeParam>(path, {}), 0), Verdict::undecided);
+    EXPECT_EQ(KernelList<TypeParam>(triangles).verdict_of_its_own(path, PathRange<TypeParam>(path, {}), 0),
+              Verdict::undecided);
+  });
+}
+
+TYPED_TEST(BlockKernel, decides_small_triangles_beside_a_large_one_by_their_own_sizes) {
+  using Scalar = TypeParam;
+  // So large that a small one is nowhere clear of its list's bound.
+  const Scalar large = std::ldexp(Scalar{1}, std::numeric_limits<Scalar>::digits / 2);
+  const std::vector<Triangle<Scalar>> triangles = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                                                   {{2, 0, 0}, {3, 0, 0}, {2, 1, 0}},
+                                                   {{-large, 0, -1}, {large, 0, -1}, {0, large, -1}}};
+  const KernelList<Scalar> list(triangles);
+  const Path<Scalar> path =
+      Segment<Scalar>{{Scalar(0.25), Scalar(0.25), 1}, {Scalar(0.25), Scalar(0.25), Scalar(-0.5)}};
+  const PathRange<Scalar> range(path, {});
+  on_every_instruction_set([&] {
+    for (const std::size_t small : {0U, 1U}) EXPECT_EQ(list.verdict(path, range, small), Verdict::undecided);
+    EXPECT_EQ(list.verdict_of_its_own(path, range, 0), Verdict::hit);
+    EXPECT_EQ(list.verdict_of_its_own(path, range, 1), Verdict::miss);
   });
 }
 

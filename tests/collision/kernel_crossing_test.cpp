@@ -51,8 +51,9 @@ class CertainHits {
  public:
   CertainHits(const Path<Scalar>& path, const std::vector<Triangle<Scalar>>& triangles, const KernelList<Scalar>& list,
               const PathRange<Scalar>& range, std::size_t from)
-      : path_(path), list_(list), from_(from), certain_(list.verdicts_from(path, range, from).certain) {
-    for (std::uint64_t left = certain_; left != 0; left &= left - 1) {
+      : path_(path), list_(list), range_(range), from_(from), certain_(list.verdicts_from(path, range, from).certain) {
+    const std::uint64_t certain = list.each_from(path, range, from, no_limit<Scalar>).verdicts.certain;
+    for (std::uint64_t left = certain; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
       t_[lane] = exact_t(path, triangles[std::min(from + lane, triangles.size() - 1)]);
     }
@@ -65,7 +66,17 @@ class CertainHits {
   /// begin after the limit. What the limit puts out of reach is all that it takes away.
   void expect_first(std::uint64_t certain, Scalar limit) const {
     const KernelFirst<Scalar> open = list_.first_from(path_, from_, certain, no_limit<Scalar>);
-    const KernelFirst<Scalar> first = list_.first_from(path_, from_, certain, limit);
+    expect_first(certain, limit, list_.first_from(path_, from_, certain, limit), open);
+  }
+  /// The same of what is known once each triangle has been weighed with its own sizes.
+  void expect_first_of_each(Scalar limit) const {
+    const auto [verdicts, first] = list_.each_from(path_, range_, from_, limit);
+    expect_first(verdicts.certain, limit, first, list_.each_from(path_, range_, from_, no_limit<Scalar>).first);
+  }
+
+ private:
+  void expect_first(std::uint64_t certain, Scalar limit, const KernelFirst<Scalar>& first,
+                    const KernelFirst<Scalar>& open) const {
     EXPECT_EQ(first.lanes & ~open.lanes, 0U);
     EXPECT_EQ(open.lanes & ~certain, 0U);
     EXPECT_EQ(first.t_lower, open.t_lower);
@@ -93,7 +104,6 @@ class CertainHits {
     }
   }
 
- private:
   static bool is_at_most(Scalar x, const mpq_class& t) {
     return std::isinf(x) ? x < 0 : mpq_class(double{x}) <= t;  // a NaN is at no place
   }
@@ -101,6 +111,7 @@ class CertainHits {
 
   const Path<Scalar>& path_;
   const KernelList<Scalar>& list_;
+  PathRange<Scalar> range_;
   std::size_t from_;
   std::uint64_t certain_;
   std::array<mpq_class, 64> t_;
@@ -133,6 +144,8 @@ void expect_first_in_list(const Path<Scalar>& path, const std::vector<Triangle<S
       const mpq_class& t = certain_hits.t(static_cast<std::size_t>(std::countr_zero(one)));
       certain_hits.expect_first(certain, rounded_up<Scalar>(t));
       certain_hits.expect_first(certain, random.symmetric<Scalar>());
+      certain_hits.expect_first_of_each(no_limit<Scalar>);
+      certain_hits.expect_first_of_each(rounded_up<Scalar>(t));
     }
   }
 }
@@ -334,6 +347,33 @@ TYPED_TEST(KernelCrossing, tells_hits_apart_that_are_not_close) {
   });
 }
 
+/// Where the list has no other triangle, its own sizes are those of the list.
+TYPED_TEST(KernelCrossing, is_as_wide_by_a_triangles_own_sizes_as_by_its_lists) {
+  Random random(56);
+  std::size_t hits = 0;
+  for (std::size_t i = case_count(5'000); i > 0; --i) {
+    const auto draw = [&] {
+      return Vector3<TypeParam>(draw_coordinate<TypeParam>(random), draw_coordinate<TypeParam>(random),
+                                draw_coordinate<TypeParam>(random));
+    };
+    const Triangle<TypeParam> triangle{draw(), draw(), draw()};
+    const Path<TypeParam> path = Line<TypeParam>{draw(), draw()};
+    const PathRange<TypeParam> range(path, {});
+    const KernelList<TypeParam> list(triangle);
+    if (list.verdicts_from(path, range, 0).certain == 0) continue;
+    const auto by_list = list.first_from(path, 0, 1, no_limit<TypeParam>);
+    const auto by_itself = list.each_from(path, range, 0, no_limit<TypeParam>).first;
+    const auto close = [](TypeParam x, TypeParam y) { return std::fabs(x - y) <= std::fabs(y) / 1000; };
+    const TypeParam width = by_list.t_upper - by_list.t_lower;
+    if (!std::isfinite(width)) continue;
+    ++hits;
+    EXPECT_TRUE(close(by_itself.t_upper - by_itself.t_lower, width) ||
+                width <= 8 * std::numeric_limits<TypeParam>::epsilon() * std::fabs(by_list.t_upper))
+        << hex_text(path) << hex_text(triangle);
+  }
+  EXPECT_GT(hits, 0U);
+}
+
 /// Of coordinates too large for the bound nothing is known, and so nothing is left out.
 TYPED_TEST(KernelCrossing, leaves_all_open_where_sizes_are_too_large) {
   const TypeParam huge = std::numeric_limits<TypeParam>::max();
@@ -348,6 +388,9 @@ TYPED_TEST(KernelCrossing, leaves_all_open_where_sizes_are_too_large) {
     EXPECT_EQ(first.lanes, taken);
     EXPECT_EQ(first.t_lower, -no_limit<TypeParam>);
     EXPECT_EQ(first.t_upper, no_limit<TypeParam>);
+    const auto each = list.each_from(path, PathRange<TypeParam>(path, {}), 0, no_limit<TypeParam>);
+    EXPECT_EQ(each.verdicts.certain, 0U) << "nor is it once each has been weighed";
+    EXPECT_EQ(each.verdicts.possible, taken & 0b111);
   });
 }
 

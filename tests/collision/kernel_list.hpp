@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -38,11 +39,14 @@ class KernelList {
   /// Of triangle i, the first of the lanes or a later one; the range is not empty.
   [[nodiscard]] detail::Verdict verdict(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
                                         std::size_t i) const {
-    const std::size_t lanes = kernel_lanes<Scalar>();
-    const std::size_t from = i / lanes * lanes;
-    const KernelVerdicts verdicts = verdicts_from(path, range, from);
-    if ((verdicts.possible >> (i - from) & 1) == 0) return detail::Verdict::miss;
-    return (verdicts.certain >> (i - from) & 1) != 0 ? detail::Verdict::hit : detail::Verdict::undecided;
+    const std::size_t from = vector_of(i);
+    return verdict_of(verdicts_from(path, range, from), i - from);
+  }
+  /// Once each triangle has been weighed with its own sizes.
+  [[nodiscard]] detail::Verdict verdict_of_its_own(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
+                                                   std::size_t i) const {
+    const std::size_t from = vector_of(i);
+    return verdict_of(each_from(path, range, from, std::numeric_limits<Scalar>::infinity()).verdicts, i - from);
   }
 
   [[nodiscard]] KernelVerdicts verdicts_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
@@ -56,7 +60,18 @@ class KernelList {
     return first_of(kernel_path(path), weights, list_, from, certain, limit);
   }
 
+  [[nodiscard]] KernelEach<Scalar> each_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
+                                             std::size_t from, Scalar limit) const {
+    return weigh_each(kernel_path(path), detail::RangeWeights<Scalar>(range), list_, from, limit);
+  }
+
  private:
+  static std::size_t vector_of(std::size_t i) { return i / kernel_lanes<Scalar>() * kernel_lanes<Scalar>(); }
+  static detail::Verdict verdict_of(const KernelVerdicts& verdicts, std::size_t lane) {
+    if ((verdicts.possible >> lane & 1) == 0) return detail::Verdict::miss;
+    return (verdicts.certain >> lane & 1) != 0 ? detail::Verdict::hit : detail::Verdict::undecided;
+  }
+
   /// For a path that need not come to the list: its bounds are those of the farthest corner a.
   [[nodiscard]] detail::KernelPath<Scalar> kernel_path(const Path<Scalar>& path) const {
     Scalar farthest = 0;

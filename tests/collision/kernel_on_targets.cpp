@@ -30,18 +30,31 @@ FirstLanes<Scalar> first_lanes_of(const KernelPath<Scalar>& path, const RangeWei
   return Kernel::first_of(Kernel::bounds(path, range, list), Kernel(path, list, from).crossing(), certain, limit);
 }
 
-#define SUREHIT_DEFINE(Scalar)                                                                                \
-  test::KernelVerdicts verdicts_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,   \
-                                         const test::KernelTriangles<Scalar>& list, std::size_t from) {       \
-    const Lanes lanes = verdicts_of<Scalar>(path, range, list_of(list), from);                                \
-    return {lanes.possible, lanes.certain};                                                                   \
-  }                                                                                                           \
-  test::KernelFirst<Scalar> first_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range, \
-                                           const test::KernelTriangles<Scalar>& list, std::size_t from,       \
-                                           std::uint64_t certain, Scalar limit) {                             \
-    const auto first = first_lanes_of(path, range, list_of(list), from, certain, limit);                      \
-    return {first.lanes, first.t_lower, first.t_upper};                                                       \
-  }                                                                                                           \
+template <typename Scalar>
+test::KernelEach<Scalar> each_of(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
+                                 const TriangleList<Scalar>& list, std::size_t from, Scalar limit) {
+  Lanes lanes = verdicts_of(path, range, list, from);
+  FirstLanes<Scalar> first = first_lanes_of(path, range, list, from, lanes.certain, limit);
+  BlockKernel<Scalar>::weigh_each(path, list, from, range, limit, lanes, first);
+  return {{lanes.possible, lanes.certain}, {first.lanes, first.t_lower, first.t_upper}};
+}
+
+#define SUREHIT_DEFINE(Scalar)                                                                                        \
+  test::KernelVerdicts verdicts_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,           \
+                                         const test::KernelTriangles<Scalar>& list, std::size_t from) {               \
+    const Lanes lanes = verdicts_of<Scalar>(path, range, list_of(list), from);                                        \
+    return {lanes.possible, lanes.certain};                                                                           \
+  }                                                                                                                   \
+  test::KernelFirst<Scalar> first_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,         \
+                                           const test::KernelTriangles<Scalar>& list, std::size_t from,               \
+                                           std::uint64_t certain, Scalar limit) {                                     \
+    const auto first = first_lanes_of(path, range, list_of(list), from, certain, limit);                              \
+    return {first.lanes, first.t_lower, first.t_upper};                                                               \
+  }                                                                                                                   \
+  test::KernelEach<Scalar> each_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,           \
+                                         const test::KernelTriangles<Scalar>& list, std::size_t from, Scalar limit) { \
+    return each_of<Scalar>(path, range, list_of(list), from, limit);                                                  \
+  }                                                                                                                   \
   std::size_t lanes_##Scalar() { return hn::Lanes(hn::ScalableTag<Scalar>()); }
 SUREHIT_DEFINE(float)
 SUREHIT_DEFINE(double)
@@ -56,6 +69,7 @@ namespace surehit::detail {
 #define SUREHIT_EXPORT(Scalar)                                                                          \
   HWY_EXPORT(verdicts_##Scalar);                                                                        \
   HWY_EXPORT(first_##Scalar);                                                                           \
+  HWY_EXPORT(each_##Scalar);                                                                            \
   HWY_EXPORT(lanes_##Scalar);                                                                           \
   auto chosen_verdicts(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,               \
                        const test::KernelTriangles<Scalar>& list, std::size_t from) {                   \
@@ -65,6 +79,10 @@ namespace surehit::detail {
                     const test::KernelTriangles<Scalar>& list, std::size_t from, std::uint64_t certain, \
                     Scalar limit) {                                                                     \
     return HWY_DYNAMIC_DISPATCH(first_##Scalar)(path, range, list, from, certain, limit);               \
+  }                                                                                                     \
+  auto chosen_each(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                   \
+                   const test::KernelTriangles<Scalar>& list, std::size_t from, Scalar limit) {         \
+    return HWY_DYNAMIC_DISPATCH(each_##Scalar)(path, range, list, from, limit);                         \
   }                                                                                                     \
   auto chosen_lanes(Scalar) { return HWY_DYNAMIC_DISPATCH(lanes_##Scalar)(); }
 SUREHIT_EXPORT(float)
@@ -89,15 +107,23 @@ KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>& path, const detai
 }
 
 template <typename Scalar>
+KernelEach<Scalar> weigh_each(const detail::KernelPath<Scalar>& path, const detail::RangeWeights<Scalar>& range,
+                              const KernelTriangles<Scalar>& list, std::size_t from, Scalar limit) {
+  return detail::chosen_each(path, range, list, from, limit);
+}
+
+template <typename Scalar>
 std::size_t kernel_lanes() {
   return detail::chosen_lanes(Scalar{});
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                             \
-  template KernelVerdicts classify(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&,      \
-                                   const KernelTriangles<Scalar>&, std::size_t);                                \
-  template KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&, \
-                                        const KernelTriangles<Scalar>&, std::size_t, std::uint64_t, Scalar);    \
+#define SUREHIT_INSTANTIATE(Scalar)                                                                              \
+  template KernelVerdicts classify(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&,       \
+                                   const KernelTriangles<Scalar>&, std::size_t);                                 \
+  template KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&,  \
+                                        const KernelTriangles<Scalar>&, std::size_t, std::uint64_t, Scalar);     \
+  template KernelEach<Scalar> weigh_each(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&, \
+                                         const KernelTriangles<Scalar>&, std::size_t, Scalar);                   \
   template std::size_t kernel_lanes<Scalar>();
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

@@ -41,6 +41,17 @@ template <typename Scalar>
                                            const KernelTriangles<Scalar>& list, std::size_t from, std::uint64_t certain,
                                            Scalar limit);
 
+/// Both, as `detail::BlockKernel::weigh_each` corrects them there.
+template <typename Scalar>
+struct KernelEach {
+  KernelVerdicts verdicts;
+  KernelFirst<Scalar> first;
+};
+template <typename Scalar>
+[[nodiscard]] KernelEach<Scalar> weigh_each(const detail::KernelPath<Scalar>& path,
+                                            const detail::RangeWeights<Scalar>& range,
+                                            const KernelTriangles<Scalar>& list, std::size_t from, Scalar limit);
+
 /// Triangles that they take at once.
 template <typename Scalar>
 [[nodiscard]] std::size_t kernel_lanes();
