@@ -27,8 +27,9 @@ struct Entrant {
 [[nodiscard]] std::vector<Entrant> cgal_entrants();
 [[nodiscard]] std::vector<Entrant> bullet_entrants();
 
-/// surehit's batches with the kernel's float determinants taken at their word; in table exactness alone.
-[[nodiscard]] Entrant unfiltered_entrant();
+/// surehit's batches without what makes them exact, in table exactness alone: one without the exact stage, whose kernel
+/// misses what it leaves undecided, and one whose float determinants are taken at their word.
+[[nodiscard]] std::vector<Entrant> inexact_entrants();
 
 /// Ours first, then those of the peers that were found when this program was configured.
 [[nodiscard]] std::vector<Entrant> all_entrants();

@@ -7,9 +7,22 @@
 
 #include "entrants.hpp"
 
+#ifndef SUREHIT_INEXACTNESS
+#define SUREHIT_INEXACTNESS
+namespace surehit::detail {
+
+/// What a batch is without, unlike the shipped one.
+enum class Inexactness : std::uint8_t {
+  has_no_exact_stage,  ///< what its kernel leaves undecided is missed
+  has_no_filter,       ///< what its kernel computes is taken for true
+};
+
+}  // namespace surehit::detail
+#endif
+
 // Compiled once for each instruction set, and chosen with those of the library.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "unfiltered_entrant.cpp"
+#define HWY_TARGET_INCLUDE "inexact_entrants.cpp"
 #include <hwy/foreach_target.h>
 // Behind foreach_target.h.
 #include "batch-inl.hpp"
@@ -19,7 +32,7 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 /// The determinants taken at their word: a hit where all that must be of one sign is as computed. Zero is of either
 /// sign, but a det of zero is a miss, as is usual in inexact tests.
-class UnfilteredKernel : BlockDeterminants<float> {
+class Unfiltered : BlockDeterminants<float> {
  public:
   struct Bounds {};
   HWY_INLINE static Bounds bounds(const KernelPath<float>& /*path*/, const RangeWeights<float>& /*range*/,
@@ -27,7 +40,7 @@ class UnfilteredKernel : BlockDeterminants<float> {
     return {};
   }
 
-  HWY_INLINE UnfilteredKernel(const KernelPath<float>& path, const TriangleList<float>& list, std::size_t from)
+  HWY_INLINE Unfiltered(const KernelPath<float>& path, const TriangleList<float>& list, std::size_t from)
       : BlockDeterminants(path, list, from) {}
 
   [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<float>& range, const Bounds& /*bounds*/) const {
@@ -57,15 +70,38 @@ class UnfilteredKernel : BlockDeterminants<float> {
     const float least = hn::GetLane(hn::MinOfLanes(d, t));
     return {bits_of(d, hn::And(taken, hn::Eq(t, all(least)))), least, least};
   }
+
+  /// Nothing is left open.
+  template <typename... Any>
+  HWY_INLINE static void weigh_each(const Any&...) {}
+};
+
+/// The shipped kernel, but that undecided lanes are misses and t is as computed.
+class WithoutExactStage : public BlockKernel<float> {
+ public:
+  HWY_INLINE WithoutExactStage(const KernelPath<float>& path, const TriangleList<float>& list, std::size_t from)
+      : BlockKernel(path, list, from) {}
+
+  [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<float>& range, const Bounds& bounds) const {
+    const Lanes lanes = BlockKernel::classify(range, bounds);
+    return {lanes.certain, lanes.certain};
+  }
+  [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of(const Bounds& /*bounds*/, const Crossing& crossing,
+                                                             std::uint64_t hits, float limit) {
+    return Unfiltered::first_of({}, {crossing.height, crossing.det}, hits, limit);
+  }
+  template <typename... Any>
+  HWY_INLINE static void weigh_each(const Any&...) {}
 };
 
 /// Keeps the hit of least t as computed; of equal ones the first that it is shown.
-class UnfilteredFirst {
+template <typename AnyKernel>
+class FirstAsComputed {
  public:
-  using Kernel = UnfilteredKernel;
+  using Kernel = AnyKernel;
   static constexpr bool wants_order = true;
 
-  explicit UnfilteredFirst(const Query<float>&) {}
+  explicit FirstAsComputed(const Query<float>&) {}
   void reset() { t_ = std::numeric_limits<float>::infinity(); }
 
   template <typename AnyPath>
@@ -100,12 +136,13 @@ class UnfilteredFirst {
   Trianglef triangle_ = {Vector3f::Zero(), Vector3f::Zero(), Vector3f::Zero()};
 };
 
-class UnfilteredAny {
+template <typename AnyKernel>
+class AnyAsComputed {
  public:
-  using Kernel = UnfilteredKernel;
+  using Kernel = AnyKernel;
   static constexpr bool wants_order = false;
 
-  explicit UnfilteredAny(const Query<float>&) {}
+  explicit AnyAsComputed(const Query<float>&) {}
   void reset() { is_done_ = false; }
 
   template <typename AnyPath>
@@ -121,22 +158,40 @@ class UnfilteredAny {
 
 // Paths that the lanes cannot place are answered as the library does.
 
-void unfiltered_first_hits(const Query<float>& query, std::span<const Segmentf> paths, std::span<Hitf> hits) {
+template <typename Kernel>
+void first_hits_by(const Query<float>& query, std::span<const Segmentf> paths, std::span<Hitf> hits) {
   std::fill(hits.begin(), hits.end(), Hitf{});
   const PathRange<float> range(paths.front(), query.options);
-  const auto finish = [&](std::size_t index, const UnfilteredFirst& first) {
+  const auto finish = [&](std::size_t index, const FirstAsComputed<Kernel>& first) {
     if (first.is_found()) hits[index] = first.hit(query, paths[index]);
   };
   const auto alone = [&](std::size_t index) { hits[index] = first_hit<float>(query, paths[index]).value_or(Hitf{}); };
-  answer_each<UnfilteredFirst>(query, range, paths, finish, alone);
+  answer_each<FirstAsComputed<Kernel>>(query, range, paths, finish, alone);
 }
 
-void unfiltered_any_hits(const Query<float>& query, std::span<const Segmentf> paths, std::span<std::uint8_t> blocked) {
+template <typename Kernel>
+void any_hits_by(const Query<float>& query, std::span<const Segmentf> paths, std::span<std::uint8_t> blocked) {
   std::fill(blocked.begin(), blocked.end(), std::uint8_t{0});
   const PathRange<float> range(paths.front(), query.options);
-  const auto finish = [&](std::size_t index, const UnfilteredAny& any) { blocked[index] = any.is_done() ? 1 : 0; };
+  const auto finish = [&](std::size_t index, const AnyAsComputed<Kernel>& any) {
+    blocked[index] = any.is_done() ? 1 : 0;
+  };
   const auto alone = [&](std::size_t index) { blocked[index] = any_hit<float>(query, paths[index]) ? 1 : 0; };
-  answer_each<UnfilteredAny>(query, range, paths, finish, alone);
+  answer_each<AnyAsComputed<Kernel>>(query, range, paths, finish, alone);
+}
+
+// Highway exports plain functions.
+
+void inexact_first_hits(Inexactness inexactness, const Query<float>& query, std::span<const Segmentf> paths,
+                        std::span<Hitf> hits) {
+  const bool filters = inexactness == Inexactness::has_no_exact_stage;
+  filters ? first_hits_by<WithoutExactStage>(query, paths, hits) : first_hits_by<Unfiltered>(query, paths, hits);
+}
+
+void inexact_any_hits(Inexactness inexactness, const Query<float>& query, std::span<const Segmentf> paths,
+                      std::span<std::uint8_t> blocked) {
+  const bool filters = inexactness == Inexactness::has_no_exact_stage;
+  filters ? any_hits_by<WithoutExactStage>(query, paths, blocked) : any_hits_by<Unfiltered>(query, paths, blocked);
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE
@@ -145,14 +200,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace surehit::detail {
 
-HWY_EXPORT(unfiltered_first_hits);
-HWY_EXPORT(unfiltered_any_hits);
+HWY_EXPORT(inexact_first_hits);
+HWY_EXPORT(inexact_any_hits);
 
-void chosen_first_hits(const Query<float>& query, std::span<const Segmentf> paths, std::span<Hitf> hits) {
-  HWY_DYNAMIC_DISPATCH(unfiltered_first_hits)(query, paths, hits);
+void chosen_first_hits(Inexactness inexactness, const Query<float>& query, std::span<const Segmentf> paths,
+                       std::span<Hitf> hits) {
+  HWY_DYNAMIC_DISPATCH(inexact_first_hits)(inexactness, query, paths, hits);
 }
-void chosen_any_hits(const Query<float>& query, std::span<const Segmentf> paths, std::span<std::uint8_t> blocked) {
-  HWY_DYNAMIC_DISPATCH(unfiltered_any_hits)(query, paths, blocked);
+void chosen_any_hits(Inexactness inexactness, const Query<float>& query, std::span<const Segmentf> paths,
+                     std::span<std::uint8_t> blocked) {
+  HWY_DYNAMIC_DISPATCH(inexact_any_hits)(inexactness, query, paths, blocked);
 }
 
 }  // namespace surehit::detail
@@ -162,8 +219,10 @@ namespace {
 
 /// Works on the grid of a collider and on what the collider makes of its mesh for that grid, so that both lie in memory
 /// in the same way.
-class UnfilteredBatch : public Contender {
+class InexactBatch : public Contender {
  public:
+  explicit InexactBatch(detail::Inexactness inexactness) : inexactness_(inexactness) {}
+
   void build(const TriangleMeshViewf& mesh) override {
     collider_ = Colliderf(mesh);
     blocks_ = MeshBlocks<float>(mesh, collider_.grid());
@@ -174,11 +233,15 @@ class UnfilteredBatch : public Contender {
   }
 
   void first(const PathBatch& paths, std::span<Hitf> hits) const override {
-    answer([&](const detail::Query<float>& query) { detail::chosen_first_hits(query, paths.segments(), hits); });
+    answer([&](const detail::Query<float>& query) {
+      detail::chosen_first_hits(inexactness_, query, paths.segments(), hits);
+    });
   }
 
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
-    answer([&](const detail::Query<float>& query) { detail::chosen_any_hits(query, paths.segments(), blocked); });
+    answer([&](const detail::Query<float>& query) {
+      detail::chosen_any_hits(inexactness_, query, paths.segments(), blocked);
+    });
   }
 
  private:
@@ -190,14 +253,19 @@ class UnfilteredBatch : public Contender {
     answer({collider_.grid(), blocks_, {}, options, nullptr, unread});
   }
 
+  detail::Inexactness inexactness_;
   Colliderf collider_;
   MeshBlocks<float> blocks_;
 };
 
 }  // namespace
 
-Entrant unfiltered_entrant() {
-  return {"surehit without its filter", "", "", [] { return std::make_unique<UnfilteredBatch>(); }};
+std::vector<Entrant> inexact_entrants() {
+  const auto entrant = [](const char* name, detail::Inexactness inexactness) -> Entrant {
+    return {name, "", "", [inexactness] { return std::make_unique<InexactBatch>(inexactness); }};
+  };
+  return {entrant("surehit without its exact stage", detail::Inexactness::has_no_exact_stage),
+          entrant("surehit without its filter", detail::Inexactness::has_no_filter)};
 }
 
 }  // namespace surehit::benchmark
