@@ -9,19 +9,6 @@
 namespace surehit::detail {
 namespace {
 
-/// Whether both triangles lie in one plane that is square to an axis. A path that crosses it meets both at the same t.
-template <typename Scalar>
-bool share_axis_plane(const Triangle<Scalar>& x, const Triangle<Scalar>& y) {
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const Scalar height = x.a[axis];
-    if (x.b[axis] == height && x.c[axis] == height && y.a[axis] == height && y.b[axis] == height &&
-        y.c[axis] == height) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Rounds a number if all that its bounds allow rounds to the same one (Ziv 1991).
 template <typename Scalar>
 bool try_round(double lower, double upper, Scalar& rounded) {
@@ -39,6 +26,21 @@ bool try_round(const BoundedContact& bounded, Hit<Scalar>& hit) {
 }
 
 }  // namespace
+
+template <typename Scalar>
+bool share_axis_plane(const Triangle<Scalar>& x, const Triangle<Scalar>& y) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Scalar height = x.a[axis];
+    if (x.b[axis] == height && x.c[axis] == height && y.a[axis] == height && y.b[axis] == height &&
+        y.c[axis] == height) {
+      return true;
+    }
+  }
+  return false;
+}
+
+template bool share_axis_plane(const Triangle<float>&, const Triangle<float>&);
+template bool share_axis_plane(const Triangle<double>&, const Triangle<double>&);
 
 template <typename Scalar>
 bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact& found) const {

@@ -13,6 +13,10 @@
 
 namespace surehit::detail {
 
+/// Whether both triangles lie in one plane that is square to an axis. A path that crosses it meets both at the same t.
+template <typename Scalar>
+[[nodiscard]] bool share_axis_plane(const Triangle<Scalar>& x, const Triangle<Scalar>& y);
+
 /// A triangle that a path meets.
 template <typename Scalar>
 struct Candidate {

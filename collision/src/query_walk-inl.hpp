@@ -57,9 +57,12 @@ struct Meeting {
   /// Returns whether the path is shorter now.
   template <typename Visitor>
   HWY_NOINLINE bool show(std::uint64_t shown, Visitor& visitor) const {
+    bool shorter = false;
+    if constexpr (Visitor::wants_order) {
+      if (visitor.settles_tie(*this, shown, shorter)) return shorter;
+    }
     const auto& shown_path = as_path(path);
     const Narrowphase<Scalar> narrowphase(shown_path, query.options, range, query.statistics);
-    bool shorter = false;
     for (; shown != 0 && !visitor.is_done(); shown &= shown - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(shown));
       Candidate<Scalar> candidate{query.grid.entries()[entry(lane)], triangle(lane), {}};
@@ -129,6 +132,33 @@ class FirstHit {
     t_upper_ = static_cast<Scalar>(best_.contact.t_upper);
     return true;
   }
+  /// The usual tie in a level: floors that lie on floors. Where all that is open are certain hits that may come first,
+  /// in one plane that is square to an axis, the path crosses it, and meets them at the same t.
+  template <typename AnyPath>
+  HWY_NOINLINE bool settles_tie(const Meeting<Scalar, AnyPath>& meeting, std::uint64_t open, bool& is_nearer) {
+    const FirstLanes<Scalar>& first = meeting.first;
+    if (!trusts_kernel_ || open != first.lanes) return false;
+    const auto lane = static_cast<std::size_t>(std::countr_zero(first.lanes));  // ids ascend
+    const Triangle<Scalar> triangle = meeting.triangle(lane);
+    for (std::uint64_t others = first.lanes & (first.lanes - 1); others != 0; others &= others - 1) {
+      const auto other = static_cast<std::size_t>(std::countr_zero(others));
+      if (!share_axis_plane(triangle, meeting.triangle(other))) return false;
+    }
+    is_nearer = first.t_upper < t_lower_;
+    if (!is_nearer) {
+      if (!is_found() || !share_axis_plane(triangle, best_.triangle)) return false;
+      if (meeting.query.grid.entries()[meeting.entry(lane)] >= id(meeting.query)) return true;
+    }
+    state_ = State::located;
+    entry_ = meeting.entry(lane);
+    best_.triangle = triangle;
+    if (is_nearer) {
+      t_lower_ = first.t_lower;
+      t_upper_ = first.t_upper;
+    }
+    return true;
+  }
+
   /// Nothing that begins after this t is of interest.
   [[nodiscard]] Scalar t_upper() const { return t_upper_; }
   [[nodiscard]] double limit() const { return state_ == State::weighed ? best_.contact.t_upper : double{t_upper_}; }
