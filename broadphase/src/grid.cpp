@@ -47,8 +47,8 @@ std::array<double, 3> mean_extent(const GridFrame& frame, const TriangleMeshView
   constexpr std::uint32_t golden_ratio = 0x9e3779b9;
   std::array<double, 3> mean = {0, 0, 0};
   for (std::size_t k = 0; k < count; ++k) {
-    const std::uint64_t fraction = static_cast<std::uint32_t>(k) * golden_ratio;
-    const std::size_t i = triangles == count ? k : static_cast<std::size_t>(fraction * triangles >> 32);
+    const std::uint32_t fraction = static_cast<std::uint32_t>(k) * golden_ratio;
+    const std::size_t i = triangles == count ? k : static_cast<std::size_t>(std::uint64_t{fraction} * triangles >> 32);
     const Vector3<Scalar> a = mesh.vertex(mesh.corner(i, 0));
     const Vector3<Scalar> b = mesh.vertex(mesh.corner(i, 1));
     const Vector3<Scalar> c = mesh.vertex(mesh.corner(i, 2));

@@ -34,7 +34,7 @@ struct CoverBox {
 /// Of the grid, what its cells list there.
 struct GridPart {
   static constexpr std::uint32_t on_an_axis = 8;
-  static constexpr std::size_t most = on_an_axis * on_an_axis * on_an_axis;
+  static constexpr std::size_t most = std::size_t{on_an_axis} * on_an_axis * on_an_axis;
 
   std::array<std::uint32_t, 3> place = {0, 0, 0};
   CoverBox box;
@@ -79,7 +79,7 @@ class ListingParts {
 
   /// Of the grid's surface as one sees it along the axes, the share in which something is listed.
   [[nodiscard]] float silhouette() const {
-    std::array<std::array<bool, n * n>, 3> seen = {};
+    std::array<std::array<bool, std::size_t{n} * n>, 3> seen = {};
     for (std::uint32_t i = 0; i < lists_.size(); ++i) {
       if (!lists_[i]) continue;
       const auto [x, y, z] = place_of(i);
@@ -136,7 +136,7 @@ class ListingParts {
     std::array<std::uint32_t, 3> place;
     for (place[2] = 0; place[2] < cells[2]; ++place[2]) {
       for (place[1] = 0; place[1] < cells[1]; ++place[1]) {
-        const std::size_t row = (place[2] * n / cells[2] * n + place[1] * n / cells[1]) * n;
+        const std::size_t row = (std::size_t{place[2] * n / cells[2]} * n + place[1] * n / cells[1]) * n;
         for (place[0] = 0; place[0] < cells[0]; ++place[0], ++word) {
           if (!word->is_empty()) visit(row + place[0] * n / cells[0], place, *word);
         }

@@ -89,7 +89,7 @@ class BlockDeterminants {
     Sizes sizes{hn::Zero(Tag()), hn::Zero(Tag())};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const V a = load(axis);
-      for (const std::size_t corner : {1, 2}) {
+      for (const std::size_t corner : {1U, 2U}) {
         sizes.edge = hn::Max(sizes.edge, hn::Abs(hn::Sub(load(3 * corner + axis), a)));
       }
       sizes.s = hn::Max(sizes.s, hn::Abs(hn::Sub(all(path.start[axis]), a)));

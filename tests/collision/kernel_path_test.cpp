@@ -133,10 +133,11 @@ TYPED_TEST(KernelPathOf, is_the_same_in_lanes) {
       const Vector3<TypeParam> way = power() * (drawer.point_on_mesh() - start);
       const auto expect_same = [&](const auto& path) {
         QueryStatistics alone;
-        EXPECT_FALSE(collider.first_hit(path, nothing, &alone));
+        EXPECT_FALSE(collider.any_hit(path, nothing, &alone));
         QueryStatistics in_lane;
-        Hit<TypeParam> hit;
-        collider.first_hits(std::span(&path, 1), std::span(&hit, 1), nothing, &in_lane);
+        std::uint8_t blocked = 1;
+        collider.any_hits(std::span(&path, 1), std::span(&blocked, 1), nothing, &in_lane);
+        EXPECT_EQ(blocked, 0);
         // Where rounding lets one of them come to a list that the other misses, there is nothing to compare.
         if (alone.candidates != in_lane.candidates) return;
         EXPECT_EQ(alone.undecided, in_lane.undecided) << hex_text(Path<TypeParam>(path));
