@@ -16,7 +16,6 @@ constexpr std::uint32_t octants = 8;
 using Cells = std::uint8_t __attribute__((vector_size(16)));
 using Halves = std::uint64_t __attribute__((vector_size(16)));
 constexpr std::size_t row_unit = sizeof(Cells);
-static_assert(std::endian::native == std::endian::little);  // for what it means to shift halves
 
 [[gnu::always_inline]] inline Cells lesser(Cells x, Cells y) { return x < y ? x : y; }
 [[gnu::always_inline]] inline Cells all_cells(std::uint8_t x) { return Cells{} + x; }
@@ -40,8 +39,9 @@ template <bool is_upward, int by>
   const Halves& first = by < 8 ? near : middle;
   const Halves& second = by < 8 ? middle : far;
   constexpr int bits = by % 8 * 8;
-  return reinterpret_cast<Cells>(is_upward ? first >> bits | second << (64 - bits)
-                                           : first << bits | second >> (64 - bits));
+  constexpr bool to_the_right = is_upward == (std::endian::native == std::endian::little);
+  return reinterpret_cast<Cells>(to_the_right ? first >> bits | second << (64 - bits)
+                                              : first << bits | second >> (64 - bits));
 }
 
 /// Distances in each octant, row by row. A cube with a corner in an empty cell is one larger than the least of those

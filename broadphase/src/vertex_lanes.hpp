@@ -12,13 +12,15 @@ namespace surehit::detail {
 
 using Double4 = double __attribute__((vector_size(32)));
 
-/// Vertices of a mesh as vectors, with any number for a fourth coordinate: most are loaded whole.
+/// Vertices of a mesh, which outlives this, as vectors, whose fourth number is one of the mesh's too: most vertices are
+/// loaded with what lies behind them.
 template <typename Scalar>
 class VertexLanes {
  public:
   using Point = std::conditional_t<std::is_same_v<Scalar, float>, Float4, Double4>;
 
-  explicit VertexLanes(const TriangleMeshView<Scalar>& mesh) : mesh_(mesh), vertices_(mesh.vertices().data) {
+  explicit VertexLanes(const TriangleMeshView<Scalar>& mesh)
+      : mesh_(mesh), vertices_(reinterpret_cast<const std::byte*>(mesh.vertices().data)) {
     const bool are_dense = mesh.vertices().stride == 3 * sizeof(Scalar);
     followed_ = are_dense && mesh.vertex_count() > 0 ? mesh.vertex_count() - 1 : 0;
   }
@@ -42,7 +44,7 @@ class VertexLanes {
 
  private:
   [[gnu::always_inline]] void load_whole(std::size_t vertex, Point& point) const {
-    std::memcpy(&point, vertices_ + 3 * vertex, sizeof point);
+    std::memcpy(&point, vertices_ + vertex * (3 * sizeof(Scalar)), sizeof point);
   }
   void gather(std::size_t index, Point& point) const {
     const Vector3<Scalar> vertex = mesh_.vertex(index);
@@ -50,7 +52,7 @@ class VertexLanes {
   }
 
   const TriangleMeshView<Scalar>& mesh_;
-  const Scalar* vertices_;
+  const std::byte* vertices_;
   std::size_t followed_;  ///< so many vertices have another one behind them, where their fourth coordinate is from
 };
 

@@ -145,7 +145,8 @@ class BlockKernel : BlockDeterminants<Scalar> {
   };
   [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, det_}; }
 
-  /// Of `certain` hits those that may be the first, if none that begins after t = `limit` can be.
+  /// Of `certain` hits those that may be the first, if none that begins after t = `limit` can be. The interval of t is
+  /// derived below.
   [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(const Bounds& bounds, const Crossing& crossing,
                                                               std::uint64_t certain, Scalar limit) {
     return first_of(all(bounds.det), all(bounds.height), crossing, certain, limit);

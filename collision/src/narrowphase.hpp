@@ -13,7 +13,8 @@
 
 namespace surehit::detail {
 
-/// Whether both triangles lie in one plane that is square to an axis. A path that crosses it meets both at the same t.
+/// Whether both triangles lie in one plane that is square to an axis. A path that crosses the plane meets either, if at
+/// all, at the same t.
 template <typename Scalar>
 [[nodiscard]] bool share_axis_plane(const Triangle<Scalar>& x, const Triangle<Scalar>& y);
 

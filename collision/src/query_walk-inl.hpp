@@ -132,8 +132,9 @@ class FirstHit {
     t_upper_ = static_cast<Scalar>(best_.contact.t_upper);
     return true;
   }
-  /// The usual tie in a level: floors that lie on floors. Where all that is open are certain hits that may come first,
-  /// in one plane that is square to an axis, the path crosses it, and meets them at the same t.
+
+  /// The usual tie in a level, without the narrowphase: where all that is open are certain hits that may come first, in
+  /// one plane that is square to an axis, the path crosses that plane, and meets whatever lies in it at the same t.
   template <typename AnyPath>
   HWY_NOINLINE bool settles_tie(const Meeting<Scalar, AnyPath>& meeting, std::uint64_t open, bool& is_nearer) {
     const FirstLanes<Scalar>& first = meeting.first;
@@ -144,18 +145,17 @@ class FirstHit {
       const auto other = static_cast<std::size_t>(std::countr_zero(others));
       if (!share_axis_plane(triangle, meeting.triangle(other))) return false;
     }
-    is_nearer = first.t_upper < t_lower_;
-    if (!is_nearer) {
+    const bool comes_first = first.t_upper < t_lower_;
+    if (!comes_first) {
       if (!is_found() || !share_axis_plane(triangle, best_.triangle)) return false;
       if (meeting.query.grid.entries()[meeting.entry(lane)] >= id(meeting.query)) return true;
     }
+    is_nearer = comes_first;
     state_ = State::located;
     entry_ = meeting.entry(lane);
     best_.triangle = triangle;
-    if (is_nearer) {
-      t_lower_ = first.t_lower;
-      t_upper_ = first.t_upper;
-    }
+    t_lower_ = first.t_lower;
+    t_upper_ = first.t_upper;
     return true;
   }
 

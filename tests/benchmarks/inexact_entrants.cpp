@@ -76,7 +76,8 @@ class Unfiltered : BlockDeterminants<float> {
   HWY_INLINE static void weigh_each(const Any&...) {}
 };
 
-/// The shipped kernel, but that undecided lanes are misses and t is as computed.
+/// The shipped kernel with its bounds of a list, but that lanes which these leave undecided are misses and t is as
+/// computed.
 class WithoutExactStage : public BlockKernel<float> {
  public:
   HWY_INLINE WithoutExactStage(const KernelPath<float>& path, const TriangleList<float>& list, std::size_t from)

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "support/scalars.hpp"
@@ -49,8 +51,11 @@ class VertexLanesTest : public testing::Test {
   }
 
   static TriangleMeshView<Scalar> mesh_of(const std::vector<Scalar>& numbers, std::size_t stride) {
+    return mesh_at(numbers.data(), stride * sizeof(Scalar));
+  }
+  static TriangleMeshView<Scalar> mesh_at(const Scalar* vertices, std::size_t stride_in_bytes) {
     static constexpr std::array<std::uint32_t, 12> triangles = {0, 1, 2, 4, 0, 1, 2, 4, 3, 3, 2, 4};
-    return {numbers.data(), count, triangles.data(), triangles.size() / 3, stride * sizeof(Scalar)};
+    return {vertices, count, triangles.data(), triangles.size() / 3, stride_in_bytes};
   }
 };
 TYPED_TEST_SUITE(VertexLanesTest, Scalars, ScalarNames);
@@ -65,6 +70,23 @@ TYPED_TEST(VertexLanesTest, HoldVerticesThatLieApart) {
     const auto numbers = this->numbers(stride);
     this->expect_vertices(this->mesh_of(numbers, stride));
   }
+}
+
+TYPED_TEST(VertexLanesTest, HoldVerticesThatAreNotAligned) {
+  for (const std::size_t gap : {0U, 1U}) {
+    const std::size_t stride = 3 * sizeof(TypeParam) + gap;
+    const auto numbers = this->numbers(3);
+    std::vector<std::byte> bytes(1 + this->count * stride + sizeof(typename TestFixture::Lanes::Point));
+    for (std::size_t i = 0; i < this->count; ++i) {
+      std::memcpy(&bytes[1 + i * stride], &numbers[3 * i], 3 * sizeof(TypeParam));
+    }
+    this->expect_vertices(this->mesh_at(reinterpret_cast<const TypeParam*>(&bytes[1]), stride));
+  }
+}
+
+TYPED_TEST(VertexLanesTest, HoldAVertexAlone) {
+  const auto numbers = this->numbers(3);
+  this->expect_vertices({&numbers[0], 1, nullptr, 0});
 }
 
 TYPED_TEST(VertexLanesTest, LoadNothingOfAMeshWithoutVertices) {

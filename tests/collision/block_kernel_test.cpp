@@ -37,6 +37,7 @@ void expect_never_wrong(const Path<Scalar>& path, const std::vector<Triangle<Sca
     const ForcedInstructionSet forced(target);
     const Verdict by_list = list.verdict(path, range, i);
     const Verdict by_itself = list.verdict_of_its_own(path, range, i);
+    // Of a list of one triangle the sizes are the same, and so are the bounds but for a rounding.
     if (by_list != Verdict::undecided || list.size() == 1) {
       EXPECT_EQ(by_itself, by_list) << name_of_instruction_set(target) << ": " << hex_text(path)
                                     << hex_text(triangles[i]);
