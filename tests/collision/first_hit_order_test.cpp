@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -154,6 +155,34 @@ TYPED_TEST(FirstHitOrder, of_floors_some_of_which_an_ulp_tilts) {
     this->expect_first(triangles, segments);
   }
   EXPECT_GT(this->ties_, case_count(60));
+}
+
+/// The list of the first cell has a triangle so large that the kernel leaves its floor undecided, which the narrowphase
+/// finds. In the next cell it ties with one of a lower id, of which the kernel is certain.
+TYPED_TEST(FirstHitOrder, of_a_floor_that_was_weighed_and_one_that_was_not) {
+  constexpr bool is_float = std::is_same_v<TypeParam, float>;
+  constexpr TypeParam large = is_float ? 0x1p12 : 0x1p20;
+  constexpr TypeParam reach = is_float ? 1 : 0x1p18;
+  const TypeParam near = TypeParam{0.05F};
+  GeneratedMesh<TypeParam> mesh;
+  mesh.add({{near, -1, 0}, {3, -1, 0}, {near, 3, 0}});
+  mesh.add({{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}});
+  mesh.add({{-large, -large, -5}, {-1, -large, -5}, {-large, large, 5}});
+  mesh.add({{large, 0, -5}, {large - 1, 0, -5}, {large, 1, 5}});  // so that the path begins in the first cell
+  const Segment<TypeParam> segment{{-reach, 0, 1}, {reach + TypeParam{0.5F}, 0, -1}};
+  const auto expected = brute_force_hits<TypeParam>(mesh.view(), segment);
+  ASSERT_EQ(expected.size(), 2U);
+  ASSERT_EQ(expected.front().triangle, 0U);
+  const Collider<TypeParam> collider(mesh.view(), BuildOptions{{.resolution = {2, 1, 1}, .crowded = 0}, {}});
+  for (const std::int64_t target : instruction_sets()) {
+    const ForcedInstructionSet forced(target);
+    SCOPED_TRACE(name_of_instruction_set(target));
+    QueryStatistics statistics;
+    const Hit<TypeParam> hit = collider.first_hit(segment, {}, &statistics).value_or(Hit<TypeParam>{});
+    EXPECT_TRUE(same_bits(hit, expected.front())) << hex_text(hit);
+    EXPECT_GT(statistics.undecided, 0U);
+    EXPECT_EQ(statistics.cells, 2U);
+  }
 }
 
 /// Planes square to an axis, one ulp or none apart, in any order of their ids: more than become jobs at once.
