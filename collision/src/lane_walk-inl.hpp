@@ -223,9 +223,9 @@ class LaneWalk {
     const Floats begin = hn::MulAdd(hn::Iota(d, 0.0F), length, from);
     const Floats end = hn::MulAdd(hn::Iota(d, 1.0F), length, from);  // where the next one begins
     hn::Store(hn::IfThenElse(hn::FirstN(d, last_lane), hn::Min(end, whole), whole), d, pieces.end.data());
-    float first_cell = 0;
+    // Without branches on the direction, which nobody could foretell.
+    const Float4 pitch = to_float(grid_.frame().pitch_of(path.falls()));
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const bool falls = (path.octant >> axis & 1) != 0;
       const Floats start = hn::Set(d, path.start[axis]);
       const Floats rate = hn::Set(d, path.rate[axis]);
       const Floats last = hn::Set(d, stop_[axis] * (1 - 0x1p-24F));
@@ -233,10 +233,10 @@ class LaneWalk {
       hn::Store(rate, d, pieces.rate[axis].data());
       hn::Store(hn::Set(d, path.inverse_rate[axis]), d, pieces.inverse_rate[axis].data());
       hn::Store(hn::Floor(hn::Min(hn::MulAdd(begin, rate, start), last)), d, pieces.finest[axis].data());
-      hn::Store(hn::Set(d, falls ? -pitch_[axis] : pitch_[axis]), d, pieces.pitch[axis].data());
-      if (falls) first_cell += static_cast<float>(grid_.frame().last_top[axis]);
+      hn::Store(hn::Set(d, pitch[axis]), d, pieces.pitch[axis].data());
     }
-    hn::Store(hn::Set(d, first_cell), d, pieces.first_cell.data());
+    const Int4 first_top = grid_.frame().first_top_of(path.falls());
+    hn::Store(hn::Set(d, static_cast<float>(first_top[0] + first_top[1] + first_top[2])), d, pieces.first_cell.data());
     hn::Store(hn::Set(BitsTag(), path.octant), BitsTag(), pieces.octant.data());
   }
 

@@ -43,6 +43,12 @@ struct PlacedPath {
   std::array<double, 3> unit = {1, 1, 1};
   std::array<double, 3> origin = {0, 0, 0};
 
+  /// The axes on which it is mirrored, all ones.
+  [[nodiscard]] detail::Int4 falls() const noexcept {
+    using namespace detail;
+    return (all_lanes(static_cast<std::int32_t>(octant)) & Int4{1, 2, 4, 0}) != all_lanes(0);
+  }
+
   /// [first_t, last_t] is the part of the path that counts, either end possibly infinite. A path that is not finite is
   /// outside. The caller holds a FloatingPointEnvironment.
   template <typename Scalar>
@@ -127,7 +133,7 @@ class GridTraversal {
       : grid_(grid), path_(path), end_(path.end) {
     using namespace detail;
     if (path.place != PlacedPath::Place::inside) return;
-    falls_ = (all_lanes(static_cast<std::int32_t>(path.octant)) & Int4{1, 2, 4, 0}) != all_lanes(0);
+    falls_ = path.falls();
     at_end_ = false;
     Float4 place = path.start;
     if (enters > 0) [[unlikely]] {
@@ -228,14 +234,14 @@ class GridTraversal {
   /// Finds the undivided cell around the finest one.
   [[gnu::always_inline]] void enter(detail::Int4 finest) noexcept {
     size_ = static_cast<std::int32_t>(grid_.frame().division);
-    const detail::Int4 origin = grid_.frame().last_top & falls_;
-    index_ = (finest >> static_cast<std::int32_t>(2 * grid_.levels())) * pitch() + origin;
+    const GridFrame& frame = grid_.frame();
+    index_ = (finest >> static_cast<std::int32_t>(2 * grid_.levels())) * pitch() + frame.first_top_of(falls_);
     planes_ = detail::to_float((finest & -size_) + size_);
     look();
     if (word_.is_divided()) descend(finest);
   }
   /// Of top cells, as the path is mirrored.
-  [[nodiscard]] detail::Int4 pitch() const noexcept { return (grid_.frame().top_pitch ^ falls_) - falls_; }
+  [[nodiscard]] detail::Int4 pitch() const noexcept { return grid_.frame().pitch_of(falls_); }
   [[gnu::always_inline]] void look() noexcept {
     word_ = grid_.top()[static_cast<std::size_t>(index_[0] + index_[1] + index_[2])];
   }
