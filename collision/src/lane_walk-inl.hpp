@@ -37,6 +37,18 @@ using Words = hn::Vec<BitsTag>;
 /// As many as the vectors have, or more where only the machine knows.
 constexpr std::size_t most_lanes = hn::MaxLanes(FloatTag());
 
+/// Toward zero, of numbers that an integer holds: for any other one Highway's conversion spends four operations on x86.
+HWY_INLINE Ints to_ints(Floats x) {
+#if HWY_HAVE_SCALABLE
+  return hn::ConvertTo(IntTag(), x);
+#else
+  using FloatLanes = float __attribute__((vector_size(sizeof(x.raw))));
+  using IntLanes = std::int32_t __attribute__((vector_size(sizeof(x.raw))));
+  const auto lanes = __builtin_convertvector(reinterpret_cast<FloatLanes>(x.raw), IntLanes);
+  return Ints{reinterpret_cast<decltype(Ints::raw)>(lanes)};
+#endif
+}
+
 /// A number for each lane. In memory: a step loads what it needs. Lanes are filled by stores of all of them: a load of
 /// all has to wait for a store of one.
 using LaneFloats = std::array<float, most_lanes>;
@@ -259,14 +271,14 @@ class LaneWalk {
       cells.low[axis] = hn::Load(d, paths.finest[axis].data());
       Floats top = cells.low[axis];
       if constexpr (has_levels) {
-        finest[axis] = hn::ConvertTo(di, cells.low[axis]);
+        finest[axis] = to_ints(cells.low[axis]);
         top = hn::ConvertTo(d, hn::ShiftRightSame(finest[axis], static_cast<int>(2 * levels)));
       }
       index = hn::MulAdd(top, hn::Load(d, paths.pitch[axis].data()), index);
     }
     // Idle lanes stand where they ended, or at the origin: in the grid.
     const auto* top = reinterpret_cast<const std::uint32_t*>(grid_.top().data());
-    cells.word = hn::GatherIndex(du, top, hn::ConvertTo(di, index));
+    cells.word = hn::GatherIndex(du, top, to_ints(index));
     cells.size = hn::Set(d, static_cast<float>(grid_.frame().division));
     if constexpr (has_levels) {
       const auto walks = mask_of(du, walking);
@@ -287,7 +299,7 @@ class LaneWalk {
         cells.size =
             hn::IfThenElse(hn::RebindMask(d, divided), hn::Set(d, static_cast<float>(1U << 2 * level)), cells.size);
       }
-      const Ints within = hn::Sub(hn::ConvertTo(di, cells.size), hn::Set(di, 1));
+      const Ints within = hn::Sub(to_ints(cells.size), hn::Set(di, 1));
       for (std::size_t axis = 0; axis < 3; ++axis) {
         cells.low[axis] = hn::ConvertTo(d, hn::AndNot(within, finest[axis]));
       }
