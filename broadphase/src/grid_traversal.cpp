@@ -51,6 +51,14 @@ Pair exact_difference(double x, double y) {
 // them costs: so the exact path is beyond each near plane and before each far one at that tau, and these are crossed,
 // as computed, before and after it. It lies between 0 and `end` like every tau that counts.
 //
+// A path may stand in all of its cells at once instead, where these are few (`LaneWalk::spread`): at the tau where it
+// begins, and at tau_X of each plane X up to the whole part of the rounded place where it ends. At such a tau, c is the
+// whole part of the rounded place on each axis, or the next cell if the plane before that is crossed by then, as
+// computed: so it is never behind the last plane crossed. As above x(tau) >= c - e; and x <= c + 1 + e until some lane's
+// plane is crossed next, or the path has ended: a plane that is crossed before, but that has no lane, is beyond the
+// rounded place of the end, so that the path comes no more than e beyond it. Again the intervals cut the path without a
+// gap.
+//
 // The boxes of the grid's cover hold those of the lists, and their planes are taken as far out. So tau lies between
 // where the first of them is entered and the last one left, as computed, and the walk may begin there instead of at 0,
 // as after a leap: at the whole part of the rounded place. That is out of the grid, where the planes stand a padding

@@ -235,21 +235,53 @@ class LaneWalk {
     const Floats begin = hn::MulAdd(hn::Iota(d, 0.0F), length, from);
     const Floats end = hn::MulAdd(hn::Iota(d, 1.0F), length, from);  // where the next one begins
     hn::Store(hn::IfThenElse(hn::FirstN(d, last_lane), hn::Min(end, whole), whole), d, pieces.end.data());
-    // Without branches on the direction, which nobody could foretell.
-    const Float4 pitch = to_float(grid_.frame().pitch_of(path.falls()));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats last = hn::Set(d, stop_[axis] * (1 - 0x1p-24F));
+      const Floats place = hn::MulAdd(begin, hn::Set(d, path.rate[axis]), hn::Set(d, path.start[axis]));
+      hn::Store(hn::Floor(hn::Min(place, last)), d, pieces.finest[axis].data());
+    }
+    repeat(path, pieces);
+  }
+
+  /// A path that is as many cells long or longer may need more lanes to be spread than there are: on each axis it
+  /// crosses less than one plane more than its length there, and it begins in a cell as well.
+  static float too_long_to_spread() { return static_cast<float>(hn::Lanes(FloatTag())) - 4; }
+
+  /// Stands in all cells that a path comes to from some tau on, one in each lane: where the path begins, and behind
+  /// each plane that it crosses. Of a grid without levels. Returns the lanes that it takes. That no cell is left out is
+  /// argued in grid_traversal.cpp.
+  HWY_INLINE std::uint32_t spread(const PlacedPath& path, float enters, WalkingPaths& cells) const {
+    const FloatTag d;
+    const Float4 first = to_float(to_int(path.start + enters * path.rate));
+    const Float4 last = to_float(to_int(path.start + std::min(path.end, path.exit) * path.rate));
+    const Float4 planes = last - first;
+    const float until_z = planes[0] + planes[1];
+    // The first lane is where the path begins; then come the planes on x, on y and on z.
+    const Floats lane = hn::Iota(d, 0.0F);
+    const auto is_y = hn::Gt(lane, hn::Set(d, planes[0]));
+    const auto is_z = hn::Gt(lane, hn::Set(d, until_z));
+    const auto on_axis = [&](const Float4& of) {
+      return hn::IfThenElse(is_z, hn::Set(d, of[2]), hn::IfThenElse(is_y, hn::Set(d, of[1]), hn::Set(d, of[0])));
+    };
+    const Floats plane = hn::Add(lane, on_axis(first - Float4{0, planes[0], until_z, 0}));
+    const Floats crossing = hn::Mul(hn::Sub(plane, on_axis(path.start)), on_axis(path.inverse_rate));
+    const Floats tau = hn::IfThenElse(hn::FirstN(d, 1), hn::Set(d, enters), crossing);
+    auto inside = hn::Le(lane, hn::Set(d, until_z + planes[2]));
+    Floats cell[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Floats start = hn::Set(d, path.start[axis]);
-      const Floats rate = hn::Set(d, path.rate[axis]);
-      const Floats last = hn::Set(d, stop_[axis] * (1 - 0x1p-24F));
-      hn::Store(start, d, pieces.start[axis].data());
-      hn::Store(rate, d, pieces.rate[axis].data());
-      hn::Store(hn::Set(d, path.inverse_rate[axis]), d, pieces.inverse_rate[axis].data());
-      hn::Store(hn::Floor(hn::Min(hn::MulAdd(begin, rate, start), last)), d, pieces.finest[axis].data());
-      hn::Store(hn::Set(d, pitch[axis]), d, pieces.pitch[axis].data());
+      const Floats place = hn::Floor(hn::MulAdd(tau, hn::Set(d, path.rate[axis]), start));
+      const Floats next = hn::Add(place, hn::Set(d, 1.0F));
+      const auto is_next = hn::Le(hn::Mul(hn::Sub(next, start), hn::Set(d, path.inverse_rate[axis])), tau);
+      cell[axis] = hn::IfThenElse(is_next, next, place);
+      inside = hn::And(inside, hn::Lt(cell[axis], hn::Set(d, stop_[axis])));
     }
-    const Int4 first_top = grid_.frame().first_top_of(path.falls());
-    hn::Store(hn::Set(d, static_cast<float>(first_top[0] + first_top[1] + first_top[2])), d, pieces.first_cell.data());
-    hn::Store(hn::Set(BitsTag(), path.octant), BitsTag(), pieces.octant.data());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      hn::Store(hn::IfThenElseZero(inside, cell[axis]), d, cells.finest[axis].data());
+    }
+    hn::Store(hn::Set(d, path.end), d, cells.end.data());
+    repeat(path, cells);
+    return static_cast<std::uint32_t>(bits_of(d, inside));
   }
 
   /// What the cells hold in which the walking lanes stand, undivided ones, and these cells' low corners and edges.
@@ -381,6 +413,22 @@ class LaneWalk {
   }
 
  private:
+  /// Puts one path into all lanes, but for where each stands and ends.
+  HWY_INLINE void repeat(const PlacedPath& path, WalkingPaths& paths) const {
+    const FloatTag d;
+    // Without branches on the direction, which nobody could foretell.
+    const Float4 pitch = to_float(grid_.frame().pitch_of(path.falls()));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      hn::Store(hn::Set(d, path.start[axis]), d, paths.start[axis].data());
+      hn::Store(hn::Set(d, path.rate[axis]), d, paths.rate[axis].data());
+      hn::Store(hn::Set(d, path.inverse_rate[axis]), d, paths.inverse_rate[axis].data());
+      hn::Store(hn::Set(d, pitch[axis]), d, paths.pitch[axis].data());
+    }
+    const Int4 first_top = grid_.frame().first_top_of(path.falls());
+    hn::Store(hn::Set(d, static_cast<float>(first_top[0] + first_top[1] + first_top[2])), d, paths.first_cell.data());
+    hn::Store(hn::Set(BitsTag(), path.octant), BitsTag(), paths.octant.data());
+  }
+
   const Grid& grid_;
   std::array<float, 3> stop_;
   std::array<float, 3> pitch_;
