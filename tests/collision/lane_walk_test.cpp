@@ -200,6 +200,54 @@ TYPED_TEST(LaneWalk, of_hits_just_behind_a_plane_that_are_hardly_located) {
   EXPECT_GT(this->hits_, case_count(200) * 30);
 }
 
+/// Walls that no more than a few paddings are off a plane between cells, met by paths of few cells through corners of
+/// cells, where planes of two or three axes are crossed at once but for roundings, and by paths that end beside a wall.
+TYPED_TEST(LaneWalk, of_short_paths_through_corners_of_cells) {
+  Random random(97);
+  const GridOptions options{.resolution = {7, 6, 5}, .crowded = 0};
+  GeneratedMesh<TypeParam> corners;
+  for (const TypeParam x : {TypeParam{-1}, TypeParam{1}}) corners.add({{x, x, x}, {x, x, x}, {x, x, x}});
+  const GridFrame frame = Grid(corners.view(), box_of(corners.view()), options).frame();
+  for (std::size_t i = case_count(600); i > 0 && !this->HasFailure(); --i) {
+    GeneratedMesh<TypeParam> mesh = corners;
+    std::vector<Segment<TypeParam>> segments;
+    for (std::size_t k = 0; k < 12; ++k) {
+      Vector3<TypeParam> corner;
+      Vector3<TypeParam> cell;  // in space
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<Eigen::Index>(axis);
+        const auto plane = static_cast<double>(random.between(1, frame.resolution(axis) - 1));
+        corner[at] = static_cast<TypeParam>(out_of_frame(frame, axis, plane));
+        cell[at] = static_cast<TypeParam>(out_of_frame(frame, axis, plane + 1)) - corner[at];
+      }
+      const std::size_t axis = random.below(3);
+      const auto at = static_cast<Eigen::Index>(axis);
+      const TypeParam padding = cell[at] * static_cast<TypeParam>(frame.padding(axis));
+      Triangle<TypeParam> wall = draw_around<TypeParam>(random, corner, TypeParam{0.1F});
+      const TypeParam place = corner[at] + padding * random.symmetric<TypeParam>() * 3;
+      wall.a[at] = wall.b[at] = wall.c[at] = place;
+      mesh.add(wall);
+      // As many cells on each axis, or not.
+      Vector3<TypeParam> way = cell;
+      for (TypeParam& component : way) component *= static_cast<TypeParam>(random.between(0, 2)) - 1;
+      if (way.isZero()) way = cell;
+      if (random.one_in(3)) way += cell.cwiseProduct(draw_vector<TypeParam>(random)) / 2;
+      const TypeParam before = 1 + 2 * random.unit<TypeParam>();
+      const TypeParam behind = 1 + 2 * random.unit<TypeParam>();
+      Segment<TypeParam> segment{corner - before * way, corner + behind * way};
+      if (random.one_in(3)) {  // ends beside the wall, through it
+        const Vector3<TypeParam> inside = (wall.a + wall.b + wall.c) / 3;
+        segment = {inside - 2 * before * way, inside};
+        segment.end[at] = place + padding * random.symmetric<TypeParam>() * 2;
+      }
+      segments.push_back(segment);
+      segments.push_back({segment.end, segment.start});
+    }
+    this->expect_found(mesh, options, segments);
+  }
+  EXPECT_GT(this->hits_, case_count(600) * 5);
+}
+
 /// Through corners of cells by leaps of every length: see GridTraversalTest.NeverTurnsBack.
 TYPED_TEST(LaneWalk, never_turns_back) {
   Random random(7);
