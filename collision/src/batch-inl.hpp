@@ -32,8 +32,8 @@ namespace surehit::detail::HWY_NAMESPACE {
 /// path that has come to an occupied cell meets that cell's list alone, a vector of triangles at a time; where one has
 /// ended, the next one takes its place.
 ///
-/// `Visitor` is what single queries use, one for each path that may meet a triangle. `finish(index, visitor)` is called
-/// for these when they end, and `alone(index)` for each path that the lanes cannot place.
+/// `Visitor` is what single queries use, one for each path. `finish(index, visitor)` is called when a path ends, if its
+/// visitor was shown a triangle, and `alone(index)` for each path that the lanes cannot place.
 template <typename Visitor, typename Finish, typename Alone>
 class Batch {
  public:
@@ -226,6 +226,7 @@ class Batch {
         for (const auto& [slot, first_triangle, verdicts, first] : std::span(open_).first(open_jobs(some, from))) {
           query_.statistics.undecided +=
               static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
+          shown_ |= std::uint64_t{1} << slot;
           const bool shorter = visitors_[slot].meet(Meeting<float, PathOfSlot>{
               query_, range_, PathOfSlot{paths_, index_[slot]}, lists_[slot], first_triangle, verdicts, first});
           done |= heed(slot, shorter);
@@ -305,11 +306,12 @@ class Batch {
 
   HWY_INLINE void end_paths(std::uint64_t ended) {
     walking_ &= ~ended;
-    for (; ended != 0; ended &= ended - 1) {
-      const auto slot = static_cast<std::size_t>(std::countr_zero(ended));
+    for (std::uint64_t shown = ended & shown_; shown != 0; shown &= shown - 1) {
+      const auto slot = static_cast<std::size_t>(std::countr_zero(shown));
       finish_(index_[slot], visitors_[slot]);
       visitors_[slot].reset();
     }
+    shown_ &= ~ended;
   }
 
   WalkingPaths placed_ = {};  ///< paths that are placed together
@@ -327,6 +329,7 @@ class Batch {
   std::size_t placed_first_ = 0;  ///< the first of `placed_`,
   std::uint32_t waiting_ = 0;     ///< of `placed_`, still to be walked
   std::uint64_t walking_ = 0;     ///< slots that hold a path
+  std::uint64_t shown_ = 0;       ///< of these, those whose visitors have been shown a triangle
   std::array<std::size_t, most_paths> index_ = {};
   std::array<KernelPath<float>, most_paths> kernel_path_;
   std::array<Visitor, most_paths> visitors_;
@@ -348,8 +351,9 @@ class BatchRounding {
                 std::span<Hit<float>> hits)
       : query_(query), range_(range), paths_(paths), hits_(hits) {}
 
-  /// A path that has ended. It is written down even where it has hit nothing, which nobody could foretell.
+  /// A path that has ended, if it has hit anything.
   HWY_INLINE void add(std::size_t index, FirstHit<float>& first) {
+    if (!first.is_found()) return;
     if (first.is_weighed()) {
       const Path<float> path = paths_[index];
       hits_[index] = first.hit(query_, Narrowphase<float>(path, query_.options, range_, query_.statistics));
@@ -363,8 +367,7 @@ class BatchRounding {
     static_assert(sizeof(Triangle<float>) == sizeof corners);
     std::memcpy(corners.data(), static_cast<const void*>(&first.triangle()), sizeof corners);
     for (std::size_t k = 0; k < corners.size(); ++k) coordinates_[path_size + k][count_] = corners[k];
-    count_ += first.is_found() ? 1 : 0;
-    if (count_ == hn::Lanes(DoubleTag())) flush();
+    if (++count_ == hn::Lanes(DoubleTag())) flush();
   }
 
   HWY_NOINLINE void flush() {

@@ -123,6 +123,24 @@ TEST(BatchRounding, of_hits_between_two_floats_is_that_of_intersect) {
 }
 
 /// A hit at t = 0, u = 0 or v = 0, and one that rounds to it, is +0.
+/// All paths meet a triangle that they ignore: that it was shown to them makes it no hit.
+TEST(BatchRounding, of_ignored_triangles_gives_no_hits) {
+  GeneratedMesh<float> mesh;
+  mesh.add({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
+  const Collider<float> collider(mesh.view());
+  const std::vector<Segment<float>> segments(20, {{0.25F, 0.25F, 0}, {0.25F, 0.25F, 2}});
+  for (const std::int64_t target : instruction_sets()) {
+    const ForcedInstructionSet forced(target);
+    SCOPED_TRACE(name_of_instruction_set(target));
+    std::vector<Hit<float>> hits(segments.size());
+    collider.first_hits(std::span<const Segment<float>>(segments), std::span<Hit<float>>(hits));
+    for (const Hit<float>& hit : hits) EXPECT_EQ(hit.triangle, 0U);
+    collider.first_hits(std::span<const Segment<float>>(segments), std::span<Hit<float>>(hits),
+                        {.ignored_triangle = 0});
+    for (const Hit<float>& hit : hits) EXPECT_EQ(hit.triangle, no_triangle);
+  }
+}
+
 TEST(BatchRounding, gives_zeros_their_sign) {
   constexpr float least = std::numeric_limits<float>::denorm_min();
   GeneratedMesh<float> mesh;
