@@ -39,7 +39,7 @@ constexpr std::size_t most_lanes = hn::MaxLanes(FloatTag());
 
 /// Toward zero, of numbers that an integer holds: for any other one Highway's conversion spends four operations on x86.
 HWY_INLINE Ints to_ints(Floats x) {
-#if HWY_HAVE_SCALABLE
+#if HWY_HAVE_SCALABLE || HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR
   return hn::ConvertTo(IntTag(), x);
 #else
   using FloatLanes = float __attribute__((vector_size(sizeof(x.raw))));

@@ -155,7 +155,7 @@ class GridTraversal {
 
   /// Steps beyond the cell, or beyond the cube of empty cells that begins with it.
   [[gnu::always_inline]] void advance() noexcept {
-    if (size_ != step_size_) [[unlikely]] {
+    if (size_ != step_size_) [[unlikely]] {  // NOLINT(bugprone-branch-clone): of other likelihood than the next one
       leap();
     } else if (word_.is_empty() && word_.distance(path_.octant) >= least_leap) {
       leap();
@@ -243,7 +243,8 @@ class GridTraversal {
   /// Of top cells, as the path is mirrored.
   [[nodiscard]] detail::Int4 pitch() const noexcept { return grid_.frame().pitch_of(falls_); }
   [[gnu::always_inline]] void look() noexcept {
-    word_ = grid_.top()[static_cast<std::size_t>(index_[0] + index_[1] + index_[2])];
+    const std::int32_t index = index_[0] + index_[1] + index_[2];
+    word_ = grid_.top()[static_cast<std::size_t>(index)];
   }
   [[gnu::always_inline]] void descend(detail::Int4 finest) noexcept {
     const auto [word, size] = undivided(grid_, word_, finest, falls_);
