@@ -52,12 +52,13 @@ Pair exact_difference(double x, double y) {
 // as computed, before and after it. It lies between 0 and `end` like every tau that counts.
 //
 // A path may stand in all of its cells at once instead, where these are few (`LaneWalk::spread`): at the tau where it
-// begins, and at tau_X of each plane X up to the whole part of the rounded place where it ends. At such a tau, c is the
-// whole part of the rounded place on each axis, or the next cell if the plane before that is crossed by then, as
-// computed: so it is never behind the last plane crossed. As above x(tau) >= c - e; and x <= c + 1 + e until some lane's
-// plane is crossed next, or the path has ended: a plane that is crossed before, but that has no lane, is beyond the
-// rounded place of the end, so that the path comes no more than e beyond it. Again the intervals cut the path without a
-// gap.
+// begins, and at tau_X of each plane X beyond the cell of the rounded place where it begins, up to the whole part of
+// the one where it ends. At such a tau, c is the whole part of the rounded place on each axis, or the next cell if the
+// plane before that is crossed by then, as computed; and no less than the cell where the path begins, whose near planes
+// count as crossed from the start, since the place may be rounded otherwise here. So it is never behind the last plane
+// crossed. As above x(tau) >= c - e; and x <= c + 1 + e until some lane's plane is crossed next, or the path has ended:
+// a plane that is crossed before, but that has no lane, is beyond the rounded place of the end, so that the path comes
+// no more than e beyond it. Again the intervals cut the path without a gap.
 //
 // The boxes of the grid's cover hold those of the lists, and their planes are taken as far out. So tau lies between
 // where the first of them is entered and the last one left, as computed, and the walk may begin there instead of at 0,

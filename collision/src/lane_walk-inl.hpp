@@ -270,7 +270,9 @@ class LaneWalk {
     Floats cell[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Floats start = hn::Set(d, path.start[axis]);
-      const Floats place = hn::Floor(hn::MulAdd(tau, hn::Set(d, path.rate[axis]), start));
+      // Planes up to the first cell's have no lane: none may stand before them, however its place is rounded.
+      const Floats place =
+          hn::Max(hn::Floor(hn::MulAdd(tau, hn::Set(d, path.rate[axis]), start)), hn::Set(d, first[axis]));
       const Floats next = hn::Add(place, hn::Set(d, 1.0F));
       const auto is_next = hn::Le(hn::Mul(hn::Sub(next, start), hn::Set(d, path.inverse_rate[axis])), tau);
       cell[axis] = hn::IfThenElse(is_next, next, place);

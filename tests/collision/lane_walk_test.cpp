@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <utility>
@@ -246,6 +247,50 @@ TYPED_TEST(LaneWalk, of_short_paths_through_corners_of_cells) {
     this->expect_found(mesh, options, segments);
   }
   EXPECT_GT(this->hits_, case_count(600) * 5);
+}
+
+/// A path begins to be walked where it enters the grid's cover, which for this one is at a plane between cells or just
+/// before it, as one rounds: of all its cells at once the one behind that plane was left out. (Found by a fuzzer.)
+TYPED_TEST(LaneWalk, of_a_path_that_enters_the_cover_at_a_plane) {
+  using Corners = Triangle<TypeParam>;
+  GeneratedMesh<TypeParam> mesh;
+  for (const TypeParam x : {TypeParam{-1}, TypeParam{1}}) mesh.add({{x, x, x}, {x, x, x}, {x, x, x}});
+  for (const Corners& triangle : std::initializer_list<Corners>{
+           {{-0x1.6b5966p-5F, -0x1.911f0ep-5F, -0x1.e63856p-4F},
+            {-0x1.0a45c2p-4F, -0x1.fba13cp-6F, -0x1.fbabe8p-4F},
+            {-0x1.f205dp-5F, -0x1.3299fp-5F, -0x1.104ffp-3F}},
+           {{-0x1.cb3ef4p-4F, 0x1.805ed8p-3F, -0x1.0fca16p-3F},
+            {-0x1.06997cp-3F, 0x1.80891p-3F, -0x1.003c2cp-3F},
+            {-0x1.eba80ap-4F, 0x1.777d12p-3F, -0x1.47f3eap-3F}},
+           {{0x1.5e434ap-3F, 0x1.09080cp-3F, 0x1.4f4d3cp-3F},
+            {0x1.2836dap-3F, 0x1.186ed2p-3F, 0x1.0e93cep-3F},
+            {0x1.513b3ep-3F, 0x1.4a0088p-3F, 0x1.103b3p-3F}},
+           {{-0x1.5130bp-3F, -0x1.5f163cp-3F, -0x1.57a55p-4F},
+            {-0x1.46b43ap-3F, -0x1.15906ap-3F, -0x1.3e6892p-4F},
+            {-0x1.3f8d6p-3F, -0x1.4aeb7ap-3F, -0x1.187606p-4F}},
+           {{-0x1.648d34p-3F, 0x1.2cd03p-5F, -0x1.80f58p-11F},
+            {-0x1.6691cap-3F, 0x1.aa1fbcp-5F, -0x1.1ebefcp-6F},
+            {-0x1.83ebaep-3F, 0x1.55fbb2p-5F, -0x1.a7bde6p-7F}},
+           {{-0x1.a524dcp-7F, -0x1.0284cp-3F, 0x1.3c44cp-4F},
+            {0x1.69f36cp-6F, -0x1.078ddcp-3F, 0x1.1a8ad6p-4F},
+            {0x1.fbe2bp-9F, -0x1.44a348p-3F, 0x1.130b3cp-4F}},
+           {{0x1.638cbp-3F, -0x1.edae16p-5F, -0x1.4f8888p-4F},
+            {0x1.51b2fcp-3F, -0x1.3b110cp-4F, -0x1.2cca7p-4F},
+            {0x1.216524p-3F, -0x1.ae3d5cp-5F, -0x1.79428ep-4F}},
+           {{-0x1.7cff2ep-5F, 0x1.996ep-4F, 0x1.39c238p-3F},
+            {-0x1.392d56p-4F, 0x1.512726p-4F, 0x1.4644fap-3F},
+            {-0x1.67026cp-5F, 0x1.9cdab4p-4F, 0x1.293d88p-3F}},
+           {{0x1.9526ecp-3F, 0x1.e6837p-8F, 0x1.e4a7ccp-5F},
+            {0x1.bad85ap-3F, 0x1.ef762ep-6F, 0x1.faa0b6p-5F},
+            {0x1.947bb8p-3F, 0x1.d1599cp-6F, 0x1.064bbp-4F}},
+       }) {
+    mesh.add(triangle);
+  }
+  const Vector3<TypeParam> start = {0x1.9f2b66p-1F, 0x1.63d34ep-4F, -0x1.dea05ap-2F};
+  const Vector3<TypeParam> end = {-0x1.faa466p-3F, -0x1.acff5ap-6F, 0x1.d1ce4ap-2F};
+  const GridOptions options{.resolution = {40, 40, 40}, .crowded = 0};
+  this->expect_found(mesh, options, std::vector<Segment<TypeParam>>{{start, end}, {end, start}});
+  EXPECT_EQ(this->hits_, 2U);
 }
 
 /// Through corners of cells by leaps of every length: see GridTraversalTest.NeverTurnsBack.
