@@ -122,7 +122,6 @@ TEST(BatchRounding, of_hits_between_two_floats_is_that_of_intersect) {
   EXPECT_LT(statistics.exact_roundings, statistics.paths / 2);
 }
 
-/// A hit at t = 0, u = 0 or v = 0, and one that rounds to it, is +0.
 /// All paths meet a triangle that they ignore: that it was shown to them makes it no hit.
 TEST(BatchRounding, of_ignored_triangles_gives_no_hits) {
   GeneratedMesh<float> mesh;
@@ -141,6 +140,7 @@ TEST(BatchRounding, of_ignored_triangles_gives_no_hits) {
   }
 }
 
+/// A hit at t = 0, u = 0 or v = 0, and one that rounds to it, is +0.
 TEST(BatchRounding, gives_zeros_their_sign) {
   constexpr float least = std::numeric_limits<float>::denorm_min();
   GeneratedMesh<float> mesh;
