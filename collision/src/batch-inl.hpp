@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <span>
 #include <utility>
 
@@ -362,8 +363,10 @@ class BatchRounding {
     id_[count_] = first.id(query_);
     const float* const path = paths_.numbers(index);
     for (std::size_t k = 0; k < path_size; ++k) coordinates_[k][count_] = path[k];
-    const auto& [corners, stride] = first.listed();
-    for (std::size_t k = 0; k < 9; ++k) coordinates_[path_size + k][count_] = corners[k * stride];
+    std::array<float, 9> corners;
+    static_assert(sizeof(Triangle<float>) == sizeof corners);
+    std::memcpy(corners.data(), static_cast<const void*>(&first.triangle()), sizeof corners);
+    for (std::size_t k = 0; k < corners.size(); ++k) coordinates_[path_size + k][count_] = corners[k];
     if (++count_ == hn::Lanes(DoubleTag())) flush();
   }
 

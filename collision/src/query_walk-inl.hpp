@@ -39,15 +39,6 @@ bool counts_every_hit(const Query<Scalar>& query) {
          options.ignored_triangle == no_triangle && options.culling == Culling::none;
 }
 
-/// A triangle where it is listed.
-template <typename Scalar>
-struct ListedTriangle {
-  const Scalar* corners = nullptr;  ///< coordinate k is at corners[k stride]
-  std::size_t stride = 0;
-
-  [[nodiscard]] operator Triangle<Scalar>() const { return MeshBlocks<Scalar>::triangle(corners, stride, 0); }
-};
-
 /// Triangles of a list that the kernel does not say the path misses. `AnyPath` is what a Path is made of.
 template <typename Scalar, typename AnyPath>
 struct Meeting {
@@ -60,10 +51,9 @@ struct Meeting {
   const FirstLanes<Scalar>& first;  ///< of the certain ones, where the visitor asks for it
 
   [[nodiscard]] std::size_t entry(std::size_t lane) const { return list.first_entry + from + lane; }
-  [[nodiscard]] ListedTriangle<Scalar> listed(std::size_t lane) const {
-    return {list.corners + from + lane, list.count};
+  [[nodiscard]] Triangle<Scalar> triangle(std::size_t lane) const {
+    return MeshBlocks<Scalar>::triangle(list.corners, list.count, from + lane);
   }
-  [[nodiscard]] Triangle<Scalar> triangle(std::size_t lane) const { return listed(lane); }
   /// Returns whether the path is shorter now.
   template <typename Visitor>
   HWY_NOINLINE bool show(std::uint64_t shown, Visitor& visitor) const {
@@ -117,7 +107,7 @@ class FirstHit {
       if (is_nearer) {
         state_ = State::located;
         entry_ = meeting.entry(lane);
-        listed_ = meeting.listed(lane);
+        best_.triangle = meeting.triangle(lane);
         t_lower_ = first.t_lower;
         t_upper_ = first.t_upper;
         hwy::Prefetch(meeting.query.grid.entries().data() + entry_);  // wanted when the path ends
@@ -157,13 +147,13 @@ class FirstHit {
     }
     const bool comes_first = first.t_upper < t_lower_;
     if (!comes_first) {
-      if (!is_found() || !share_axis_plane(triangle, this->triangle())) return false;
+      if (!is_found() || !share_axis_plane(triangle, best_.triangle)) return false;
       if (meeting.query.grid.entries()[meeting.entry(lane)] >= id(meeting.query)) return true;
     }
     is_nearer = comes_first;
     state_ = State::located;
     entry_ = meeting.entry(lane);
-    listed_ = meeting.listed(lane);
+    best_.triangle = triangle;
     t_lower_ = first.t_lower;
     t_upper_ = first.t_upper;
     return true;
@@ -181,11 +171,7 @@ class FirstHit {
   [[nodiscard]] std::uint32_t id(const Query<Scalar>& query) const {
     return state_ == State::weighed ? best_.id : query.grid.entries()[entry_];
   }
-  [[nodiscard]] Triangle<Scalar> triangle() const {
-    return state_ == State::weighed ? best_.triangle : Triangle<Scalar>(listed_);
-  }
-  /// Of one that only the kernel has judged.
-  [[nodiscard]] const ListedTriangle<Scalar>& listed() const { return listed_; }
+  [[nodiscard]] const Triangle<Scalar>& triangle() const { return best_.triangle; }
   [[nodiscard]] Hit<Scalar> hit(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase) {
     return narrowphase.hit(best(query, narrowphase));
   }
@@ -202,9 +188,7 @@ class FirstHit {
     return is_found() && query.grid.entries()[entry] == id(query);
   }
   const Candidate<Scalar>& best(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase) {
-    if (state_ == State::located) {
-      best_.triangle = listed_;
-      static_cast<void>(narrowphase.find_contact(best_.triangle, best_.contact));
+    if (state_ == State::located && narrowphase.find_contact(best_.triangle, best_.contact)) {
       best_.id = query.grid.entries()[entry_];
       state_ = State::weighed;
     }
@@ -213,11 +197,10 @@ class FirstHit {
 
   State state_ = State::none;
   bool trusts_kernel_;
-  std::size_t entry_ = 0;                                     ///< of a located one,
-  ListedTriangle<Scalar> listed_;                             ///< and where it is listed
+  std::size_t entry_ = 0;                                     ///< of a located one
   Scalar t_lower_ = std::numeric_limits<Scalar>::infinity();  ///< the best one's t is in [t_lower_, t_upper_]
   Scalar t_upper_ = std::numeric_limits<Scalar>::infinity();  //
-  /// Of a weighed one.
+  /// Of a located one the triangle alone.
   Candidate<Scalar> best_ = {
       no_triangle, {Vector3<Scalar>::Zero(), Vector3<Scalar>::Zero(), Vector3<Scalar>::Zero()}, {}};
 };

@@ -185,6 +185,30 @@ TYPED_TEST(FirstHitOrder, of_a_floor_that_was_weighed_and_one_that_was_not) {
   }
 }
 
+/// A floor is met in the first cell, and in the next one, where the path hits it, another of a lower id as well, whose
+/// u and v are others. More paths than a batch has at once.
+TYPED_TEST(FirstHitOrder, of_a_floor_and_one_of_a_lower_id_in_the_next_cell) {
+  const TypeParam near = TypeParam{0.05F};
+  GeneratedMesh<TypeParam> mesh;
+  mesh.add({{near, -1, 0}, {3, -1, 0}, {near, 3, 0}});
+  mesh.add({{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}});
+  for (const TypeParam x : {TypeParam{-3}, TypeParam{3}}) mesh.add({{x, 0, 0}, {x, 0, 0}, {x, 0, 0}});
+  const std::vector<Segment<TypeParam>> segments(100, {{-1, 0, 1}, {1.5F, 0, -1}});
+  const auto expected = brute_force_hits<TypeParam>(mesh.view(), segments.front());
+  ASSERT_EQ(expected.size(), 2U);
+  ASSERT_EQ(expected.front().triangle, 0U);
+  const Collider<TypeParam> collider(mesh.view(), BuildOptions{{.resolution = {2, 1, 1}, .crowded = 0}, {}});
+  for (const std::int64_t target : instruction_sets()) {
+    const ForcedInstructionSet forced(target);
+    SCOPED_TRACE(name_of_instruction_set(target));
+    const Hit<TypeParam> single = collider.first_hit(segments.front()).value_or(Hit<TypeParam>{});
+    EXPECT_TRUE(same_bits(single, expected.front())) << hex_text(single);
+    std::vector<Hit<TypeParam>> hits(segments.size());
+    collider.first_hits(std::span<const Segment<TypeParam>>(segments), std::span<Hit<TypeParam>>(hits));
+    for (const Hit<TypeParam>& hit : hits) EXPECT_TRUE(same_bits(hit, expected.front())) << hex_text(hit);
+  }
+}
+
 /// Planes square to an axis, one ulp or none apart, in any order of their ids: more than become jobs at once.
 TYPED_TEST(FirstHitOrder, of_long_stacks_an_ulp_apart) {
   Random random(82);
