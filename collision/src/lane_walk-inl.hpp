@@ -39,13 +39,13 @@ constexpr std::size_t most_lanes = hn::MaxLanes(FloatTag());
 
 /// Toward zero, of numbers that an integer holds: for any other one Highway's conversion spends four operations on x86.
 HWY_INLINE Ints to_ints(Floats x) {
-#if HWY_HAVE_SCALABLE || HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR
-  return hn::ConvertTo(IntTag(), x);
-#else
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
   using FloatLanes = float __attribute__((vector_size(sizeof(x.raw))));
   using IntLanes = std::int32_t __attribute__((vector_size(sizeof(x.raw))));
   const auto lanes = __builtin_convertvector(reinterpret_cast<FloatLanes>(x.raw), IntLanes);
   return Ints{reinterpret_cast<decltype(Ints::raw)>(lanes)};
+#else
+  return hn::ConvertTo(IntTag(), x);
 #endif
 }
 
@@ -209,6 +209,7 @@ class LaneWalk {
     const auto inside = hn::And(hn::And(is_plain, taken), hn::Le(enters, leaves));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Floats last = hn::Set(d, stop_[axis] * (1 - 0x1p-24F));
+      // In the grid for every lane: x86 takes the second operand, zero, where a path that is not placed makes it NaN.
       const Floats entered = hn::Min(hn::Max(hn::MulAdd(enters, by[axis], from[axis]), zero), last);
       hn::Store(entered, d, placed.start[axis].data());
       hn::Store(hn::Floor(entered), d, placed.finest[axis].data());

@@ -72,9 +72,9 @@ struct GridFrame {
   [[nodiscard]] float padding(std::size_t axis) const noexcept {
     return padding_share * static_cast<float>(resolution(axis));
   }
-  /// From one top cell to the next on an axis as a path sees them that falls on some axes, which are all ones,
+  // As a path sees the top cells that falls on the axes whose lanes are all ones: the index of one is the sum over the
+  // axes of first_top_of and of its place times pitch_of.
   [[nodiscard]] detail::Int4 pitch_of(detail::Int4 falls) const noexcept { return (top_pitch ^ falls) - falls; }
-  /// and its first top cell: the index is the sum over the axes.
   [[nodiscard]] detail::Int4 first_top_of(detail::Int4 falls) const noexcept { return last_top & falls; }
   /// X of a scaled coordinate. Three roundings of doubles.
   [[nodiscard]] double place(std::size_t axis, double scaled_coordinate) const noexcept;
