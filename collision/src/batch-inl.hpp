@@ -371,13 +371,10 @@ class BatchRounding {
       return;
     }
     index_[count_] = index;
-    id_[count_] = first.id(query_);
-    const float* const path = paths_.numbers(index);
-    for (std::size_t k = 0; k < path_size; ++k) coordinates_[k][count_] = path[k];
-    std::array<float, 9> corners;
-    static_assert(sizeof(Triangle<float>) == sizeof corners);
-    std::memcpy(corners.data(), static_cast<const void*>(&first.triangle()), sizeof corners);
-    for (std::size_t k = 0; k < corners.size(); ++k) coordinates_[path_size + k][count_] = corners[k];
+    entry_[count_] = first.entry();
+    static_assert(sizeof(Triangle<float>) == 9 * sizeof(float) && PathSpan<float>::numbers_each == 6);
+    copy(0, paths_.numbers(index), 2);
+    copy(2, &first.triangle(), 3);
     if (++count_ == hn::Lanes(DoubleTag())) flush();
   }
 
@@ -385,16 +382,17 @@ class BatchRounding {
     if (count_ == 0) return;
     const DoubleTag d;
     const FloatTag df;
-    const auto vectors = [&](std::size_t first) -> Vectors<DoubleTag> {
-      const auto load = [&](std::size_t k) { return hn::PromoteTo(d, hn::Load(df, coordinates_[k].data())); };
-      return {load(first), load(first + 1), load(first + 2)};
+    const auto vectors = [&](std::size_t which) -> Vectors<DoubleTag> {
+      hn::Vec<FloatTag> x, y, z, none;
+      hn::LoadInterleaved4(df, vectors_[which][0].data(), x, y, z, none);
+      return {hn::PromoteTo(d, x), hn::PromoteTo(d, y), hn::PromoteTo(d, z)};
     };
     const Vectors<DoubleTag> start = vectors(0);
-    Vectors<DoubleTag> direction = vectors(3);
+    Vectors<DoubleTag> direction = vectors(1);
     if (paths_.have_ends()) {
       direction = {hn::Sub(direction.x, start.x), hn::Sub(direction.y, start.y), hn::Sub(direction.z, start.z)};
     }
-    const RoundedHits<DoubleTag> rounded(d, start, direction, vectors(6), vectors(9), vectors(12));
+    const RoundedHits<DoubleTag> rounded(d, start, direction, vectors(2), vectors(3), vectors(4));
     std::array<float, most> t;
     std::array<float, most> u;
     std::array<float, most> v;
@@ -403,7 +401,8 @@ class BatchRounding {
     hn::StoreU(rounded.v, df, v.data());
     for (std::size_t i = 0; i < count_; ++i) {
       if ((rounded.rounded >> i & 1) != 0) {
-        hits_[index_[i]] = {t[i], u[i], v[i], id_[i], (rounded.front >> i & 1) != 0 ? Side::front : Side::back};
+        hits_[index_[i]] = {t[i], u[i], v[i], query_.grid.entries()[entry_[i]],
+                            (rounded.front >> i & 1) != 0 ? Side::front : Side::back};
       } else {
         round_alone(i);
       }
@@ -417,10 +416,18 @@ class BatchRounding {
   /// As many as the widest instruction set of today has doubles.
   static constexpr std::size_t most = 8;
 
+  HWY_INLINE void copy(std::size_t which, const void* vectors, std::size_t count) {
+    constexpr std::size_t size = 3 * sizeof(float);
+    for (std::size_t k = 0; k < count; ++k) {
+      std::memcpy(vectors_[which + k][count_].data(), static_cast<const char*>(vectors) + k * size, size);
+    }
+  }
+
   HWY_NOINLINE void round_alone(std::size_t i) {
     const Path<float> path = paths_[index_[i]];
     const Narrowphase<float> narrowphase(path, query_.options, range_, query_.statistics);
-    Candidate<float> candidate{id_[i], query_.mesh.triangle(id_[i]), {}};
+    const std::uint32_t id = query_.grid.entries()[entry_[i]];
+    Candidate<float> candidate{id, query_.mesh.triangle(id), {}};
     if (narrowphase.find_contact(candidate.triangle, candidate.contact)) hits_[index_[i]] = narrowphase.hit(candidate);
   }
 
@@ -429,11 +436,10 @@ class BatchRounding {
   PathSpan<float> paths_;
   std::span<Hit<float>> hits_;
   std::size_t count_ = 0;
-  static constexpr std::size_t path_size = PathSpan<float>::numbers_each;
-  /// Of the path's start and end or direction, and of the triangle's corners. Beyond the last hit anything finite.
-  alignas(most * sizeof(float)) std::array<std::array<float, most>, path_size + 9> coordinates_ = {};
+  /// The path's start and its end or direction, and the triangle's corners. Beyond the last hit anything finite.
+  alignas(most * sizeof(float)) std::array<std::array<std::array<float, 4>, most>, 5> vectors_ = {};
   std::array<std::size_t, most> index_;
-  std::array<std::uint32_t, most> id_;
+  std::array<std::size_t, most> entry_;  ///< the one where the id stands, which is on its way into the cache
 };
 
 /// Answers all paths: side by side where there are lanes and the grid's frame is one of floats, else one by one.

@@ -172,6 +172,7 @@ class FirstHit {
     return state_ == State::weighed ? best_.id : query.grid.entries()[entry_];
   }
   [[nodiscard]] const Triangle<Scalar>& triangle() const { return best_.triangle; }
+  [[nodiscard]] std::size_t entry() const { return entry_; }
   [[nodiscard]] Hit<Scalar> hit(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase) {
     return narrowphase.hit(best(query, narrowphase));
   }
