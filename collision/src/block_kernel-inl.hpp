@@ -152,8 +152,19 @@ class BlockKernel : BlockDeterminants<Scalar> {
     return first_of(all(bounds.det), all(bounds.height), crossing, certain, limit);
   }
 
-  /// Weighs the triangles of a list that the path may meet once more, each with its own sizes: the list's longest edge
-  /// may be that of one large triangle among small ones. Apart, for few lists ask for it.
+  /// The same of a hit that alone is certain, whose crossing this is: it waits for no other lane.
+  [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> lone_first(const Bounds& bounds, Scalar height, Scalar det,
+                                                                std::uint64_t certain) {
+    using One = hn::CappedTag<Scalar, 1>;
+    const auto one = [](Scalar x) { return hn::Set(One(), x); };
+    const Interval<One> t = interval_of_t(One(), one(bounds.det), one(bounds.height), one(det), one(height));
+    return {certain, hn::GetLane(t.lower), hn::GetLane(t.upper)};
+  }
+
+  /// Weighs the triangles of a list that the path may meet once more, each by its own products: the list's longest edge
+  /// may be that of one large triangle among small ones, and of six products most are small where an edge or the path
+  /// runs along an axis. (A half of what the list's bounds leave open goes without the narrowphase then.) Apart, for
+  /// few lists ask for it.
   HWY_NOINLINE static void weigh_each(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list,
                                       std::size_t from, const RangeWeights<Scalar>& range, Scalar limit, Lanes& lanes,
                                       FirstLanes<Scalar>& first) {
@@ -192,6 +203,11 @@ class BlockKernel : BlockDeterminants<Scalar> {
     return {possible_bits, range.decides ? possible_bits & bits_of(d_, hn::Or(all_positive, all_negative)) : 0};
   }
 
+  template <class D>
+  struct Interval {
+    hn::Vec<D> lower, upper;
+  };
+
   /// t is within (r_height + |t| r_det) / (|det| - r_det) of the quotient of what is computed, where r_height and r_det
   /// are the determinants' bounds. The det of a certain hit is the sum of U, V and W, each beyond r_det and of its
   /// sign: |det| - r_det is at least 2 / 3 |det| but for roundings, so that its inverse, a second division, is not
@@ -199,19 +215,28 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// det and height may be, make 3 u |t| each: room for the two roundings of the quotient, and four more. 2^-17 is far
   /// more than the radius needs for its own. A certain det is no denormal, so that its inverse is finite. Where t or
   /// the radius overflows, nothing is known.
+  template <class D>
+  [[nodiscard]] HWY_INLINE static Interval<D> interval_of_t(D d, hn::Vec<D> det_bound, hn::Vec<D> height_bound,
+                                                            hn::Vec<D> det, hn::Vec<D> height) {
+    const auto infinity = hn::Set(d, std::numeric_limits<Scalar>::infinity());
+    const auto inverse = hn::Div(hn::Set(d, 1), det);
+    const auto t = hn::Mul(height, inverse);
+    const auto radius = hn::Mul(hn::MulAdd(hn::Abs(t), det_bound, height_bound), hn::Abs(inverse));
+    const auto bound =
+        hn::MulAdd(radius, hn::Set(d, Scalar(1.5) + Scalar(0x1p-17)), hn::Set(d, std::numeric_limits<Scalar>::min()));
+    const auto known = hn::And(hn::Ge(bound, hn::Zero(d)), hn::Lt(bound, infinity));
+    return {hn::IfThenElse(known, hn::Sub(t, bound), hn::Neg(infinity)),
+            hn::IfThenElse(known, hn::Add(t, bound), infinity)};
+  }
+
   [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(V det_bound, V height_bound, const Crossing& crossing,
                                                               std::uint64_t certain, Scalar limit) {
     const Tag d;
     const V infinity = all(std::numeric_limits<Scalar>::infinity());
-    const V inverse = hn::Div(all(1), crossing.det);
-    const V t = hn::Mul(crossing.height, inverse);
-    const V radius = hn::Mul(hn::MulAdd(hn::Abs(t), det_bound, height_bound), hn::Abs(inverse));
-    const V bound = hn::MulAdd(radius, all(Scalar(1.5) + Scalar(0x1p-17)), all(std::numeric_limits<Scalar>::min()));
+    const Interval<Tag> t = interval_of_t(d, det_bound, height_bound, crossing.det, crossing.height);
     const auto taken = mask_of(d, certain);
-    const auto known = hn::And(hn::Ge(bound, hn::Zero(d)), hn::Lt(bound, infinity));
-    const V lower = hn::IfThenElse(taken, hn::IfThenElse(known, hn::Sub(t, bound), hn::Neg(infinity)), infinity);
-    const V upper = hn::IfThenElse(hn::And(taken, known), hn::Add(t, bound), infinity);
-    const Scalar t_upper = hn::GetLane(hn::MinOfLanes(d, upper));
+    const V lower = hn::IfThenElse(taken, t.lower, infinity);
+    const Scalar t_upper = hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(taken, t.upper, infinity)));
     const auto lanes = hn::And(taken, hn::Le(lower, all(std::min(t_upper, limit))));
     return {bits_of(d, lanes), hn::GetLane(hn::MinOfLanes(d, lower)), t_upper};
   }

@@ -71,6 +71,12 @@ class Unfiltered : BlockDeterminants<float> {
     return {bits_of(d, hn::And(taken, hn::Eq(t, all(least)))), least, least};
   }
 
+  [[nodiscard]] HWY_INLINE static FirstLanes<float> lone_first(const Bounds& /*bounds*/, float height, float det,
+                                                               std::uint64_t hits) {
+    const float t = height / det;
+    return {hits, t, t};
+  }
+
   /// Nothing is left open.
   template <typename... Any>
   HWY_INLINE static void weigh_each(const Any&...) {}
@@ -90,6 +96,10 @@ class WithoutExactStage : public BlockKernel<float> {
   [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of(const Bounds& /*bounds*/, const Crossing& crossing,
                                                              std::uint64_t hits, float limit) {
     return Unfiltered::first_of({}, {crossing.height, crossing.det}, hits, limit);
+  }
+  [[nodiscard]] HWY_INLINE static FirstLanes<float> lone_first(const Bounds& /*bounds*/, float height, float det,
+                                                               std::uint64_t hits) {
+    return Unfiltered::lone_first({}, height, det, hits);
   }
   template <typename... Any>
   HWY_INLINE static void weigh_each(const Any&...) {}
