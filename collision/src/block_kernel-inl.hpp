@@ -46,9 +46,12 @@ struct FirstLanes {
   Scalar t_upper;  //
 };
 
+/// What each determinant is a sum of: six products, or the sizes of these, which bound what it is off by.
+enum class Products : std::uint8_t { as_they_are, by_size };
+
 /// Möller and Trumbore's determinants (1997) in working precision: one path against the triangles of a list from `from`
 /// on, as many as a vector has lanes.
-template <typename Scalar>
+template <typename Scalar, Products products = Products::as_they_are>
 class BlockDeterminants {
  protected:
   using Tag = hn::ScalableTag<Scalar>;
@@ -56,20 +59,30 @@ class BlockDeterminants {
 
   HWY_INLINE BlockDeterminants(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list, std::size_t from)
       : left_(list.count - from) {
+    constexpr bool by_size = products == Products::by_size;
     const auto load = [&](std::size_t coordinate) {
       return hn::LoadU(d_, list.corners + (coordinate * list.count + from));
     };
+    const auto factor = [&](V x) {
+      if constexpr (by_size) return hn::Abs(x);
+      return x;
+    };
+    const auto difference = [&](V x, V y) { return factor(hn::Sub(x, y)); };
     const auto dot = [&](V x0, V y0, V x1, V y1, V x2, V y2) {
       return hn::MulAdd(x0, y0, hn::MulAdd(x1, y1, hn::Mul(x2, y2)));
     };
-    const auto cross = [&](V x1, V y2, V x2, V y1) { return hn::MulSub(x1, y2, hn::Mul(x2, y1)); };
-    const V d0 = all(path.d[0]), d1 = all(path.d[1]), d2 = all(path.d[2]);
+    const auto cross = [&](V x1, V y2, V x2, V y1) {
+      const V second = hn::Mul(x2, y1);
+      if constexpr (by_size) return hn::MulAdd(x1, y2, second);
+      return hn::MulSub(x1, y2, second);
+    };
+    const V d0 = factor(all(path.d[0])), d1 = factor(all(path.d[1])), d2 = factor(all(path.d[2]));
     const V a0 = load(0), a1 = load(1), a2 = load(2);
-    const V e0 = hn::Sub(load(3), a0), e1 = hn::Sub(load(4), a1), e2 = hn::Sub(load(5), a2);
-    const V f0 = hn::Sub(load(6), a0), f1 = hn::Sub(load(7), a1), f2 = hn::Sub(load(8), a2);
-    const V s0 = hn::Sub(all(path.start[0]), a0);
-    const V s1 = hn::Sub(all(path.start[1]), a1);
-    const V s2 = hn::Sub(all(path.start[2]), a2);
+    const V e0 = difference(load(3), a0), e1 = difference(load(4), a1), e2 = difference(load(5), a2);
+    const V f0 = difference(load(6), a0), f1 = difference(load(7), a1), f2 = difference(load(8), a2);
+    const V s0 = difference(all(path.start[0]), a0);
+    const V s1 = difference(all(path.start[1]), a1);
+    const V s2 = difference(all(path.start[2]), a2);
     const V p0 = cross(d1, f2, d2, f1), p1 = cross(d2, f0, d0, f2), p2 = cross(d0, f1, d1, f0);
     const V q0 = cross(s1, e2, s2, e1), q1 = cross(s2, e0, s0, e2), q2 = cross(s0, e1, s1, e0);
     det_ = dot(e0, p0, e1, p1, e2, p2);
@@ -78,30 +91,34 @@ class BlockDeterminants {
     v_ = dot(d0, q0, d1, q1, d2, q2);
   }
 
-  /// Of each triangle the largest components of its edges and of S.
-  struct Sizes {
-    V edge, s;
-  };
-  HWY_INLINE static Sizes sizes(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list, std::size_t from) {
-    const auto load = [&](std::size_t coordinate) {
-      return hn::LoadU(Tag(), list.corners + (coordinate * list.count + from));
-    };
-    Sizes sizes{hn::Zero(Tag()), hn::Zero(Tag())};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const V a = load(axis);
-      for (const std::size_t corner : {1U, 2U}) {
-        sizes.edge = hn::Max(sizes.edge, hn::Abs(hn::Sub(load(3 * corner + axis), a)));
-      }
-      sizes.s = hn::Max(sizes.s, hn::Abs(hn::Sub(all(path.start[axis]), a)));
-    }
-    return sizes;
-  }
-
   HWY_INLINE static V all(Scalar x) { return hn::Set(Tag(), x); }
 
   [[no_unique_address]] Tag d_;
   std::size_t left_;  ///< triangles, and more lanes than these count for nothing
   V det_, height_, u_, v_;
+};
+
+/// `ListBounds` for each triangle alone.
+template <typename Scalar>
+class BlockBounds : BlockDeterminants<Scalar, Products::by_size> {
+  using Base = BlockDeterminants<Scalar, Products::by_size>;
+  using Base::all;
+  using typename Base::V;
+
+ public:
+  HWY_INLINE BlockBounds(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list, std::size_t from,
+                         const RangeWeights<Scalar>& weights)
+      : Base(path, list, from) {
+    using Bound = KernelBound<Scalar>;
+    const V share = all(Bound::relative / 6);  // each product of sizes stands for six products
+    const V underflow = all(Bound::underflow);
+    side = hn::MulAdd(hn::Add(hn::Add(this->u_, this->v_), this->det_), share, underflow);
+    det = hn::MulAdd(this->det_, share, underflow);
+    height = hn::MulAdd(this->height_, share, det);
+    range = hn::MulAdd(this->height_, all(weights.t_bound / 6), hn::Mul(det, all(weights.det_size)));
+  }
+
+  V side, range, det, height;
 };
 
 /// The determinants as their own filter: the bound stands in kernel_bound.hpp. Verdicts are certain, fused or not; what
@@ -168,21 +185,14 @@ class BlockKernel : BlockDeterminants<Scalar> {
   HWY_NOINLINE static void weigh_each(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list,
                                       std::size_t from, const RangeWeights<Scalar>& range, Scalar limit, Lanes& lanes,
                                       FirstLanes<Scalar>& first) {
-    using Bound = KernelBound<Scalar>;
-    if (!(list.edge_size < std::numeric_limits<Scalar>::infinity())) return;
+    constexpr Scalar too_large = std::numeric_limits<Scalar>::infinity();
+    if (!(list.edge_size < too_large && path.d_size < too_large)) return;
     const BlockKernel kernel(path, list, from);
-    // The bounds of `ListBounds`, lane by lane.
-    const auto [edge, s] = Base::sizes(path, list, from);
-    const V d_edge = hn::Mul(hn::Mul(all(path.d_size), edge), all(Bound::relative));
-    const V s_edges = hn::Mul(s, hn::Mul(edge, edge));
-    const V side_bound = hn::MulAdd(d_edge, hn::Add(hn::Add(s, s), edge), all(Bound::underflow));
-    const V det_bound = hn::MulAdd(d_edge, edge, all(Bound::underflow));
-    const V height_bound = hn::MulAdd(s_edges, all(Bound::relative), det_bound);
-    const V range_bound = hn::MulAdd(s_edges, all(range.t_bound), hn::Mul(det_bound, all(range.det_size)));
-    const Lanes each = kernel.classify(range, side_bound, range_bound);
+    const BlockBounds<Scalar> bounds(path, list, from, range);
+    const Lanes each = kernel.classify(range, bounds.side, bounds.range);
     lanes.possible &= each.possible;
     lanes.certain = lanes.possible & (lanes.certain | each.certain);
-    first = first_of(det_bound, height_bound, kernel.crossing(), lanes.certain, limit);
+    first = first_of(bounds.det, bounds.height, kernel.crossing(), lanes.certain, limit);
   }
 
  private:

@@ -23,12 +23,15 @@ namespace surehit::detail {
 // so that 60 u of each product of sizes bounds them all. The bound is itself computed with at most 8 roundings in any
 // of its terms, and holds sizes that are off by u each: 66 leaves a tenth for that, where 11 u would do.
 //
+// Of one triangle the sum of the sizes of the six products, as computed, bounds them closer than 6 d e f does, and the
+// size of det with them: 11 u of it stands for 66 u d e f. It is computed with at most 8 roundings in any of its terms.
+//
 // Underflow: a product may lose half the least denormal, eta / 2. In det: eta in each component of the cross product,
 // times e, three times over, and 3 eta / 2 in the dot product; likewise in T, U and V with f, s and d; in first det:
 // |first| times that and eta / 2. With the largest size l, all of W or of what the range asks is below 12 eta (1 + l)
-// (1 + |first|). The bound itself multiplies eta / 2 by 3 l or less, and by 1 + |first|, twice at most. Sizes are up to
-// `largest_size`, L, so that 32 eta L (1 + |first|) holds both; it counts only where a mesh's sizes are below some
-// 2^-30, or 2^-240 in double.
+// (1 + |first|). The bound itself multiplies eta / 2 by 3 l or less, and by 1 + |first|, twice at most; of what a sum
+// of six products loses, 11 u count. Sizes are up to `largest_size`, L, so that 32 eta L (1 + |first|) holds both; it
+// counts only where a mesh's sizes are below some 2^-30, or 2^-240 in double.
 //
 // Overflow: with every size up to `largest_size`, the largest number formed is under 6 · 2 · largest_size^3 ·
 // largest_limit.
