@@ -303,12 +303,12 @@ class Batch {
       for (std::size_t i = 0; i < open; ++i) {
         const auto& [height, det] = crossings_[i];
         auto& [slot, from, lanes, first] = open_[i];
-        const float limit = visitors_[slot].t_upper();
         if (lanes.certain == lanes.possible && std::has_single_bit(lanes.certain)) [[likely]] {
           const auto lane = static_cast<std::size_t>(std::countr_zero(lanes.certain));
           first = Kernel::lone_first(bounds_[slot], height[lane], det[lane], lanes.certain);
           continue;
         }
+        const float limit = visitors_[slot].t_upper();
         first = Kernel::first_of(bounds_[slot], {hn::Load(d, height.data()), hn::Load(d, det.data())}, lanes.certain,
                                  limit);
         const bool is_clear = lanes.certain == lanes.possible && (first.lanes & (first.lanes - 1)) == 0;

@@ -169,7 +169,8 @@ class BlockKernel : BlockDeterminants<Scalar> {
     return first_of(all(bounds.det), all(bounds.height), crossing, certain, limit);
   }
 
-  /// The same of a hit that alone is certain, whose crossing this is: it waits for no other lane.
+  /// The same of a hit that alone is certain, whose crossing this is: it waits for no other lane. It is named whatever
+  /// the limit is, for `t_lower` tells as well whether it lies beyond.
   [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> lone_first(const Bounds& bounds, Scalar height, Scalar det,
                                                                 std::uint64_t certain) {
     using One = hn::CappedTag<Scalar, 1>;
@@ -221,10 +222,10 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// t is within (r_height + |t| r_det) / (|det| - r_det) of the quotient of what is computed, where r_height and r_det
   /// are the determinants' bounds. The det of a certain hit is the sum of U, V and W, each beyond r_det and of its
   /// sign: |det| - r_det is at least 2 / 3 |det| but for roundings, so that its inverse, a second division, is not
-  /// needed. Of their 66 u, 48 u hold what either may be off. The other 18 u of 6 d e f or of 6 f s e, the most that
-  /// det and height may be, make 3 u |t| each: room for the two roundings of the quotient, and four more. 2^-17 is far
-  /// more than the radius needs for its own. A certain det is no denormal, so that its inverse is finite. Where t or
-  /// the radius overflows, nothing is known.
+  /// needed. Of their 66 u, 48 u hold what either may be off (of a triangle's own products, 8 u of 11 u). The other
+  /// 18 u of d e f or of f s e, 3 u of the most that det or height may be, make 3 u |t| each: room for the two
+  /// roundings of the quotient, and four more. 2^-17 is far more than the radius needs for its own. A certain det is no
+  /// denormal, so that its inverse is finite. Where t or the radius overflows, nothing is known.
   template <class D>
   [[nodiscard]] HWY_INLINE static Interval<D> interval_of_t(D d, hn::Vec<D> det_bound, hn::Vec<D> height_bound,
                                                             hn::Vec<D> det, hn::Vec<D> height) {

@@ -24,7 +24,9 @@ namespace surehit::detail {
 // of its terms, and holds sizes that are off by u each: 66 leaves a tenth for that, where 11 u would do.
 //
 // Of one triangle the sum of the sizes of the six products, as computed, bounds them closer than 6 d e f does, and the
-// size of det with them: 11 u of it stands for 66 u d e f. It is computed with at most 8 roundings in any of its terms.
+// size of det with them: 11 u of it stands for 66 u d e f, where W and the range need 10 u, 8 u and their own 2. A sum
+// is computed with at most 8 roundings in any of its terms, and what is combined of sums with 3 more, which take far
+// less than the tenth that is left.
 //
 // Underflow: a product may lose half the least denormal, eta / 2. In det: eta in each component of the cross product,
 // times e, three times over, and 3 eta / 2 in the dot product; likewise in T, U and V with f, s and d; in first det:

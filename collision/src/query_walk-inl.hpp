@@ -127,7 +127,7 @@ class FirstHit {
     state_ = State::weighed;
     best_ = candidate;
     // To the nearest, u |t| off at most: what the kernel compares with them has 3 u |t| to spare
-    // (`BlockKernel::first_of`).
+    // (`BlockKernel::interval_of_t`).
     t_lower_ = static_cast<Scalar>(best_.contact.t_lower);
     t_upper_ = static_cast<Scalar>(best_.contact.t_upper);
     return true;

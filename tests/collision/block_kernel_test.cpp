@@ -313,7 +313,6 @@ TYPED_TEST(BlockKernel, is_certain_from_its_bounds_on) {
   });
 }
 
-/// A list ends anywhere among the lanes; what lies behind it is none of its triangles.
 /// The same of a triangle's own products.
 TYPED_TEST(BlockKernel, is_certain_from_the_bounds_of_its_products_on) {
   const TypeParam u = std::numeric_limits<TypeParam>::epsilon() / 2;
@@ -349,6 +348,7 @@ TYPED_TEST(BlockKernel, is_certain_from_the_bounds_of_its_products_on) {
   });
 }
 
+/// A list ends anywhere among the lanes; what lies behind it is none of its triangles.
 TYPED_TEST(BlockKernel, tells_nothing_of_lanes_beyond_the_count) {
   std::vector<Triangle<TypeParam>> triangles(64, {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}});
   const KernelList<TypeParam> list(triangles);

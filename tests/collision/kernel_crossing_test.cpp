@@ -68,10 +68,22 @@ class CertainHits {
     const KernelFirst<Scalar> open = list_.first_from(path_, from_, certain, no_limit<Scalar>);
     expect_first(certain, limit, list_.first_from(path_, from_, certain, limit), open);
   }
-  /// The same of what is known once each triangle has been weighed with its own sizes.
+  /// The same of what is known once each triangle has been weighed by its own products.
   void expect_first_of_each(Scalar limit) const {
     const auto [verdicts, first] = list_.each_from(path_, range_, from_, limit);
     expect_first(verdicts.certain, limit, first, list_.each_from(path_, range_, from_, no_limit<Scalar>).first);
+  }
+
+  /// Of each of these alone what is known of it by itself.
+  void expect_lone_firsts() const {
+    for (std::uint64_t left = certain_; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      const KernelFirst<Scalar> lone = list_.lone_first_from(path_, from_, lane);
+      const KernelFirst<Scalar> first = list_.first_from(path_, from_, std::uint64_t{1} << lane, no_limit<Scalar>);
+      EXPECT_EQ(lone.lanes, first.lanes);
+      EXPECT_EQ(lone.t_lower, first.t_lower);
+      EXPECT_EQ(lone.t_upper, first.t_upper);
+    }
   }
 
  private:
@@ -144,6 +156,7 @@ void expect_first_in_list(const Path<Scalar>& path, const std::vector<Triangle<S
       const mpq_class& t = certain_hits.t(static_cast<std::size_t>(std::countr_zero(one)));
       certain_hits.expect_first(certain, rounded_up<Scalar>(t));
       certain_hits.expect_first(certain, random.symmetric<Scalar>());
+      certain_hits.expect_lone_firsts();
       certain_hits.expect_first_of_each(no_limit<Scalar>);
       certain_hits.expect_first_of_each(rounded_up<Scalar>(t));
     }

@@ -42,7 +42,7 @@ class KernelList {
     const std::size_t from = vector_of(i);
     return verdict_of(verdicts_from(path, range, from), i - from);
   }
-  /// Once each triangle has been weighed with its own sizes.
+  /// Once each triangle has been weighed by its own products.
   [[nodiscard]] detail::Verdict verdict_of_its_own(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
                                                    std::size_t i) const {
     const std::size_t from = vector_of(i);
@@ -58,6 +58,12 @@ class KernelList {
                                                Scalar limit) const {
     const detail::RangeWeights<Scalar> weights(detail::PathRange<Scalar>(path, {}));
     return first_of(kernel_path(path), weights, list_, from, certain, limit);
+  }
+
+  [[nodiscard]] KernelFirst<Scalar> lone_first_from(const Path<Scalar>& path, std::size_t from,
+                                                    std::size_t lane) const {
+    const detail::RangeWeights<Scalar> weights(detail::PathRange<Scalar>(path, {}));
+    return lone_first(kernel_path(path), weights, list_, from, lane);
   }
 
   [[nodiscard]] KernelEach<Scalar> each_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,

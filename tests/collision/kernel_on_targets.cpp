@@ -31,6 +31,15 @@ FirstLanes<Scalar> first_lanes_of(const KernelPath<Scalar>& path, const RangeWei
 }
 
 template <typename Scalar>
+FirstLanes<Scalar> lone_first_of(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
+                                 const TriangleList<Scalar>& list, std::size_t from, std::size_t lane) {
+  using Kernel = BlockKernel<Scalar>;
+  const typename Kernel::Crossing crossing = Kernel(path, list, from).crossing();
+  return Kernel::lone_first(Kernel::bounds(path, range, list), hn::ExtractLane(crossing.height, lane),
+                            hn::ExtractLane(crossing.det, lane), std::uint64_t{1} << lane);
+}
+
+template <typename Scalar>
 test::KernelEach<Scalar> each_of(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
                                  const TriangleList<Scalar>& list, std::size_t from, Scalar limit) {
   Lanes lanes = verdicts_of(path, range, list, from);
@@ -51,6 +60,12 @@ test::KernelEach<Scalar> each_of(const KernelPath<Scalar>& path, const RangeWeig
     const auto first = first_lanes_of(path, range, list_of(list), from, certain, limit);                              \
     return {first.lanes, first.t_lower, first.t_upper};                                                               \
   }                                                                                                                   \
+  test::KernelFirst<Scalar> lone_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,          \
+                                          const test::KernelTriangles<Scalar>& list, std::size_t from,                \
+                                          std::size_t lane) {                                                         \
+    const auto first = lone_first_of(path, range, list_of(list), from, lane);                                         \
+    return {first.lanes, first.t_lower, first.t_upper};                                                               \
+  }                                                                                                                   \
   test::KernelEach<Scalar> each_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,           \
                                          const test::KernelTriangles<Scalar>& list, std::size_t from, Scalar limit) { \
     return each_of<Scalar>(path, range, list_of(list), from, limit);                                                  \
@@ -69,6 +84,7 @@ namespace surehit::detail {
 #define SUREHIT_EXPORT(Scalar)                                                                          \
   HWY_EXPORT(verdicts_##Scalar);                                                                        \
   HWY_EXPORT(first_##Scalar);                                                                           \
+  HWY_EXPORT(lone_##Scalar);                                                                            \
   HWY_EXPORT(each_##Scalar);                                                                            \
   HWY_EXPORT(lanes_##Scalar);                                                                           \
   auto chosen_verdicts(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,               \
@@ -79,6 +95,10 @@ namespace surehit::detail {
                     const test::KernelTriangles<Scalar>& list, std::size_t from, std::uint64_t certain, \
                     Scalar limit) {                                                                     \
     return HWY_DYNAMIC_DISPATCH(first_##Scalar)(path, range, list, from, certain, limit);               \
+  }                                                                                                     \
+  auto chosen_lone(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                   \
+                   const test::KernelTriangles<Scalar>& list, std::size_t from, std::size_t lane) {     \
+    return HWY_DYNAMIC_DISPATCH(lone_##Scalar)(path, range, list, from, lane);                          \
   }                                                                                                     \
   auto chosen_each(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                   \
                    const test::KernelTriangles<Scalar>& list, std::size_t from, Scalar limit) {         \
@@ -107,6 +127,12 @@ KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>& path, const detai
 }
 
 template <typename Scalar>
+KernelFirst<Scalar> lone_first(const detail::KernelPath<Scalar>& path, const detail::RangeWeights<Scalar>& range,
+                               const KernelTriangles<Scalar>& list, std::size_t from, std::size_t lane) {
+  return detail::chosen_lone(path, range, list, from, lane);
+}
+
+template <typename Scalar>
 KernelEach<Scalar> weigh_each(const detail::KernelPath<Scalar>& path, const detail::RangeWeights<Scalar>& range,
                               const KernelTriangles<Scalar>& list, std::size_t from, Scalar limit) {
   return detail::chosen_each(path, range, list, from, limit);
@@ -117,13 +143,15 @@ std::size_t kernel_lanes() {
   return detail::chosen_lanes(Scalar{});
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                              \
-  template KernelVerdicts classify(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&,       \
-                                   const KernelTriangles<Scalar>&, std::size_t);                                 \
-  template KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&,  \
-                                        const KernelTriangles<Scalar>&, std::size_t, std::uint64_t, Scalar);     \
-  template KernelEach<Scalar> weigh_each(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&, \
-                                         const KernelTriangles<Scalar>&, std::size_t, Scalar);                   \
+#define SUREHIT_INSTANTIATE(Scalar)                                                                               \
+  template KernelVerdicts classify(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&,        \
+                                   const KernelTriangles<Scalar>&, std::size_t);                                  \
+  template KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&,   \
+                                        const KernelTriangles<Scalar>&, std::size_t, std::uint64_t, Scalar);      \
+  template KernelFirst<Scalar> lone_first(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&, \
+                                          const KernelTriangles<Scalar>&, std::size_t, std::size_t);              \
+  template KernelEach<Scalar> weigh_each(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&,  \
+                                         const KernelTriangles<Scalar>&, std::size_t, Scalar);                    \
   template std::size_t kernel_lanes<Scalar>();
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

@@ -41,7 +41,13 @@ template <typename Scalar>
                                            const KernelTriangles<Scalar>& list, std::size_t from, std::uint64_t certain,
                                            Scalar limit);
 
-/// Both, as `detail::BlockKernel::weigh_each` corrects them there.
+/// `detail::BlockKernel::lone_first` there, of one lane.
+template <typename Scalar>
+[[nodiscard]] KernelFirst<Scalar> lone_first(const detail::KernelPath<Scalar>& path,
+                                             const detail::RangeWeights<Scalar>& range,
+                                             const KernelTriangles<Scalar>& list, std::size_t from, std::size_t lane);
+
+/// What `classify` and `first_of` say, as `detail::BlockKernel::weigh_each` corrects them there.
 template <typename Scalar>
 struct KernelEach {
   KernelVerdicts verdicts;
