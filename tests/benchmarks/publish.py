@@ -82,9 +82,15 @@ def name_of_instruction_set(name):
 
 
 def machine(figures):
-    cpus = re.findall(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.MULTILINE)
-    model = re.sub(r"\((R|TM)\)|@.*$", "", cpus[0] if cpus else "unknown processor")
-    return f"{' '.join(model.split())}, {name_of_instruction_set(figures.instruction_sets[0])}"
+    def first_of(field):
+        values = re.findall(rf"^{field}\s*:\s*(.*)$", cpuinfo, re.MULTILINE)
+        return values[0] if values else "unknown"
+
+    cpuinfo = Path("/proc/cpuinfo").read_text(encoding="utf-8")
+    model = " ".join(re.sub(r"\((R|TM)\)|@.*$", "", first_of("model name")).split())
+    # Virtual machines often tell a processor's brand alone, which generations share.
+    generation = f"family {first_of('cpu family')}, model {first_of('model')}"
+    return f"{model}, {generation}, {name_of_instruction_set(figures.instruction_sets[0])}"
 
 
 def queries(figures):
