@@ -82,15 +82,17 @@ def name_of_instruction_set(name):
 
 
 def machine(figures):
-    def first_of(field):
-        values = re.findall(rf"^{field}\s*:\s*(.*)$", cpuinfo, re.MULTILINE)
-        return values[0] if values else "unknown"
-
     cpuinfo = Path("/proc/cpuinfo").read_text(encoding="utf-8")
-    model = " ".join(re.sub(r"\((R|TM)\)|@.*$", "", first_of("model name")).split())
+
+    def told(field):
+        values = re.findall(rf"^{field}\s*:\s*(.*)$", cpuinfo, re.MULTILINE)
+        return values[:1]  # not all processors tell all fields
+
+    names = [" ".join(re.sub(r"\((R|TM)\)|@.*$", "", name).split()) for name in told("model name")]
     # Virtual machines often tell a processor's brand alone, which generations share.
-    generation = f"family {first_of('cpu family')}, model {first_of('model')}"
-    return f"{model}, {generation}, {name_of_instruction_set(figures.instruction_sets[0])}"
+    generation = [f"family {family}" for family in told("cpu family")] + [f"model {model}" for model in told("model")]
+    instruction_set = name_of_instruction_set(figures.instruction_sets[0])
+    return ", ".join((names or ["unknown processor"]) + generation + [instruction_set])
 
 
 def queries(figures):
