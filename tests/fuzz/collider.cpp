@@ -26,7 +26,7 @@ namespace surehit::test {
 namespace {
 
 GridOptions read_grid_options(ByteSource& bytes) {
-  constexpr std::array cells_per_triangle = {0.7, 0.0, 0.05, 5.0, 60.0};
+  constexpr std::array cells_per_triangle = {1.0, 0.0, 0.05, 5.0, 60.0};
   constexpr std::array<std::uint32_t, 6> crowded = {128, 0, 1, 2, 4, 16};
   GridOptions options;
   if (bytes.one_in(2)) {

@@ -23,7 +23,7 @@ struct GridOptions {
   /// and at fewer where they would be narrow for the triangles. Whatever is asked for is made coarser where it would
   /// break the grid's budget of memory or its bound on rounding.
   std::array<std::uint32_t, 3> resolution = {0, 0, 0};
-  double cells_per_triangle = 0.7;
+  double cells_per_triangle = 1;
   /// Cells that list more triangles than this are divided into 4 × 4 × 4, if that parts the triangles. 0: never.
   std::uint32_t crowded = 192;
 };
