@@ -60,6 +60,10 @@ Pair exact_difference(double x, double y) {
 // a plane that is crossed before, but that has no lane, is beyond the rounded place of the end, so that the path comes
 // no more than e beyond it. Again the intervals cut the path without a gap.
 //
+// For the same reason a path meets nothing whose first cell begins a cube of empty ones that holds the cell of the
+// rounded place where it ends as well (`PlacedPath::stays_in_empty_space`): on every axis all of it that counts lies
+// within e of the cells from the one to the other, and none of these lists anything.
+//
 // The boxes of the grid's cover hold those of the lists, and their planes are taken as far out. So tau lies between
 // where the first of them is entered and the last one left, as computed, and the walk may begin there instead of at 0,
 // as after a leap: at the whole part of the rounded place. That is out of the grid, where the planes stand a padding

@@ -213,12 +213,12 @@ class AnyHit {
   using Kernel = BlockKernel<Scalar>;
   static constexpr bool wants_order = false;
 
-  explicit AnyHit(const Query<Scalar>& query) : trusts_kernel_(counts_every_hit(query)) {}
+  explicit AnyHit(const Query<Scalar>&) {}
   void reset() { is_done_ = false; }
 
   template <typename AnyPath>
   HWY_INLINE bool meet(const Meeting<Scalar, AnyPath>& meeting) {
-    if (trusts_kernel_ && meeting.lanes.certain != 0) return is_done_ = true;
+    if (meeting.lanes.certain != 0 && counts_every_hit(meeting.query)) return is_done_ = true;
     return meeting.show(meeting.lanes.possible, *this);
   }
 
@@ -231,7 +231,6 @@ class AnyHit {
   [[nodiscard]] bool is_done() const { return is_done_; }
 
  private:
-  bool trusts_kernel_;
   bool is_done_ = false;
 };
 
@@ -449,9 +448,14 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
     meet_all(query, path, range, visitor);
     return;
   }
-  if constexpr (std::is_same_v<Scalar, float>) {  // for double, the second walk would take too much stack
-    constexpr float least_cells = 4;              // that are worth it
-    if (query.grid.cover().is_useful() && is_long(least_cells, query.grid, placed, 0)) {
+  constexpr float few_cells = 4;
+  if (!is_long(few_cells, query.grid, placed, 0)) {
+    if (placed.stays_in_empty_space(query.grid)) {
+      ++query.statistics.cells;
+      return;
+    }
+  } else if constexpr (std::is_same_v<Scalar, float>) {  // for double, the second walk would take too much stack
+    if (query.grid.cover().is_useful()) {
       walk_in_cover(query, path, range, placed, visitor);
       return;
     }

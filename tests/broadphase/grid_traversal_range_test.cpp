@@ -26,7 +26,7 @@ TYPED_TEST(GridTraversalRange, FindsAllInTheRange) {
     const TypeParam first = drawer.random().template symmetric<TypeParam>();
     range.first = std::max(range.first, double{first});
     range.last = std::min(range.last, double{first + drawer.random().template unit<TypeParam>()});
-    this->met_ += this->expect_listed(path, range, this->walk(path, range));
+    this->expect_found(path, range);
   }
   EXPECT_GT(this->met_, 0U);
 }

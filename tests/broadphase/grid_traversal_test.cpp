@@ -308,6 +308,30 @@ TYPED_TEST(GridTraversalTest, LeapsThroughEmptySpace) {
   }
 }
 
+/// Short paths among few triangles, of which some end just where the space around their start does.
+TYPED_TEST(GridTraversalTest, StaysInEmptySpaceOnlyWhereThereIsNothing) {
+  Random random(7);
+  for (const GridOptions& options :
+       {GridOptions{.resolution = {10, 10, 10}, .crowded = 0}, GridOptions{.resolution = {10, 10, 10}, .crowded = 1}}) {
+    this->build(scattered_triangles<TypeParam>(200, 0.02F, random), options);
+    EXPECT_EQ(this->grid_.levels() > 0, options.crowded != 0);
+    const auto anywhere = [&] {
+      return Vector3<TypeParam>(random.symmetric<TypeParam>(), random.symmetric<TypeParam>(),
+                                random.symmetric<TypeParam>());
+    };
+    for (std::size_t i = 0; i < case_count(1500); ++i) {
+      const Vector3<TypeParam> start = anywhere();
+      const Triangle<TypeParam> triangle = this->mesh_.view().triangle(random.below(this->mesh_.triangles.size()));
+      const bool is_aimed = random.one_in(2);
+      const Vector3<TypeParam> toward = is_aimed ? triangle.a : Vector3<TypeParam>(start + anywhere() / 2);
+      this->expect_found(Segment<TypeParam>{start, toward});
+      this->expect_found(Ray<TypeParam>{start, toward - start});
+    }
+  }
+  EXPECT_GT(this->stayed_, case_count(1500) / 10);
+  EXPECT_GT(this->met_, case_count(1500) / 2);
+}
+
 TYPED_TEST(GridTraversalTest, IsUnclippedOnlyWhereItCannotBePlaced) {
   const auto at = [&](TypeParam distance) {
     const Segment<TypeParam> segment = {{distance, 0, 0.3F}, {-distance, 0, 0.3F}};

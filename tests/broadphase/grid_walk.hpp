@@ -179,9 +179,17 @@ class GridWalk : public testing::Test {
     return met;
   }
 
-  void expect_found(const Path<Scalar>& path) {
-    const Range range(path);
-    met_ += expect_listed(path, range, walk(path, range));
+  void expect_found(const Path<Scalar>& path) { expect_found(path, Range(path)); }
+  /// As the walk is told before it begins.
+  void expect_found(const Path<Scalar>& path, const Range& range) {
+    const std::size_t met = expect_listed(path, range, walk(path, range));
+    met_ += met;
+    const PlacedPath placed(grid_, path, range.first, range.last);
+    if (placed.place == PlacedPath::Place::inside && placed.stays_in_empty_space(grid_)) {
+      ++stayed_;
+      EXPECT_EQ(met, 0U) << hex_text(path) << " from " << range.first << " to " << range.last
+                         << " does not stay in empty space";
+    }
   }
 
   /// Paths of every kind, long and short.
@@ -195,6 +203,7 @@ class GridWalk : public testing::Test {
   Grid grid_;
   std::optional<LeafCells> leaves_;
   std::size_t met_ = 0;
+  std::size_t stayed_ = 0;  ///< in empty space
 };
 
 }  // namespace surehit::test

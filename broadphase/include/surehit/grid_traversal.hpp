@@ -55,6 +55,20 @@ struct PlacedPath {
   PlacedPath(const Grid& grid, const Path<Scalar>& path, double first_t, double last_t) noexcept;
   PlacedPath() = default;
 
+  /// Whether it ends in the cube of empty cells in which it begins, as most short ones do, and so meets nothing. Of a
+  /// path that is inside.
+  [[gnu::always_inline]] [[nodiscard]] bool stays_in_empty_space(const Grid& grid) const noexcept {
+    using namespace detail;
+    const GridFrame& frame = grid.frame();
+    const auto shift = static_cast<std::int32_t>(2 * grid.levels());
+    const Int4 first = to_int(start) >> shift;
+    const Int4 last = to_int(start + std::min(end, exit) * rate) >> shift;
+    const Int4 index = first * frame.pitch_of(falls()) + frame.first_top_of(falls());
+    const CellWord word = grid.top()[static_cast<std::size_t>(index[0] + index[1] + index[2])];
+    const auto cells = static_cast<std::int32_t>(word.distance(octant));
+    return word.is_empty() && !any_lane(last - first >= all_lanes(cells));
+  }
+
   /// tau at t or a little beyond it.
   [[nodiscard]] float beyond(double t) const noexcept;
 
