@@ -31,6 +31,11 @@ double float_below(double x) {
   return rounded > x ? std::nextafter(rounded, 0.0F) : rounded;
 }
 
+float nearest_float(double x) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -largest, largest));
+}
+
 }  // namespace
 
 template <typename Scalar>
@@ -82,6 +87,9 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
     frame.high[axis] = box.high[i];
     // Four paddings are a quarter of a finest cell or less.
     frame.cell_size[axis] = 1.25 * division / frame.scale[axis] / frame.unit[0] / frame.unit[1];
+    frame.float_box_low[axis] = nearest_float(frame.low[axis]);
+    frame.float_box_high[axis] = nearest_float(frame.high[axis]);
+    frame.float_cell_size[axis] = nearest_float(frame.cell_size[axis]);
   }
   frame.coarsen(1);
   return frame;

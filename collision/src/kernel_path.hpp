@@ -17,20 +17,21 @@ namespace surehit::detail {
 /// farther from a than the longer of b - a and c - a. X is no farther from a segment's start than its end is, but for
 /// the 2^-21 of it by which a walk may go on. And a is in the mesh's box, however thick the cells of a flat mesh are
 /// and however long the path.
-template <typename Scalar>
-[[nodiscard]] Scalar reach_of(const Path<Scalar>& path, const Scalar (&d)[3], const GridFrame& frame) {
-  constexpr double largest = std::numeric_limits<Scalar>::max();
-  Scalar reach = 0;
+[[nodiscard]] inline double reach_of(const Path<double>& path, const double (&d)[3], const GridFrame& frame) {
+  double reach = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Scalar start = path.start[static_cast<Eigen::Index>(axis)];
-    Scalar way = std::max(std::fabs(start - static_cast<Scalar>(frame.low[axis])),
-                          std::fabs(start - static_cast<Scalar>(frame.high[axis])));
-    if (path.has_end()) {
-      way = std::min(way, std::fabs(d[axis]) + static_cast<Scalar>(std::min(frame.cell_size[axis], largest)));
-    }
+    const double start = path.start[static_cast<Eigen::Index>(axis)];
+    double way = std::max(std::fabs(start - frame.low[axis]), std::fabs(start - frame.high[axis]));
+    if (path.has_end()) way = std::min(way, std::fabs(d[axis]) + frame.cell_size[axis]);
     reach = std::max(reach, way);
   }
   return reach;
+}
+[[nodiscard]] inline float reach_of(const Path<float>& path, const float (&d)[3], const GridFrame& frame) {
+  const Float4 start = {path.start[0], path.start[1], path.start[2], 0};
+  Float4 way = greatest(absolute(start - frame.float_box_low), absolute(start - frame.float_box_high));
+  if (path.has_end()) way = least(way, absolute(Float4{d[0], d[1], d[2], 0}) + frame.float_cell_size);
+  return -least_lane(-way)[0];
 }
 
 /// A path as the kernel takes it: plain numbers.

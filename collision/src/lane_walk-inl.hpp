@@ -118,17 +118,7 @@ struct alignas(most_lanes * sizeof(float)) KernelLanes {
 /// What places and walks the lanes of one grid, whose frame must be one of floats.
 class LaneWalk {
  public:
-  explicit LaneWalk(const Grid& grid) : grid_(grid) {
-    const GridFrame& frame = grid.frame();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      stop_[axis] = static_cast<float>(frame.resolution(axis));
-      pitch_[axis] = static_cast<float>(frame.top_pitch[axis]);
-      if (!frame.has_floats) continue;  // nothing is placed here
-      low_[axis] = static_cast<float>(frame.low[axis]);
-      high_[axis] = static_cast<float>(frame.high[axis]);
-      cell_size_[axis] = static_cast<float>(frame.cell_size[axis]);
-    }
-  }
+  explicit LaneWalk(const Grid& grid) : grid_(grid), frame_(grid.frame()) {}
 
   /// Lanes that take part, a bit for each.
   struct Placed {
@@ -159,24 +149,24 @@ class LaneWalk {
     Floats from[3];
     Floats by[3];
     auto is_near = hn::Eq(zero, zero);
-    const GridFrame& frame = grid_.frame();
     for (std::size_t k = 0; k < 3; ++k) {
-      const Floats scale = hn::Set(d, frame.float_scale[k]);
-      const Floats stop = hn::Set(d, stop_[k]);
+      const Floats scale = hn::Set(d, frame_.float_scale[k]);
+      const Floats stop = hn::Set(d, frame_.float_stop[k]);
       const Floats start = hn::ConcatEven(d, far_half[k], near_half[k]);
       const Floats toward = hn::ConcatOdd(d, far_half[k], near_half[k]);
       const Floats way = is_segment ? hn::Sub(toward, start) : toward;
       const Floats move = hn::Mul(way, scale);
       const Floats place =
-          hn::MulAdd(hn::Sub(start, hn::Set(d, frame.float_low[k])), scale, hn::Set(d, frame.margin[k]));
+          hn::MulAdd(hn::Sub(start, hn::Set(d, frame_.float_low[k])), scale, hn::Set(d, frame_.margin[k]));
       is_near = hn::And(is_near, hn::And(hn::Ge(place, hn::Neg(stop)), hn::Le(place, hn::Add(stop, stop))));
       hn::Store(start, d, kernel_paths.start[k].data());
       hn::Store(way, d, kernel_paths.d[k].data());
       start_size = hn::Max(start_size, hn::Abs(start));
       way_size = hn::Max(way_size, hn::Abs(way));
-      Floats reach_here =
-          hn::Max(hn::Abs(hn::Sub(start, hn::Set(d, low_[k]))), hn::Abs(hn::Sub(start, hn::Set(d, high_[k]))));
-      if (is_segment) reach_here = hn::Min(reach_here, hn::Add(hn::Abs(way), hn::Set(d, cell_size_[k])));
+      const Floats from_low = hn::Sub(start, hn::Set(d, frame_.float_box_low[k]));
+      const Floats from_high = hn::Sub(start, hn::Set(d, frame_.float_box_high[k]));
+      Floats reach_here = hn::Max(hn::Abs(from_low), hn::Abs(from_high));
+      if (is_segment) reach_here = hn::Min(reach_here, hn::Add(hn::Abs(way), hn::Set(d, frame_.float_cell_size[k])));
       reach = hn::Max(reach, reach_here);
       const auto falls = hn::Lt(move, zero);
       from[k] = hn::IfThenElse(falls, hn::Sub(stop, place), place);
@@ -190,8 +180,8 @@ class LaneWalk {
           hn::IfThenElse(stands, hn::Set(d, PlacedPath::greatest_inverse), hn::Div(hn::Set(d, 1.0F), speed));
       enters = hn::Max(enters, hn::Mul(hn::Neg(from[k]), inverse));
       leaves = hn::Min(leaves, hn::Mul(hn::Sub(stop, from[k]), inverse));
-      const Floats pitch = hn::Set(d, pitch_[k]);
-      const Floats turned = hn::Set(d, static_cast<float>(frame.last_top[k]));
+      const Floats pitch = hn::Set(d, static_cast<float>(frame_.top_pitch[k]));
+      const Floats turned = hn::Set(d, static_cast<float>(frame_.last_top[k]));
       hn::Store(hn::IfThenElse(falls, hn::Neg(pitch), pitch), d, placed.pitch[k].data());
       hn::Store(inverse, d, placed.inverse_rate[k].data());
       hn::Store(by[k], d, placed.rate[k].data());
@@ -208,7 +198,7 @@ class LaneWalk {
     const auto taken = hn::FirstN(d, count);
     const auto inside = hn::And(hn::And(is_plain, taken), hn::Le(enters, leaves));
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Floats last = hn::Set(d, stop_[axis] * (1 - 0x1p-24F));
+      const Floats last = hn::Set(d, frame_.float_stop[axis] * (1 - 0x1p-24F));
       // In the grid for every lane: x86 takes the second operand, zero, where a path that is not placed makes it NaN.
       const Floats entered = hn::Min(hn::Max(hn::MulAdd(enters, by[axis], from[axis]), zero), last);
       hn::Store(entered, d, placed.start[axis].data());
@@ -237,7 +227,7 @@ class LaneWalk {
     const Floats end = hn::MulAdd(hn::Iota(d, 1.0F), length, from);  // where the next one begins
     hn::Store(hn::IfThenElse(hn::FirstN(d, last_lane), hn::Min(end, whole), whole), d, pieces.end.data());
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Floats last = hn::Set(d, stop_[axis] * (1 - 0x1p-24F));
+      const Floats last = hn::Set(d, frame_.float_stop[axis] * (1 - 0x1p-24F));
       const Floats place = hn::MulAdd(begin, hn::Set(d, path.rate[axis]), hn::Set(d, path.start[axis]));
       hn::Store(hn::Floor(hn::Min(place, last)), d, pieces.finest[axis].data());
     }
@@ -277,7 +267,7 @@ class LaneWalk {
       const Floats next = hn::Add(place, hn::Set(d, 1.0F));
       const auto is_next = hn::Le(hn::Mul(hn::Sub(next, start), hn::Set(d, path.inverse_rate[axis])), tau);
       cell[axis] = hn::IfThenElse(is_next, next, place);
-      inside = hn::And(inside, hn::Lt(cell[axis], hn::Set(d, stop_[axis])));
+      inside = hn::And(inside, hn::Lt(cell[axis], hn::Set(d, frame_.float_stop[axis])));
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
       hn::Store(hn::IfThenElseZero(inside, cell[axis]), d, cells.finest[axis].data());
@@ -314,7 +304,7 @@ class LaneWalk {
     // Idle lanes stand where they ended, or at the origin: in the grid.
     const auto* top = reinterpret_cast<const std::uint32_t*>(grid_.top().data());
     cells.word = hn::GatherIndex(du, top, to_ints(index));
-    cells.size = hn::Set(d, static_cast<float>(grid_.frame().division));
+    cells.size = hn::Set(d, static_cast<float>(frame_.division));
     if constexpr (has_levels) {
       const auto walks = mask_of(du, walking);
       const Words octant = hn::Load(du, paths.octant.data());
@@ -368,7 +358,7 @@ class LaneWalk {
       const auto place = [&](Words sides, Floats from) {
         return hn::MulAdd(hn::ConvertTo(d, hn::BitCast(di, sides)), part, from);
       };
-      const Floats padding = hn::Set(d, grid_.frame().padding(k));
+      const Floats padding = hn::Set(d, GridFrame::padding_share * frame_.float_stop[k]);
       const Floats start = hn::Load(d, paths.start[k].data());
       const Floats inverse = hn::Load(d, paths.inverse_rate[k].data());
       const Floats near = place(first, hn::Sub(cells.low[k], padding));
@@ -405,7 +395,7 @@ class LaneWalk {
           hn::Floor(hn::MulAdd(tau, hn::Load(d, paths.rate[axis].data()), hn::Load(d, paths.start[axis].data())));
       const Floats least = hn::Load(d, paths.finest[axis].data());
       finest[axis] = hn::IfThenElse(hn::Eq(crossing[axis], tau), plane[axis], hn::Max(place, least));
-      inside = hn::And(inside, hn::Lt(finest[axis], hn::Set(d, stop_[axis])));
+      inside = hn::And(inside, hn::Lt(finest[axis], hn::Set(d, frame_.float_stop[axis])));
     }
     inside = hn::And(inside, walks);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -420,24 +410,20 @@ class LaneWalk {
   HWY_INLINE void repeat(const PlacedPath& path, WalkingPaths& paths) const {
     const FloatTag d;
     // Without branches on the direction, which nobody could foretell.
-    const Float4 pitch = to_float(grid_.frame().pitch_of(path.falls()));
+    const Float4 pitch = to_float(frame_.pitch_of(path.falls()));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       hn::Store(hn::Set(d, path.start[axis]), d, paths.start[axis].data());
       hn::Store(hn::Set(d, path.rate[axis]), d, paths.rate[axis].data());
       hn::Store(hn::Set(d, path.inverse_rate[axis]), d, paths.inverse_rate[axis].data());
       hn::Store(hn::Set(d, pitch[axis]), d, paths.pitch[axis].data());
     }
-    const Int4 first_top = grid_.frame().first_top_of(path.falls());
+    const Int4 first_top = frame_.first_top_of(path.falls());
     hn::Store(hn::Set(d, static_cast<float>(first_top[0] + first_top[1] + first_top[2])), d, paths.first_cell.data());
     hn::Store(hn::Set(BitsTag(), path.octant), BitsTag(), paths.octant.data());
   }
 
   const Grid& grid_;
-  std::array<float, 3> stop_;
-  std::array<float, 3> pitch_;
-  std::array<float, 3> low_ = {};  ///< the mesh's box,
-  std::array<float, 3> high_ = {};
-  std::array<float, 3> cell_size_ = {};
+  const GridFrame& frame_;
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

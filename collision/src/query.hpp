@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "path_range.hpp"
@@ -23,7 +22,7 @@ template <typename Scalar>
 struct Query {
   const Grid& grid;
   const MeshBlocks<Scalar>& mesh;
-  std::span<const std::uint32_t> masks;  ///< one a triangle, or none
+  const std::vector<std::uint32_t>& masks;  ///< one a triangle, or none
   const QueryOptions<Scalar>& options;
   const HitFilter<Scalar>* filter;  ///< none if null
   QueryStatistics& statistics;

@@ -52,6 +52,10 @@ struct GridFrame {
   detail::Float4 float_scale = {0, 0, 0, 0};
   detail::Float4 float_margin = {0, 0, 0, 1};
   detail::Float4 float_stop = {0, 0, 0, 2};  ///< the resolution
+  // `low`, `high` and `cell_size`, to the nearest float or the largest one.
+  detail::Float4 float_box_low = {0, 0, 0, 0};
+  detail::Float4 float_box_high = {0, 0, 0, 0};
+  detail::Float4 float_cell_size = {0, 0, 0, 0};
 
   /// Of the grid's width on an axis: by so much is a cell's box grown on each side when triangles are listed.
   static constexpr float padding_share = 0x1p-19F;
