@@ -61,8 +61,10 @@ Pair exact_difference(double x, double y) {
 // no more than e beyond it. Again the intervals cut the path without a gap.
 //
 // For the same reason a path meets nothing whose first cell begins a cube of empty ones that holds the cell of the
-// rounded place where it ends as well (`PlacedPath::stays_in_empty_space`): on every axis all of it that counts lies
-// within e of the cells from the one to the other, and none of these lists anything.
+// rounded place where it ends, or leaves the grid, as well (`PlacedPath::stays_in_empty_space`): on every axis all of
+// it that counts lies within e of the cells from the one to the other, since what it has beyond the rounded tau of an
+// outer plane is by the paddings beyond all that it meets. Of these cells none that is in the grid lists anything, and
+// a point that is met is within e of such a one.
 //
 // The boxes of the grid's cover hold those of the lists, and their planes are taken as far out. So tau lies between
 // where the first of them is entered and the last one left, as computed, and the walk may begin there instead of at 0,

@@ -407,7 +407,7 @@ HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<S
 #endif
   std::optional<ForKernel<Scalar>> for_kernel;
   GridTraversal traversal(query.grid, placed, enters);
-  if (traversal.word().is_empty()) {  // most short paths end with that
+  if (traversal.word().is_empty()) {
     ++query.statistics.cells;
     traversal.advance();
   }

@@ -308,7 +308,7 @@ TYPED_TEST(GridTraversalTest, LeapsThroughEmptySpace) {
   }
 }
 
-/// Short paths among few triangles, of which some end just where the space around their start does.
+/// Among few triangles, where some segments end just where the space around their start does.
 TYPED_TEST(GridTraversalTest, StaysInEmptySpaceOnlyWhereThereIsNothing) {
   Random random(7);
   for (const GridOptions& options :

@@ -137,8 +137,7 @@ class GridTraversal {
  public:
   /// Cells are stepped through one by one unless as many can be leapt over at once. A step waits neither for a word nor
   /// for a place to become an index, and takes a fraction of a leap's time. (With 4 or 8 long paths take 2 to 4%
-  /// longer, and 14% with leaps alone.) A walk that begins in an empty cell begins with a leap: it ends most short
-  /// paths.
+  /// longer, and 14% with leaps alone.) A walk that begins in an empty cell begins with a leap.
   static constexpr std::uint32_t least_leap = 6;
 
   /// Stands at the first cell, or at the end where the path is not inside the grid. Both outlive the walk. One that
