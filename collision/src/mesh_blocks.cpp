@@ -20,18 +20,20 @@ constexpr std::size_t lists_in_a_part = std::size_t{1} << 12;
 template <typename Scalar>
 MeshBlocks<Scalar>::MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor) {
   copy_vertices(mesh);
-  corners_.resize(mesh.triangle_count());
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    corners_[i] = {mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
+  constexpr std::size_t most_short_indices = std::size_t{1} << 16;
+  if (mesh.vertex_count() <= most_short_indices) {
+    copy_corners<std::uint16_t>(mesh);
+  } else {
+    copy_corners<std::uint32_t>(mesh);
   }
-  fill_blocks(corners_, grid, executor);
+  fill_blocks(*this, grid, executor);
 }
 
 template <typename Scalar>
 void MeshBlocks<Scalar>::rebuild(MeshBlocks& old, const VertexView<Scalar>& vertices, const Grid& grid,
                                  const Executor* executor) {
   copy_vertices(old.view_with(vertices));
-  fill_blocks(old.corners_, grid, executor);
+  fill_blocks(old, grid, executor);
   corners_.swap(old.corners_);
 }
 
@@ -43,7 +45,23 @@ void MeshBlocks<Scalar>::copy_vertices(const TriangleMeshView<Scalar>& mesh) {
 }
 
 template <typename Scalar>
-void MeshBlocks<Scalar>::fill_blocks(const Corners& triangles, const Grid& grid, const Executor* executor) {
+template <typename Index>
+void MeshBlocks<Scalar>::copy_corners(const TriangleMeshView<Scalar>& mesh) {
+  auto& triangles = corners_.template emplace<Corners<Index>>(mesh.triangle_count());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) triangles[i][k] = static_cast<Index>(mesh.corner(i, k));
+  }
+}
+
+/// With the triangles of `indexed`.
+template <typename Scalar>
+void MeshBlocks<Scalar>::fill_blocks(const MeshBlocks& indexed, const Grid& grid, const Executor* executor) {
+  indexed.with_corners([&](const auto& triangles) { fill_blocks(triangles, grid, executor); });
+}
+
+template <typename Scalar>
+template <typename Index>
+void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor) {
   blocks_.resize(offset(grid.lists().size(), grid.entries().size()) + slack);
   Scalar largest = 0;
   for (const Vector3<Scalar>& vertex : vertices_) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
@@ -53,7 +71,7 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners& triangles, const Grid& grid,
   const auto fill_four = [&](const std::uint32_t* ids, Scalar* list, std::size_t count, Four& longest) {
     std::array<FourPoints, 3> corners;
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::array<std::uint32_t, 3>& triangle = triangles[ids[k]];
+      const std::array<Index, 3>& triangle = triangles[ids[k]];
       for (std::size_t corner = 0; corner < 3; ++corner) {
         const Vector3<Scalar>& vertex = vertices_[triangle[corner]];
         corners[corner].col(static_cast<Eigen::Index>(k)) = Eigen::Map<const Four>(vertex.data());
@@ -106,14 +124,17 @@ TriangleMeshView<Scalar> MeshBlocks<Scalar>::view() const noexcept {
 
 template <typename Scalar>
 TriangleMeshView<Scalar> MeshBlocks<Scalar>::view_with(const VertexView<Scalar>& vertices) const noexcept {
-  return {vertices.data, vertices.count, corners_.empty() ? nullptr : corners_.front().data(), corners_.size(),
-          vertices.stride};
+  return with_corners([&](const auto& triangles) -> TriangleMeshView<Scalar> {
+    return {vertices.data, vertices.count, triangles.empty() ? nullptr : triangles.front().data(), triangles.size(),
+            vertices.stride};
+  });
 }
 
 template <typename Scalar>
 std::size_t MeshBlocks<Scalar>::memory_bytes() const noexcept {
-  return vertices_.capacity() * sizeof(Vector3<Scalar>) + corners_.capacity() * sizeof(corners_.front()) +
-         blocks_.capacity() * sizeof(Scalar);
+  const std::size_t corner_bytes =
+      with_corners([](const auto& triangles) { return triangles.capacity() * sizeof(triangles.front()); });
+  return vertices_.capacity() * sizeof(Vector3<Scalar>) + corner_bytes + blocks_.capacity() * sizeof(Scalar);
 }
 
 template class MeshBlocks<float>;

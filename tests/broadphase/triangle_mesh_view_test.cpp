@@ -88,6 +88,34 @@ TYPED_TEST(TriangleMeshViewTest, ReadsEigenMatricesMapsAndBlocks) {
   EXPECT_EQ(of_blocks.corner(0, 0), 2U);
 }
 
+TYPED_TEST(TriangleMeshViewTest, ReadsSixteenBitIndices) {
+  const std::vector<std::array<std::uint16_t, 3>> triangles = {{0, 1, 2}, {2, 1, 3}};
+  const TriangleMeshView<TypeParam> dense(this->vertices.front().data(), 4, triangles.front().data(), 2);
+  EXPECT_EQ(dense.triangle(1).a, this->vertices[2]);
+  EXPECT_EQ(dense.triangle(1).b, this->vertices[1]);
+  EXPECT_EQ(dense.triangle(1).c, this->vertices[3]);
+  EXPECT_FALSE(find_invalid(dense).has_value());
+
+  struct Face {
+    std::uint16_t material;
+    std::array<std::uint16_t, 3> corners;
+  };
+  const std::vector<Face> faces = {{9, {0, 1, 2}}, {9, {3, 2, 4}}};
+  const TriangleMeshView<TypeParam> strided(this->vertices.front().data(), 4, faces.front().corners.data(), 2,
+                                            sizeof this->vertices.front(), sizeof(Face));
+  EXPECT_EQ(strided.corner(1, 0), 3U);
+  const auto invalid = find_invalid(strided);
+  ASSERT_TRUE(invalid.has_value());
+  EXPECT_EQ(invalid->element, 1U);
+
+  Eigen::Matrix<std::uint16_t, 3, Eigen::Dynamic> columns(3, 2);
+  columns << 0, 65535, 1, 1, 2, 3;
+  const Eigen::Matrix<TypeParam, 3, Eigen::Dynamic> vertices = Eigen::Matrix<TypeParam, 3, 4>::Zero();
+  const TriangleMeshView<TypeParam> of_columns(vertices, columns.rightCols(1));
+  EXPECT_EQ(of_columns.corner(0, 0), 65535U);
+  EXPECT_EQ(of_columns.corner(0, 2), 3U);
+}
+
 TYPED_TEST(TriangleMeshViewTest, NamesTheFirstTriangleWithAnIndexOutOfRange) {
   this->triangles = {{0, 1, 2}, {0, 1, 4}, {9, 9, 9}};
   const auto invalid = find_invalid(this->view());

@@ -93,6 +93,12 @@ TYPED_TEST(ColliderMesh, of_one_point_is_hit_by_what_passes_through) {
 
 TYPED_TEST(ColliderMesh, from_tight_arrays) { this->expect_stack_of_two(stack_of_triangles<TypeParam>(2).view()); }
 
+TYPED_TEST(ColliderMesh, from_sixteen_bit_indices) {
+  const auto mesh = stack_of_triangles<TypeParam>(2);
+  const std::vector<std::uint16_t> indices = {0, 1, 2, 3, 4, 5};
+  this->expect_stack_of_two({mesh.vertices[0].data(), mesh.vertices.size(), indices.data(), 2});
+}
+
 TYPED_TEST(ColliderMesh, from_interleaved_arrays) {
   struct Vertex {
     TypeParam position[3];

@@ -96,6 +96,36 @@ TYPED_TEST(MeshBlocksTest, TakesOverTheTrianglesOfAMeshThatMoves) {
   }
 }
 
+TYPED_TEST(MeshBlocksTest, NumbersVerticesInSixteenBitsWhereThatIsEnough) {
+  Random random(9);
+  const std::size_t count = 100;
+  const auto drawn = scattered_triangles<TypeParam>(count, TypeParam(0.2), random);
+  std::size_t memory_before = 0;
+  for (const std::size_t vertex_count : {65536U, 65537U}) {
+    // Among as many vertices, the triangles' stand last.
+    const auto skipped = static_cast<std::uint32_t>(vertex_count - drawn.vertices.size());
+    GeneratedMesh<TypeParam> mesh = drawn;
+    mesh.vertices.insert(mesh.vertices.begin(), skipped, Vector3<TypeParam>::Zero());
+    for (auto& corners : mesh.triangles) {
+      for (auto& corner : corners) corner += skipped;
+    }
+    const Grid grid = this->grid_of(mesh, {});
+    MeshBlocks<TypeParam> blocks(mesh.view(), grid);
+    this->expect_copies(mesh, grid, blocks);
+    EXPECT_EQ(blocks.triangle(count - 1).c, mesh.vertices.back());
+    EXPECT_EQ(blocks.view().corner(count - 1, 2), vertex_count - 1);
+    const std::size_t memory = blocks.memory_bytes();
+    if (memory_before != 0) {
+      EXPECT_EQ(memory - memory_before, sizeof(Vector3<TypeParam>) + 6 * count);
+    }
+    memory_before = memory;
+    MeshBlocks<TypeParam> moved;
+    moved.rebuild(blocks, mesh.view().vertices(), grid);
+    this->expect_copies(mesh, grid, moved);
+    EXPECT_EQ(moved.view().corner(count - 1, 2), vertex_count - 1);
+  }
+}
+
 /// Beyond half the largest size that the kernel's bound allows, its bounds are made infinite.
 TYPED_TEST(MeshBlocksTest, SaysThatCoordinatesAreTooLargeForTheKernel) {
   const TypeParam limit = std::ldexp(TypeParam{1}, sizeof(TypeParam) == sizeof(float) ? 33 : 299);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -16,7 +17,8 @@ namespace surehit {
 /// The id that no triangle has: a miss, or nothing to ignore.
 inline constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
 
-/// A mesh that lies in memory owned by somebody else: vertices of three Scalars, triangles of three 32-bit indices.
+/// A mesh that lies in memory owned by somebody else: vertices of three Scalars, triangles of three indices, of 32 bits
+/// or 16.
 ///
 /// Both arrays are strided, so that interleaved vertex buffers are read in place. The view copies nothing and must not
 /// outlive the arrays. It is not checked when made: `find_invalid` does that, and every build calls it.
@@ -30,26 +32,27 @@ class TriangleMeshView {
   TriangleMeshView(const Scalar* vertices, std::size_t vertex_count, const std::uint32_t* triangles,
                    std::size_t triangle_count, std::size_t vertex_stride = 3 * sizeof(Scalar),
                    std::size_t triangle_stride = 3 * sizeof(std::uint32_t))
-      : vertices_(reinterpret_cast<const std::byte*>(vertices)),
-        triangles_(reinterpret_cast<const std::byte*>(triangles)),
-        vertex_count_(vertex_count),
-        triangle_count_(triangle_count),
-        vertex_stride_(vertex_stride),
-        triangle_stride_(triangle_stride) {}
+      : TriangleMeshView(vertices, vertex_count, vertex_stride, triangles, triangle_count, triangle_stride) {}
+  template <std::same_as<std::uint16_t> Index>
+  TriangleMeshView(const Scalar* vertices, std::size_t vertex_count, const Index* triangles, std::size_t triangle_count,
+                   std::size_t vertex_stride = 3 * sizeof(Scalar), std::size_t triangle_stride = 3 * sizeof(Index))
+      : TriangleMeshView(vertices, vertex_count, vertex_stride, triangles, triangle_count, triangle_stride) {}
 
   /// From Eigen matrices or maps of them: a column a vertex (3×N) and a column a triangle (3×M, signed or unsigned
-  /// 32-bit; a negative index is out of range). Expressions that are not memory do not compile, so nothing is copied
-  /// unseen.
+  /// 32-bit, a negative index is out of range; or unsigned 16-bit). Expressions that are not memory do not compile, so
+  /// nothing is copied unseen.
   template <typename Vertices, typename Triangles>
   TriangleMeshView(const Eigen::DenseBase<Vertices>& vertices, const Eigen::DenseBase<Triangles>& triangles)
-      : TriangleMeshView(vertices.derived().data(), static_cast<std::size_t>(vertices.cols()),
-                         reinterpret_cast<const std::uint32_t*>(triangles.derived().data()),
-                         static_cast<std::size_t>(triangles.cols()),
-                         static_cast<std::size_t>(vertices.derived().outerStride()) * sizeof(Scalar),
-                         static_cast<std::size_t>(triangles.derived().outerStride()) * sizeof(std::uint32_t)) {
+      : TriangleMeshView(
+            vertices.derived().data(), static_cast<std::size_t>(vertices.cols()),
+            static_cast<std::size_t>(vertices.derived().outerStride()) * sizeof(Scalar), triangles.derived().data(),
+            static_cast<std::size_t>(triangles.cols()),
+            static_cast<std::size_t>(triangles.derived().outerStride()) * sizeof(typename Triangles::Scalar)) {
     using Index = typename Triangles::Scalar;
     static_assert(std::is_same_v<typename Vertices::Scalar, Scalar>, "the vertices must be of the view's Scalar");
-    static_assert(std::is_integral_v<Index> && sizeof(Index) == sizeof(std::uint32_t), "indices are 32-bit integers");
+    static_assert(
+        std::is_same_v<Index, std::uint16_t> || (std::is_integral_v<Index> && sizeof(Index) == sizeof(std::uint32_t)),
+        "indices are 32-bit integers, or unsigned 16-bit ones");
     static_assert(int{Vertices::RowsAtCompileTime} == 3 && int{Triangles::RowsAtCompileTime} == 3,
                   "a vertex and a triangle are columns of three");
     static_assert(is_columns_in_memory<Vertices> && is_columns_in_memory<Triangles>,
@@ -74,9 +77,9 @@ class TriangleMeshView {
 
   /// Index of corner 0, 1 or 2 (a, b, c) of a triangle.
   [[nodiscard]] std::uint32_t corner(std::size_t triangle, std::size_t which) const {
-    std::uint32_t index = 0;
-    std::memcpy(&index, triangles_ + triangle * triangle_stride_ + which * sizeof index, sizeof index);
-    return index;
+    const std::byte* const place = triangles_ + triangle * triangle_stride_ + which * index_size_;
+    if (index_size_ == sizeof(std::uint16_t)) return index_at<std::uint16_t>(place);
+    return index_at<std::uint32_t>(place);
   }
 
   [[nodiscard]] Triangle<Scalar> triangle(std::size_t index) const {
@@ -84,6 +87,24 @@ class TriangleMeshView {
   }
 
  private:
+  template <typename Index>
+  TriangleMeshView(const Scalar* vertices, std::size_t vertex_count, std::size_t vertex_stride, const Index* triangles,
+                   std::size_t triangle_count, std::size_t triangle_stride)
+      : vertices_(reinterpret_cast<const std::byte*>(vertices)),
+        triangles_(reinterpret_cast<const std::byte*>(triangles)),
+        vertex_count_(vertex_count),
+        triangle_count_(triangle_count),
+        vertex_stride_(vertex_stride),
+        triangle_stride_(triangle_stride),
+        index_size_(sizeof(Index)) {}
+
+  template <typename Index>
+  static Index index_at(const std::byte* place) {
+    Index index;
+    std::memcpy(&index, place, sizeof index);
+    return index;
+  }
+
   template <typename Matrix>
   static constexpr bool is_columns_in_memory = (int{Matrix::Flags} & Eigen::DirectAccessBit) != 0 &&
                                                (int{Matrix::Flags} & Eigen::RowMajorBit) == 0 &&
@@ -95,6 +116,7 @@ class TriangleMeshView {
   std::size_t triangle_count_ = 0;
   std::size_t vertex_stride_ = 3 * sizeof(Scalar);
   std::size_t triangle_stride_ = 3 * sizeof(std::uint32_t);
+  std::size_t index_size_ = sizeof(std::uint32_t);
 };
 
 /// The first thing that keeps the mesh from being built: too many triangles, else the first triangle with an index out

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <variant>
 
 #include "surehit/default_init_allocator.hpp"
 #include "surehit/grid.hpp"
@@ -11,8 +12,9 @@
 
 namespace surehit {
 
-/// A collider's copy of its mesh: the vertices and indices as they were given, and for each list of the grid the
-/// triangles' corners a, b and c, coordinate by coordinate, as the kernel loads them.
+/// A collider's copy of its mesh: the vertices as they were given, the indices, in 16 bits if that numbers all
+/// vertices, and for each list of the grid the triangles' corners a, b and c, coordinate by coordinate, as the kernel
+/// loads them.
 template <typename Scalar>
 class MeshBlocks {
  public:
@@ -25,10 +27,14 @@ class MeshBlocks {
   void rebuild(MeshBlocks& old, const VertexView<Scalar>& vertices, const Grid& grid,
                const Executor* executor = nullptr);
 
-  [[nodiscard]] std::size_t triangle_count() const noexcept { return corners_.size(); }
+  [[nodiscard]] std::size_t triangle_count() const noexcept {
+    return with_corners([](const auto& triangles) { return triangles.size(); });
+  }
   [[nodiscard]] Triangle<Scalar> triangle(std::uint32_t id) const noexcept {
-    const auto& [a, b, c] = corners_[id];
-    return {vertices_[a], vertices_[b], vertices_[c]};
+    return with_corners([&](const auto& triangles) -> Triangle<Scalar> {
+      const auto& [a, b, c] = triangles[id];
+      return {vertices_[a], vertices_[b], vertices_[c]};
+    });
   }
   /// The triangle at `index` of a list of `count`.
   [[nodiscard]] static Triangle<Scalar> triangle(const Scalar* corners, std::size_t count, std::size_t index) noexcept {
@@ -56,13 +62,24 @@ class MeshBlocks {
   static std::size_t offset(std::size_t list, std::size_t first_entry) noexcept {
     return coordinates * first_entry + list;  // each list before this one has an edge size too
   }
-  using Corners = detail::UnsetVector<std::array<std::uint32_t, 3>>;
+  template <typename Index>
+  using Corners = detail::UnsetVector<std::array<Index, 3>>;
+  using AnyCorners = std::variant<Corners<std::uint16_t>, Corners<std::uint32_t>>;
 
+  template <typename Visit>
+  decltype(auto) with_corners(const Visit& visit) const {
+    if (const auto* triangles = std::get_if<Corners<std::uint16_t>>(&corners_)) return visit(*triangles);
+    return visit(*std::get_if<Corners<std::uint32_t>>(&corners_));
+  }
   void copy_vertices(const TriangleMeshView<Scalar>& mesh);
-  void fill_blocks(const Corners& triangles, const Grid& grid, const Executor* executor);
+  template <typename Index>
+  void copy_corners(const TriangleMeshView<Scalar>& mesh);
+  void fill_blocks(const MeshBlocks& indexed, const Grid& grid, const Executor* executor);
+  template <typename Index>
+  void fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor);
 
   detail::UnsetVector<Vector3<Scalar>> vertices_;  ///< and one more, for a vector load of the last
-  Corners corners_;
+  AnyCorners corners_;
   detail::UnsetVector<Scalar> blocks_;
 };
 
