@@ -33,8 +33,9 @@ constexpr double most_cells_on_an_axis = 0x1p11;
 constexpr double least_stretch = 1.5;
 /// Of a cell's edge, over and under the mean of its edges.
 constexpr double most_stretch = 2;
-/// Cells that are less wide, counted in the triangles' mean boxes, are made fewer in proportion.
-constexpr double wide_cell = 1.8;
+/// Cells that are less wide, counted in the triangles' mean boxes, are made fewer in proportion. More would be faster
+/// to walk: this is for memory.
+constexpr double wide_cell = 2.55;
 /// Triangles that are looked at to know what they are like.
 constexpr std::size_t samples = 256;
 
