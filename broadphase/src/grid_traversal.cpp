@@ -242,6 +242,7 @@ void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pat
 }
 
 float PlacedPath::beyond(double t) const noexcept {
+  if (is_placed_in_float) return beyond(t, origin[2]);
   const double scaled = t * unit[0] * unit[1] * unit[2];
   const double tau = scaled - origin[0] - origin[1] - origin[2];
   const double rounding = std::fabs(scaled) + std::fabs(origin[0]) + std::fabs(origin[1]) + std::fabs(origin[2]);

@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -179,6 +180,20 @@ class BlockKernel : BlockDeterminants<Scalar> {
     return {certain, hn::GetLane(t.lower), hn::GetLane(t.upper)};
   }
 
+  /// Of this list's certain hits. (Most often there is one; that first hits take 0.92 to 0.98 of the time then pays for
+  /// the other branch.)
+  [[nodiscard]] HWY_INLINE FirstLanes<Scalar> first_of(const Bounds& bounds, std::uint64_t certain,
+                                                       Scalar limit) const {
+    if (!std::has_single_bit(certain)) return first_of(bounds, crossing(), certain, limit);
+    constexpr std::size_t most_lanes_of_any = hn::MaxLanes(Tag());
+    alignas(sizeof(Scalar) * most_lanes_of_any) Scalar height[most_lanes_of_any];
+    alignas(sizeof(Scalar) * most_lanes_of_any) Scalar det[most_lanes_of_any];
+    hn::Store(height_, d_, height);
+    hn::Store(det_, d_, det);
+    const auto lane = static_cast<std::size_t>(std::countr_zero(certain));
+    return lone_first(bounds, height[lane], det[lane], certain);
+  }
+
   /// Weighs the triangles of a list that the path may meet once more, each by its own products: the list's longest edge
   /// may be that of one large triangle among small ones, and of six products most are small where an edge or the path
   /// runs along an axis. (A half of what the list's bounds leave open goes without the narrowphase then.) Apart, for
@@ -269,7 +284,7 @@ HWY_NOINLINE Lanes classify(const KernelPath<Scalar>& path, const RangeWeights<S
                             Scalar limit, FirstLanes<Scalar>& first) {
   const Kernel kernel(path, list, from);
   const Lanes lanes = kernel.classify(range, bounds);
-  if (lanes.possible != 0) first = Kernel::first_of(bounds, kernel.crossing(), lanes.certain, limit);
+  if (lanes.possible != 0) first = kernel.first_of(bounds, lanes.certain, limit);
   return lanes;
 }
 

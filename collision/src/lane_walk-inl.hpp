@@ -67,12 +67,7 @@ struct alignas(most_lanes * sizeof(float)) WalkingPaths {
   std::array<std::uint32_t, most_lanes> octant;
 
   /// What the path meets beyond parameter t is of no interest any more.
-  void shorten(std::size_t lane, double t) {
-    const double entered = enters[lane];
-    const double tau = t - entered;
-    const double rounding = (std::fabs(t) + std::fabs(entered)) * 0x1p-50 + std::fabs(tau) * 0x1p-22 + 0x1p-140;
-    end[lane] = std::min(end[lane], static_cast<float>(tau + rounding));
-  }
+  void shorten(std::size_t lane, double t) { end[lane] = std::min(end[lane], PlacedPath::beyond(t, enters[lane])); }
 
   /// Lane i, where bit i is set, becomes lane `from_lane[i]` of other paths.
   HWY_INLINE void take(std::uint32_t lanes, const WalkingPaths& from, const LaneIndices& from_lane) {

@@ -33,6 +33,7 @@ struct PlacedPath {
   static constexpr float greatest_inverse = 0x1p100F;
 
   Place place = Place::outside;
+  bool is_placed_in_float = false;  ///< tau is t - origin[2] then
   std::uint32_t octant = 0;     ///< bit k: mirrored on axis k
   detail::Float4 start;         ///< where the walk begins
   detail::Float4 rate;          ///< cells a unit of the walk's parameter tau
@@ -71,6 +72,12 @@ struct PlacedPath {
 
   /// tau at t or a little beyond it.
   [[nodiscard]] float beyond(double t) const noexcept;
+  /// The same where tau is t - `enters`.
+  [[nodiscard]] static float beyond(double t, double enters) noexcept {
+    const double tau = t - enters;
+    const double rounding = (std::fabs(t) + std::fabs(enters)) * 0x1p-50 + std::fabs(tau) * 0x1p-22 + 0x1p-140;
+    return static_cast<float>(tau + rounding);
+  }
 
  private:
   template <typename Scalar>
@@ -120,6 +127,7 @@ template <typename Scalar>
   const float leaves = -limits[1];
   if (!(enters <= leaves)) return true;
   place = Place::inside;
+  is_placed_in_float = true;
   octant = static_cast<std::uint32_t>((falls[0] & 1) | (falls[1] & 2) | (falls[2] & 4));
   origin[2] = double{enters};
   end = (last_t - enters) + (std::fabs(last_t) + std::fabs(enters)) * 0x1p-22F + std::numeric_limits<float>::min();
