@@ -213,8 +213,11 @@ class GridTraversal {
   /// Into the next top cell.
   [[gnu::always_inline]] void step() noexcept {
     using namespace detail;
-    const Float4 tau = least_lane(crossing_);
-    const Int4 crossed = crossing_ == tau;
+    // Which planes are crossed next is known sooner than when, and only that is waited for by the next step.
+    const Float4 next_axis = __builtin_shufflevector(crossing_, crossing_, 1, 2, 0, 3);
+    const Float4 last_axis = __builtin_shufflevector(crossing_, crossing_, 2, 0, 1, 3);
+    const Int4 crossed = (crossing_ <= next_axis) & (crossing_ <= last_axis) & Int4{-1, -1, -1, 0};
+    const Float4 tau = least(least(crossing_, next_axis), last_axis);
     const auto size = static_cast<float>(size_);
     crossing_ = crossed ? next_crossing_ : crossing_;
     planes_ = crossed ? planes_ + size : planes_;
