@@ -34,12 +34,12 @@ struct PlacedPath {
 
   Place place = Place::outside;
   bool is_placed_in_float = false;  ///< tau is t - origin[2] then
-  std::uint32_t octant = 0;     ///< bit k: mirrored on axis k
-  detail::Float4 start;         ///< where the walk begins
-  detail::Float4 rate;          ///< cells a unit of the walk's parameter tau
-  detail::Float4 inverse_rate;  ///< finite
-  float end = 0;                ///< tau beyond which nothing counts
-  float exit = 0;               ///< tau at which the path leaves the grid, about
+  std::uint32_t octant = 0;         ///< bit k: mirrored on axis k
+  detail::Float4 start;             ///< where the walk begins
+  detail::Float4 rate;              ///< cells a unit of the walk's parameter tau
+  detail::Float4 inverse_rate;      ///< finite
+  float end = 0;                    ///< tau beyond which nothing counts
+  float exit = 0;                   ///< tau at which the path leaves the grid, about
   /// tau = t unit[0] unit[1] unit[2] - origin[0] - origin[1] - origin[2]
   std::array<double, 3> unit = {1, 1, 1};
   std::array<double, 3> origin = {0, 0, 0};
