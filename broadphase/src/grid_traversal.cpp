@@ -51,6 +51,15 @@ Pair exact_difference(double x, double y) {
 // them costs: so the exact path is beyond each near plane and before each far one at that tau, and these are crossed,
 // as computed, before and after it. It lies between 0 and `end` like every tau that counts.
 //
+// Nor need it be met by a path that passes by a slab, H(x) = n (x - m) in [l, h] with m the cell's centre, that holds
+// what of the triangles lies within half a padding of the cell, and so each point where one of them is met. There H is
+// in [l, h] on the exact path, so on the path from p by r, which is off by less than half a padding on each axis, it is
+// so with a slack of half of S, the sum over the axes of a padding times |n|. On that path H is linear in tau, and the
+// tau lies between those where the padded box is entered and left, as computed: so H is not beyond the same plane by
+// more at both of these. Computed, it is off by 3 u R on each axis for the way from m (start, product and sum) times
+// |n|, by as much for its own products and sums, and the plane by 2 u R more for S and its sum with that: by 8 u R,
+// where the other half of S has 16.
+//
 // A path may stand in all of its cells at once instead, where these are few (`LaneWalk::spread`): at the tau where it
 // begins, and at tau_X of each plane X beyond the cell of the rounded place where it begins, up to the whole part of
 // the one where it ends. At such a tau, c is the whole part of the rounded place on each axis, or the next cell if the

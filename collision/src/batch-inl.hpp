@@ -42,7 +42,7 @@ class Batch {
       : query_(query),
         range_(range),
         weights_(range),
-        walk_(query.grid),
+        walk_(query.grid, query.mesh.slabs()),
         paths_(paths),
         finish_(finish),
         alone_(alone),
@@ -122,7 +122,7 @@ class Batch {
       for (std::size_t i = 0; i < used; ++i) {
         const auto lists = hn::Eq(hn::And(cells_[i].word, hn::Set(du, 15U)), hn::Zero(du));
         const auto standing = static_cast<std::uint32_t>(bits_of(du, lists)) & of_vector(i, walking_);
-        arriving |= slots_of(i, walk_.meet_boxes(cells_[i], standing, lanes_[i]));
+        arriving |= slots_of(i, walk_.meet_lists(cells_[i], standing, lanes_[i]));
         hn::Store(cells_[i].word, du, &words_[i * most_lanes]);
       }
       const std::uint64_t walked = walking_;  // those that are done end with the rest

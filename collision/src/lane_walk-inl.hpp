@@ -113,7 +113,8 @@ struct alignas(most_lanes * sizeof(float)) KernelLanes {
 /// What places and walks the lanes of one grid, whose frame must be one of floats.
 class LaneWalk {
  public:
-  explicit LaneWalk(const Grid& grid) : grid_(grid), frame_(grid.frame()) {}
+  /// `slabs` may be null.
+  LaneWalk(const Grid& grid, const CellSlab* slabs) : grid_(grid), frame_(grid.frame()), slabs_(slabs) {}
 
   /// Lanes that take part, a bit for each.
   struct Placed {
@@ -327,9 +328,9 @@ class LaneWalk {
     return cells;
   }
 
-  /// Of lanes that stand in cells with lists, those whose path passes through the box that the list's triangles take up
-  /// there; as `GridTraversal::meets_box`.
-  HWY_INLINE std::uint32_t meet_boxes(const Cells& cells, std::uint32_t standing, const WalkingPaths& paths) const {
+  /// Of lanes that stand in cells with lists, those whose path may meet a triangle of the list: as
+  /// `GridTraversal::meets_box` and, where there are slabs, `GridTraversal::meets`.
+  HWY_INLINE std::uint32_t meet_lists(const Cells& cells, std::uint32_t standing, const WalkingPaths& paths) const {
     const FloatTag d;
     const IntTag di;
     const BitsTag du;
@@ -361,7 +362,9 @@ class LaneWalk {
       enters = hn::Max(enters, hn::Mul(hn::Sub(near, start), inverse));
       leaves = hn::Min(leaves, hn::Mul(hn::Sub(far, start), inverse));
     }
-    return static_cast<std::uint32_t>(bits_of(d, hn::Le(enters, leaves))) & standing;
+    const std::uint32_t meeting = static_cast<std::uint32_t>(bits_of(d, hn::Le(enters, leaves))) & standing;
+    if (slabs_ == nullptr || meeting == 0) return meeting;
+    return meeting & ~miss_slabs(cells, list, enters, leaves, paths);
   }
 
   /// Steps the walking lanes beyond their cells, or beyond the cubes of empty cells that begin with them. Returns those
@@ -401,6 +404,41 @@ class LaneWalk {
   }
 
  private:
+  /// Lanes whose path passes by the slab of their list, in the box of which it is between these taus.
+  HWY_INLINE std::uint32_t miss_slabs(const Cells& cells, Words list, Floats enters, Floats leaves,
+                                      const WalkingPaths& paths) const {
+    const FloatTag d;
+    const IntTag di;
+    const BitsTag du;
+    const auto* slabs = reinterpret_cast<const std::int32_t*>(slabs_);
+    const Ints slab = hn::GatherIndex(di, slabs, hn::BitCast(di, list));
+    const Words octant = hn::Load(du, paths.octant.data());
+    const Floats half = hn::Mul(cells.size, hn::Set(d, 0.5F));
+    Floats at_entry = hn::Zero(d);
+    Floats at_exit = hn::Zero(d);
+    Floats slack = hn::Zero(d);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<std::size_t>(axis);
+      const Floats component = hn::ConvertTo(d, hn::ShiftRight<27>(hn::ShiftLeftSame(slab, 27 - 5 * axis)));
+      // Its sign is turned where the path falls.
+      const Floats turned = hn::BitCast(d, hn::ShiftLeftSame(hn::And(octant, hn::Set(du, 1U << axis)), 31 - axis));
+      const Floats normal = hn::Xor(component, turned);
+      const Floats to_start = hn::Sub(hn::Load(d, paths.start[k].data()), hn::Add(cells.low[k], half));
+      const Floats rate = hn::Load(d, paths.rate[k].data());
+      at_entry = hn::MulAdd(hn::MulAdd(enters, rate, to_start), normal, at_entry);
+      at_exit = hn::MulAdd(hn::MulAdd(leaves, rate, to_start), normal, at_exit);
+      slack = hn::MulAdd(hn::Abs(component), hn::Set(d, GridFrame::padding_share * frame_.float_stop[k]), slack);
+    }
+    const Floats step = hn::Mul(cells.size, hn::Set(d, CellSlab::step));
+    const Floats first = hn::ConvertTo(d, hn::ShiftRight<24>(hn::ShiftLeft<8>(slab)));
+    const Floats last = hn::ConvertTo(d, hn::Add(hn::ShiftRight<24>(slab), hn::Set(di, 1)));
+    const Floats low = hn::Sub(hn::Mul(first, step), slack);
+    const Floats high = hn::MulAdd(last, step, slack);
+    const auto below = hn::Lt(hn::Max(at_entry, at_exit), low);
+    const auto above = hn::Gt(hn::Min(at_entry, at_exit), high);
+    return static_cast<std::uint32_t>(bits_of(d, hn::Or(below, above)));
+  }
+
   /// Puts one path into all lanes, but for where each stands and ends.
   HWY_INLINE void repeat(const PlacedPath& path, WalkingPaths& paths) const {
     const FloatTag d;
@@ -419,6 +457,7 @@ class LaneWalk {
 
   const Grid& grid_;
   const GridFrame& frame_;
+  const CellSlab* slabs_;
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

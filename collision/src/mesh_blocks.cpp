@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <type_traits>
 
 #include "kernel_bound.hpp"
+#include "list_cells.hpp"
+#include "slab_fitter.hpp"
 #include "surehit/in_parts.hpp"
 
 namespace surehit {
@@ -14,6 +18,47 @@ namespace {
 constexpr std::size_t slack = 64;
 /// In an executor's task.
 constexpr std::size_t lists_in_a_part = std::size_t{1} << 12;
+constexpr std::size_t top_cells_in_a_part = std::size_t{1} << 14;
+
+template <typename Fill>
+void fill_all(const Grid& grid, const Executor* executor, const Fill& fill) {
+  detail::in_parts(executor, grid.lists().size() - 1, lists_in_a_part, [&](std::size_t first, std::size_t last) {
+    for (std::size_t list = first; list < last; ++list) fill(CellWord::listing(static_cast<std::uint32_t>(list)));
+  });
+}
+
+/// Whether a slab is half as thick as the box around the same triangles, or thinner.
+bool is_thin(CellSlab slab, CellBox box) {
+  float of_box = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto normal = static_cast<float>(std::abs(slab.normal(axis)));
+    of_box += normal * static_cast<float>(box.high(axis) - box.low(axis)) / CellBox::parts;
+  }
+  return static_cast<float>(slab.high() + 1 - slab.low()) * CellSlab::step <= of_box / 2;
+}
+
+/// Whether of some lists no more than one in four has a slab that is not thin; of few lists none is asked for. `fit`
+/// gives the slab of a cell's list.
+template <typename Fit>
+bool is_smooth(const Grid& grid, const Fit& fit) {
+  constexpr std::size_t samples = 64;
+  constexpr std::size_t few = 8;
+  const std::size_t tops = grid.top().size();
+  std::size_t thin = 0;
+  std::size_t thick = 0;
+  for (std::size_t sample = 0; sample < samples && 4 * thick <= samples; ++sample) {
+    // The first list from some cell on.
+    std::size_t top = tops * sample / samples;
+    const std::size_t end = tops * (sample + 1) / samples;
+    const auto is_list = [](CellWord word) { return !word.is_empty() && !word.is_divided(); };
+    while (top < end && !is_list(grid.top()[top])) ++top;
+    if (top == end) continue;
+    detail::visit_list_cells(grid, top, top + 1, [&](const detail::ListCell& cell) {
+      (is_thin(fit(cell), grid.box(cell.word)) ? thin : thick) += 1;
+    });
+  }
+  return 3 * thick <= thin && thin + thick > few;
+}
 
 }  // namespace
 
@@ -89,10 +134,9 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
       }
     }
   };
-  const auto fill = [&](std::size_t number) {
-    const CellWord word = CellWord::listing(static_cast<std::uint32_t>(number));
+  const auto fill = [&](CellWord word) {
     const std::span<const std::uint32_t> ids = grid.triangles(word);
-    Scalar* edge_size = blocks_.data() + offset(number, grid.first_entry(word));
+    Scalar* edge_size = blocks_.data() + offset(word.number(), grid.first_entry(word));
     Scalar* list = edge_size + 1;
     Four longest = Four::Zero();
     if (ids.size() >= 4) {
@@ -111,10 +155,42 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
     }
     *edge_size = too_large ? std::numeric_limits<Scalar>::infinity() : longest.maxCoeff();
   };
+  slabs_.clear();
   if (grid.lists().empty()) return;
-  detail::in_parts(executor, grid.lists().size() - 1, lists_in_a_part, [&](std::size_t first, std::size_t last) {
-    for (std::size_t list = first; list < last; ++list) fill(list);
+  if constexpr (std::is_same_v<Scalar, float>) {
+    if (grid.frame().has_floats && try_fill_with_slabs(grid, executor, fill)) return;
+  }
+  fill_all(grid, executor, fill);
+}
+
+/// If the mesh is smooth.
+template <typename Scalar>
+template <typename Fill>
+bool MeshBlocks<Scalar>::try_fill_with_slabs(const Grid& grid, const Executor* executor, const Fill& fill) {
+  const detail::SlabFitter fitter(grid.frame());
+  const auto fit = [&](const detail::ListCell& cell) {
+    const std::size_t first_entry = grid.first_entry(cell.word);
+    return fitter.fit(cell, corners(block(cell.word.number(), first_entry)), grid.entry_count(cell.word));
+  };
+  const auto fill_and_fit = [&](const detail::ListCell& cell) {
+    fill(cell.word);
+    return fit(cell);
+  };
+  if (!is_smooth(grid, fill_and_fit)) return false;
+  slabs_.resize(grid.lists().size() - 1);
+  if (executor == nullptr) {
+    // Each one while its triangles are in the cache.
+    detail::visit_list_cells(grid, 0, grid.top().size(),
+                             [&](const detail::ListCell& cell) { slabs_[cell.word.number()] = fill_and_fit(cell); });
+    return true;
+  }
+  // What is read beyond a list's end may be another task's to fill.
+  fill_all(grid, executor, fill);
+  detail::in_parts(executor, grid.top().size(), top_cells_in_a_part, [&](std::size_t first, std::size_t last) {
+    detail::visit_list_cells(grid, first, last,
+                             [&](const detail::ListCell& cell) { slabs_[cell.word.number()] = fit(cell); });
   });
+  return true;
 }
 
 template <typename Scalar>
@@ -134,7 +210,8 @@ template <typename Scalar>
 std::size_t MeshBlocks<Scalar>::memory_bytes() const noexcept {
   const std::size_t corner_bytes =
       with_corners([](const auto& triangles) { return triangles.capacity() * sizeof(triangles.front()); });
-  return vertices_.capacity() * sizeof(Vector3<Scalar>) + corner_bytes + blocks_.capacity() * sizeof(Scalar);
+  return vertices_.capacity() * sizeof(Vector3<Scalar>) + corner_bytes + blocks_.capacity() * sizeof(Scalar) +
+         slabs_.capacity() * sizeof(CellSlab);
 }
 
 template class MeshBlocks<float>;

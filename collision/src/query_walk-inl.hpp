@@ -109,7 +109,7 @@ template <LaneTask task, typename Visitor>
 HWY_NOINLINE void walk_side_by_side(float enters, const Query<float>& query, const Path<float>& path,
                                     const PathRange<float>& range, const PlacedPath& placed, Visitor& visitor) {
   const BitsTag du;
-  const LaneWalk lanes(query.grid);
+  const LaneWalk lanes(query.grid, query.mesh.slabs());
   WalkingPaths paths;
   auto walking = static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(du)) - 1);
   if constexpr (task == LaneTask::cell) {
@@ -123,7 +123,7 @@ HWY_NOINLINE void walk_side_by_side(float enters, const Query<float>& query, con
     const LaneWalk::Cells cells = lanes.look<task == LaneTask::piece_in_levels>(paths, walking);
     const auto lists = hn::Eq(hn::And(cells.word, hn::Set(du, 15U)), hn::Zero(du));
     auto arriving = static_cast<std::uint32_t>(bits_of(du, lists)) & walking;
-    if (arriving != 0) arriving = lanes.meet_boxes(cells, arriving, paths);
+    if (arriving != 0) arriving = lanes.meet_lists(cells, arriving, paths);
     if (arriving != 0) {
       alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_lanes> words;
       hn::Store(cells.word, du, words.data());
@@ -189,6 +189,7 @@ HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<S
   for (GridTraversal traversal(query.grid, placed, enters); !traversal.at_end(); traversal.advance()) {
     ++query.statistics.cells;
     if (traversal.word().is_empty() || !traversal.meets_box()) continue;
+    if (query.mesh.has_slabs() && !traversal.meets(query.mesh.slab(traversal.word()))) continue;
     const ForKernel<Scalar>& for_kernel = when.get(path, range, query.grid.frame());
     const TriangleList<Scalar> list = list_of(query, traversal.word());
     query.statistics.candidates += list.count;

@@ -36,12 +36,16 @@ TEST(Float4, GreatestLanesAreThoseOfEachVector) {
   }
 }
 
-TEST(Float4, LeastLaneIsInEveryLane) {
+TEST(Float4, LeastAndGreatestLaneAreInEveryLane) {
   Random random(7);
   for (int i = 0; i < 1000; ++i) {
     const Float4 x = draw(random);
     const Float4 least = least_lane(x);
-    for (int lane = 0; lane < 4; ++lane) EXPECT_EQ(least[lane], least_of(x));
+    const Float4 greatest = greatest_lane(x);
+    for (int lane = 0; lane < 4; ++lane) {
+      EXPECT_EQ(least[lane], least_of(x));
+      EXPECT_EQ(greatest[lane], greatest_of(x));
+    }
   }
   const Float4 with_infinity = least_lane(Float4{std::numeric_limits<float>::infinity(), 3, 2, 5});
   for (int lane = 0; lane < 4; ++lane) EXPECT_EQ(with_infinity[lane], 2);
@@ -99,6 +103,7 @@ TEST(Float4, LanesAreComparedAndConvertedOneByOne) {
       EXPECT_EQ(with_fourth(a, b[0])[lane], lane == 3 ? b[0] : a[lane]);
     }
     EXPECT_EQ(sum_of(to_float(whole)), static_cast<float>(whole[0] + whole[1] + whole[2] + whole[3]));
+    EXPECT_EQ(sum_of_three(to_float(whole)), static_cast<float>(whole[0] + whole[1] + whole[2]));
     EXPECT_EQ(any_lane_exceeds_any(a, b + 1), greatest_of(a) > least_of(b) + 1);
     const Int4 other = to_int(100 * b);
     for (int lane = 0; lane < 4; ++lane) {

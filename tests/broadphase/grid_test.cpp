@@ -234,6 +234,33 @@ TEST(CellBox, HoldsEverySide) {
   }
 }
 
+TEST(CellSlab, HoldsEveryNormalAndPlace) {
+  const auto expect_held = [](const std::array<std::int32_t, 3>& normal, std::int32_t low, std::int32_t high) {
+    const CellSlab slab = CellSlab::between(normal, low, high);
+    const CellSlab same(slab.bits());
+    for (std::size_t axis = 0; axis < 3; ++axis) ASSERT_EQ(same.normal(axis), normal[axis]);
+    ASSERT_EQ(same.low(), low);
+    ASSERT_EQ(same.high(), high);
+  };
+  constexpr std::int32_t longest = CellSlab::longest;
+  for (std::int32_t x = -longest; x <= longest; ++x) {
+    for (std::int32_t y = -longest; y <= longest; ++y) {
+      expect_held({x, y, 0}, -x, y);
+      expect_held({y, longest, x}, CellSlab::lowest, CellSlab::highest);
+      expect_held({-longest, x, y}, CellSlab::lowest + longest + x, CellSlab::highest - longest - y);
+    }
+  }
+  for (std::int32_t low = CellSlab::lowest; low <= CellSlab::highest; ++low) expect_held({1, -2, 3}, low, -1 - low);
+}
+
+/// And half a padding more, which is half of a sixteenth of a cell at most.
+TEST(CellSlab, HasAllOfItsCellBetweenItsPlanesUnlessItIsGivenOthers) {
+  const CellSlab all;
+  const float farthest = 3 * CellSlab::longest * (0.5F + 1.0F / 32);
+  EXPECT_LE(static_cast<float>(all.low()) * CellSlab::step, -farthest);
+  EXPECT_GE(static_cast<float>(all.high() + 1) * CellSlab::step, farthest);
+}
+
 TYPED_TEST(GridTest, ListsAreWellFormed) {
   const auto scattered = scattered_triangles<TypeParam>(1000, 0.5F, this->random_);
   this->expect_well_formed(this->grid_of(scattered));

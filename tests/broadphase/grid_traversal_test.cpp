@@ -135,6 +135,55 @@ TYPED_TEST(GridTraversalTest, PointHasOneCellInsideAndNoneOutside) {
   }
 }
 
+/// Paths that run along one of its planes, as near as a Scalar comes, through cells that are narrow for its roundings.
+TYPED_TEST(GridTraversalTest, MeetsASlabThatThePathTouches) {
+  Random random(113);
+  // All boxes of lists are as large as their cells.
+  GeneratedMesh<TypeParam> mesh;
+  mesh.add({{0, 0, 0}, {1, 0, 0}, {1, 1, 1}});
+  mesh.add({{0, 0, 0}, {1, 1, 1}, {0, 1, 1}});
+  const Grid grid(mesh.view(), box_of(mesh.view()), {.resolution = {2048, 1, 1}, .crowded = 0});
+  const GridFrame& frame = grid.frame();
+  ASSERT_EQ(frame.resolution(0), 2048U);
+  std::size_t met = 0;
+  std::size_t missed = 0;
+  for (std::size_t i = case_count(3000); i > 0; --i) {
+    const std::uint32_t column = 100 + static_cast<std::uint32_t>(random.below(1900));
+    std::array<std::int32_t, 3> normal = {15, 0, 0};
+    for (std::size_t axis = 1; axis < 3; ++axis) normal[axis] = static_cast<std::int32_t>(random.between(-15, 15));
+    if (random.one_in(2)) normal[0] = -15;
+    const auto place = static_cast<std::int32_t>(random.between(-50, 50));
+    const auto width = static_cast<std::int32_t>(random.between(1, 9));
+    const CellSlab slab = random.one_in(2) ? CellSlab::between(normal, place, place + width - 1)
+                                           : CellSlab::between(normal, place - width, place - 1);
+    const double off = random.symmetric<double>() * frame.padding(0) / 4;
+    const auto point = [&]() -> Vector3<TypeParam> {
+      const double y = random.unit<double>();
+      const double z = random.unit<double>();
+      const double height = place * double{CellSlab::step} - normal[1] * (y - 0.5) - normal[2] * (z - 0.5);
+      const double x = column + 0.5 + height / normal[0] + off;
+      return {static_cast<TypeParam>(out_of_frame(frame, 0, x)), static_cast<TypeParam>(out_of_frame(frame, 1, y)),
+              static_cast<TypeParam>(out_of_frame(frame, 2, z))};
+    };
+    const Path<TypeParam> path = Segment<TypeParam>{point(), point()};
+    const PlacedPath placed(grid, path, 0, 1);
+    for (GridTraversal walk(grid, placed); !walk.at_end(); walk.advance()) {
+      const auto low = static_cast<std::uint32_t>(walk.low()[0]);
+      if (((placed.octant & 1) != 0 ? 2047 - low : low) != column) continue;
+      ASSERT_TRUE(walk.meets_box());
+      const LeafCell leaf{{column, 0, 0}, 1, walk.word()};
+      if (meets_part_in_slab(frame, path, 0, 1, leaf.box(), leaf.placed(slab))) {
+        EXPECT_TRUE(walk.meets(slab)) << hex_text(path);
+        ++met;
+      } else {
+        ++missed;
+      }
+    }
+  }
+  EXPECT_GT(met, case_count(300));
+  EXPECT_GT(missed, case_count(300));
+}
+
 /// Through corners of cells by steps and by leaps of every length, which are short in divided cells. A leap on one axis
 /// may land where another plane is crossed at the same rounded tau and the rounded place lies before that plane, so
 /// that the next one stays where it is.

@@ -91,6 +91,11 @@ TYPED_TEST(ColliderRebuild, answers_as_new_of_a_surface) {
   this->expect_deforms(rough_ground<TypeParam>(9, TypeParam{0.5}, random));
 }
 
+/// Of which some of what it becomes is smooth too, and some is not.
+TYPED_TEST(ColliderRebuild, answers_as_new_of_a_smooth_surface) {
+  this->expect_deforms(placed<TypeParam>(smooth_bowl<TypeParam>(12), TypeParam{0.5}, {0, 0, -1}));
+}
+
 TYPED_TEST(ColliderRebuild, answers_as_new_of_a_lattice) { this->expect_deforms(lattice_cube<TypeParam>(3)); }
 
 TYPED_TEST(ColliderRebuild, answers_as_new_in_nested_grids) {

@@ -313,6 +313,14 @@ TYPED_TEST(BuildOnExecutor, is_the_same_where_cells_are_divided) {
   this->expect_same_with(NewThreads(2), mesh, {GridOptions{.resolution = {9, 5, 7}, .crowded = 20}, {}});
 }
 
+TYPED_TEST(BuildOnExecutor, is_the_same_of_a_smooth_mesh) {
+  const auto mesh = smooth_bowl<TypeParam>(100);
+  const BuildOptions options{GridOptions{.resolution = {70, 70, 70}}, {}};
+  ASSERT_GT(Collider<TypeParam>(mesh.view(), options).grid().lists().size(), 1U << 13);
+  this->expect_same_with(&forwards, mesh, options);
+  this->expect_same_with(NewThreads(3), mesh, options);
+}
+
 /// Those of the first part take more room than a part has, though not more than the mesh may take.
 TYPED_TEST(BuildOnExecutor, is_the_same_where_a_part_has_no_room) {
   auto mesh = scattered_triangles<TypeParam>(8192, TypeParam{0.4F}, this->random_);

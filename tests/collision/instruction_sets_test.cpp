@@ -115,6 +115,8 @@ TYPED_TEST(InstructionSets, AnswerAlikeOnRoughGround) {
   this->expect_same_answers(with_small_copy(ground, {0.3F, -0.2F, 0.1F}), 200);
 }
 
+TYPED_TEST(InstructionSets, AnswerAlikeOnASmoothSurface) { this->expect_same_answers(smooth_bowl<TypeParam>(20), 200); }
+
 TYPED_TEST(InstructionSets, AnswerAlikeOnVerticesAndEdgesOfALattice) {
   this->expect_same_answers(lattice_cube<TypeParam>(6), 200);
 }

@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "support/box_sides.hpp"
@@ -14,12 +16,14 @@
 #include "support/path_drawer.hpp"
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
+#include "surehit/mesh_blocks.hpp"
 
 namespace surehit::test {
 namespace {
 
-/// A path's candidates are the lists of those cells in whose boxes it is, and maybe of some that it nearly touches: for
-/// a path alone and for one in a lane. No triangle takes part, so that every walk goes to its end.
+/// A path's candidates are the lists of those cells in whose boxes it is, and there in their slabs, if lists have any;
+/// and maybe of some that it nearly touches: for a path alone and for one in a lane. No triangle takes part, so that
+/// every walk goes to its end.
 template <typename Scalar>
 class ListBox : public testing::Test {
  protected:
@@ -28,7 +32,8 @@ class ListBox : public testing::Test {
     std::uint64_t most = 0;
   };
 
-  static Bounds candidates_of(const Grid& grid, const LeafCells& leaves, const Path<Scalar>& path) {
+  static Bounds candidates_of(const Grid& grid, const MeshBlocks<Scalar>& blocks, const LeafCells& leaves,
+                              const Path<Scalar>& path) {
     const double first = path.has_start() ? 0 : -infinity;
     const double last = path.has_end() ? 1 : infinity;
     Bounds bounds;
@@ -36,10 +41,13 @@ class ListBox : public testing::Test {
       if (leaf.word.is_empty()) continue;
       const std::size_t listed = grid.triangles(leaf.word).size();
       const ExactBox box = leaf.listed_box(grid);
-      const auto is_in = [&](const ExactBox& part) { return meets_box(grid.frame(), path, first, last, part); };
-      const bool is_near = is_in(box.grown(growth_by(grid.frame(), 2 * GridFrame::padding_share)));
+      const ExactSlab slab = leaf.placed(blocks.has_slabs() ? blocks.slab(leaf.word) : CellSlab());
+      const auto is_in = [&](const Growth& growth) {
+        return meets_part_in_slab(grid.frame(), path, first, last, box.grown(growth), slab.grown(growth));
+      };
+      const bool is_near = is_in(growth_by(grid.frame(), 2 * GridFrame::padding_share));
       bounds.most += is_near ? listed : 0;
-      bounds.least += is_near && is_in(box) ? listed : 0;
+      bounds.least += is_near && is_in({}) ? listed : 0;
     }
     return bounds;
   }
@@ -87,6 +95,8 @@ class ListBox : public testing::Test {
   void scan(const GeneratedMesh<Scalar>& mesh, const GridOptions& options, std::size_t paths) {
     const Collider<Scalar> collider(mesh.view(), BuildOptions{options, {}});
     const Grid grid(mesh.view(), box_of(mesh.view()), options);
+    const MeshBlocks<Scalar> blocks(mesh.view(), grid);
+    has_slabs_ = blocks.has_slabs();
     const LeafCells leaves(grid);
     PathDrawer<Scalar> drawer(mesh.view(), 7);
     std::vector<Segment<Scalar>> segments;
@@ -100,12 +110,12 @@ class ListBox : public testing::Test {
       }
       if (path.has_end()) {
         segments.push_back({path.start, path.toward});
-        of_segments.push_back(candidates_of(grid, leaves, path));
+        of_segments.push_back(candidates_of(grid, blocks, leaves, path));
         passed_by_ += of_segments.back().most == 0 ? 1 : 0;
         met_ += of_segments.back().least != 0 ? 1 : 0;
       } else {
         lines.push_back({path.start, path.toward});
-        of_lines.push_back(candidates_of(grid, leaves, Path<Scalar>(lines.back())));
+        of_lines.push_back(candidates_of(grid, blocks, leaves, Path<Scalar>(lines.back())));
       }
     }
     expect_within(collider, segments, of_segments);
@@ -113,6 +123,7 @@ class ListBox : public testing::Test {
   }
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
+  bool has_slabs_ = false;
   std::size_t passed_by_ = 0;
   std::size_t met_ = 0;
 };
@@ -130,6 +141,19 @@ TYPED_TEST(ListBox, IsMetByPathsThatPassThroughIt) {
     this->scan(triangles_on_box_sides<TypeParam>(60, options, random), options, 1000);
   }
   EXPECT_GT(this->passed_by_, 0U);
+  EXPECT_GT(this->met_, 0U);
+}
+
+TYPED_TEST(ListBox, AndSlabAreMetByPathsThatPassThroughThem) {
+  constexpr bool has_slabs = std::is_same_v<TypeParam, float>;
+  const auto bowl = smooth_bowl<TypeParam>(9);
+  for (const GridOptions& options : {GridOptions{.resolution = {6, 5, 8}, .crowded = 0},
+                                     GridOptions{.resolution = {3, 4, 2}, .crowded = 7}, GridOptions{}}) {
+    this->scan(bowl, options, 300);
+    EXPECT_EQ(this->has_slabs_, has_slabs);
+    this->scan(placed<TypeParam>(bowl, 100, {1e5F, -1e5F, 1e5F}), options, 100);
+    EXPECT_EQ(this->has_slabs_, has_slabs);
+  }
   EXPECT_GT(this->met_, 0U);
 }
 

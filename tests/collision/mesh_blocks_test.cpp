@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,22 @@ class MeshBlocksTest : public testing::Test {
         }
       }
       EXPECT_EQ(blocks.edge_size(block), edge_size);
+    }
+  }
+
+  /// What a path meets of a triangle in a list's box, it meets in its slab.
+  static void expect_slabs_hold(const GeneratedMesh<Scalar>& mesh, const Grid& grid, const MeshBlocks<Scalar>& blocks) {
+    if (!blocks.has_slabs()) return;
+    for (const LeafCell& leaf : LeafCells(grid)) {
+      if (leaf.word.is_empty()) continue;
+      const ExactSlab slab = leaf.placed(blocks.slab(leaf.word));
+      const ExactBox box = leaf.listed_box(grid).grown(growth_by(grid.frame(), GridFrame::padding_share / 2));
+      for (const std::uint32_t id : grid.triangles(leaf.word)) {
+        for (const ExactPoint& corner : part_in(box, in_frame(grid.frame(), mesh.view().triangle(id)))) {
+          EXPECT_LE(slab.low, slab.height_of(corner)) << id;
+          EXPECT_GE(slab.high, slab.height_of(corner)) << id;
+        }
+      }
     }
   }
 };
@@ -93,6 +110,70 @@ TYPED_TEST(MeshBlocksTest, TakesOverTheTrianglesOfAMeshThatMoves) {
     ASSERT_EQ(blocks.triangle_count(), 300U);
     EXPECT_EQ(blocks.triangle(299).c, mesh.view().triangle(299).c);
     this->expect_copies(mesh, grid, blocks);
+  }
+}
+
+/// In float; a bowl is smooth however it is placed, and triangles that are scattered are not.
+TYPED_TEST(MeshBlocksTest, HasSlabsOfSmoothMeshesOnly) {
+  Random random(10);
+  const auto bowl = smooth_bowl<TypeParam>(30);
+  for (const GridOptions& options : {GridOptions{}, GridOptions{.resolution = {9, 7, 8}, .crowded = 20}}) {
+    for (const auto& mesh : {bowl, placed<TypeParam>(bowl, TypeParam(0.01), {3, -2, 1})}) {
+      const Grid grid = this->grid_of(mesh, options);
+      const MeshBlocks<TypeParam> blocks(mesh.view(), grid);
+      ASSERT_EQ(blocks.has_slabs(), (std::is_same_v<TypeParam, float>));
+      this->expect_slabs_hold(mesh, grid, blocks);
+    }
+  }
+  for (const auto& mesh : {scattered_triangles<TypeParam>(2000, TypeParam(0.3), random), lattice_cube<TypeParam>(9),
+                           rough_ground<TypeParam>(30, TypeParam(0.1), random)}) {
+    EXPECT_FALSE(MeshBlocks<TypeParam>(mesh.view(), this->grid_of(mesh, {})).has_slabs());
+  }
+}
+
+TYPED_TEST(MeshBlocksTest, HasSlabsAsLongAsAMeshThatMovesIsSmooth) {
+  Random random(11);
+  auto mesh = smooth_bowl<TypeParam>(30);
+  const auto smooth = mesh.vertices;
+  MeshBlocks<TypeParam> blocks(mesh.view(), this->grid_of(mesh, {}));
+  MeshBlocks<TypeParam> spare;
+  for (int move = 0; move < 4; ++move) {
+    const bool is_smooth = move >= 2;  // each twice: memory is that of the move before the last
+    mesh.vertices = smooth;
+    for (auto& vertex : mesh.vertices) {
+      vertex[2] = is_smooth ? -vertex[2] : vertex[2] + random.template unit<TypeParam>();
+    }
+    const Grid grid = this->grid_of(mesh, {});
+    spare.rebuild(blocks, mesh.view().vertices(), grid);
+    std::swap(spare, blocks);
+    EXPECT_EQ(blocks.has_slabs(), (is_smooth && std::is_same_v<TypeParam, float>)) << move;
+    EXPECT_EQ(blocks.slabs() != nullptr, blocks.has_slabs()) << move;
+    this->expect_copies(mesh, grid, blocks);
+    this->expect_slabs_hold(mesh, grid, blocks);
+  }
+}
+
+/// Of more lists and cells than one task has.
+TYPED_TEST(MeshBlocksTest, IsTheSameWithAnExecutor) {
+  const auto mesh = smooth_bowl<TypeParam>(90);
+  const Grid grid = this->grid_of(mesh, {.resolution = {60, 60, 60}});
+  ASSERT_GT(grid.lists().size(), 1U << 12);
+  ASSERT_GT(grid.top().size(), 1U << 14);
+  std::size_t tasks = 0;
+  const auto backward = [&](std::size_t count, const Executor::Task& task) {
+    for (std::size_t i = count; i > 0; --i) task(i - 1);
+    tasks += count;
+  };
+  const Executor executor(backward);
+  const MeshBlocks<TypeParam> blocks(mesh.view(), grid, &executor);
+  EXPECT_GT(tasks, 1U);
+  const MeshBlocks<TypeParam> expected(mesh.view(), grid);
+  ASSERT_EQ(blocks.has_slabs(), expected.has_slabs());
+  EXPECT_EQ(blocks.has_slabs(), (std::is_same_v<TypeParam, float>));
+  this->expect_copies(mesh, grid, blocks);
+  if (!blocks.has_slabs()) return;
+  for (std::size_t list = 0; list + 1 < grid.lists().size(); ++list) {
+    EXPECT_EQ(blocks.slabs()[list].bits(), expected.slabs()[list].bits()) << list;
   }
 }
 

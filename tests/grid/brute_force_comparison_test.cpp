@@ -92,6 +92,12 @@ TYPED_TEST(BruteForceComparison, RoughGround) {
   this->compare(rough_ground<TypeParam>(24, TypeParam{0.1F}, this->random_), 250);
 }
 
+TYPED_TEST(BruteForceComparison, SmoothSurface) {
+  const auto bowl = smooth_bowl<TypeParam>(24);
+  this->compare(bowl, 250);
+  this->compare(placed<TypeParam>(bowl, TypeParam{100}, {1e5, -1e5, 1e5}), 100);
+}
+
 TYPED_TEST(BruteForceComparison, SpotsCrowdedWithSmallTriangles) {
   const auto ground = rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_);
   const auto uneven = with_small_copy(ground, {TypeParam{0.3F}, TypeParam{-0.2F}, TypeParam{0.1F}});

@@ -24,6 +24,53 @@ ExactPolygon cut(const ExactPolygon& polygon, std::size_t axis, const mpq_class&
   return kept;
 }
 
+/// The parameters at which a path is in some region.
+class PartOfPath {
+ public:
+  template <typename Scalar>
+  PartOfPath(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t)
+      : start_(in_frame(frame, path.start)) {
+    if (std::isfinite(first_t)) first_ = first_t;
+    if (std::isfinite(last_t)) last_ = last_t;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      rate_[axis] = scaled_exactly(path.toward[k], frame.exponent);
+      if (path.has_end()) rate_[axis] -= scaled_exactly(path.start[k], frame.exponent);
+      rate_[axis] *= frame.scale[axis];
+    }
+  }
+
+  PartOfPath& within(const ExactBox& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) cut(start_[axis], rate_[axis], box.low[axis], box.high[axis]);
+    return *this;
+  }
+  PartOfPath& within(const ExactSlab& slab) {
+    cut(slab.height_of(start_), slab.height_of(rate_), slab.low, slab.high);
+    return *this;
+  }
+  [[nodiscard]] bool is_empty() const { return is_empty_ || (first_ && last_ && *first_ > *last_); }
+
+ private:
+  /// To where start + t rate is in [low, high].
+  void cut(const mpq_class& start, const mpq_class& rate, const mpq_class& low, const mpq_class& high) {
+    if (rate == 0) {
+      is_empty_ |= start < low || high < start;
+      return;
+    }
+    mpq_class enters = (low - start) / rate;
+    mpq_class leaves = (high - start) / rate;
+    if (rate < 0) std::swap(enters, leaves);
+    if (!first_ || *first_ < enters) first_ = enters;
+    if (!last_ || *last_ > leaves) last_ = leaves;
+  }
+
+  ExactPoint start_;
+  ExactPoint rate_;
+  std::optional<mpq_class> first_;
+  std::optional<mpq_class> last_;
+  bool is_empty_ = false;
+};
+
 }  // namespace
 
 mpq_class scaled_exactly(double x, int exponent) {
@@ -80,6 +127,19 @@ ExactBox ExactBox::grown(const Growth& growth) const {
   return box;
 }
 
+mpq_class ExactSlab::height_of(const ExactPoint& point) const {
+  return normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2];
+}
+
+ExactSlab ExactSlab::grown(const Growth& growth) const {
+  ExactSlab slab = *this;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    slab.low -= abs(normal[axis]) * growth[axis];
+    slab.high += abs(normal[axis]) * growth[axis];
+  }
+  return slab;
+}
+
 ExactBox LeafCell::box() const {
   ExactBox box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -99,6 +159,19 @@ ExactBox LeafCell::listed_box(const Grid& grid) const {
     box.high[axis].canonicalize();
   }
   return box;
+}
+
+ExactSlab LeafCell::placed(CellSlab slab) const {
+  ExactSlab exact;
+  ExactPoint centre;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    exact.normal[axis] = slab.normal(axis);
+    centre[axis] = low[axis] + size / 2.0;
+  }
+  const mpq_class step = double{CellSlab::step} * size;
+  exact.low = exact.height_of(centre) + slab.low() * step;
+  exact.high = exact.height_of(centre) + (slab.high() + 1) * step;
+  return exact;
 }
 
 LeafCells::LeafCells(const Grid& grid) {
@@ -164,34 +237,22 @@ bool meets_box(const ExactPolygon& polygon, const ExactBox& box) { return !part_
 
 template <typename Scalar>
 bool meets_box(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t, const ExactBox& box) {
-  const ExactPoint start = in_frame(frame, path.start);
-  std::optional<mpq_class> first;
-  std::optional<mpq_class> last;
-  if (std::isfinite(first_t)) first = first_t;
-  if (std::isfinite(last_t)) last = last_t;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
-    mpq_class rate = scaled_exactly(path.toward[k], frame.exponent);
-    if (path.has_end()) rate -= scaled_exactly(path.start[k], frame.exponent);
-    rate *= frame.scale[axis];
-    if (rate == 0) {
-      if (start[axis] < box.low[axis] || box.high[axis] < start[axis]) return false;
-      continue;
-    }
-    mpq_class enters = (box.low[axis] - start[axis]) / rate;
-    mpq_class leaves = (box.high[axis] - start[axis]) / rate;
-    if (rate < 0) std::swap(enters, leaves);
-    if (!first || *first < enters) first = enters;
-    if (!last || *last > leaves) last = leaves;
-  }
-  return !first || !last || *first <= *last;
+  return !PartOfPath(frame, path, first_t, last_t).within(box).is_empty();
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                          \
-  template ExactPoint in_frame(const GridFrame&, const Vector3<Scalar>&);    \
-  template ExactPolygon in_frame(const GridFrame&, const Triangle<Scalar>&); \
-  template Line<Scalar> line_through_corners(const GridFrame&, Random&);     \
-  template bool meets_box(const GridFrame&, const Path<Scalar>&, double, double, const ExactBox&);
+template <typename Scalar>
+bool meets_part_in_slab(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t,
+                        const ExactBox& box, const ExactSlab& slab) {
+  return !PartOfPath(frame, path, first_t, last_t).within(box).within(slab).is_empty();
+}
+
+#define SUREHIT_INSTANTIATE(Scalar)                                                                        \
+  template ExactPoint in_frame(const GridFrame&, const Vector3<Scalar>&);                                  \
+  template ExactPolygon in_frame(const GridFrame&, const Triangle<Scalar>&);                               \
+  template Line<Scalar> line_through_corners(const GridFrame&, Random&);                                   \
+  template bool meets_box(const GridFrame&, const Path<Scalar>&, double, double, const ExactBox&);         \
+  template bool meets_part_in_slab(const GridFrame&, const Path<Scalar>&, double, double, const ExactBox&, \
+                                   const ExactSlab&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)
 #undef SUREHIT_INSTANTIATE

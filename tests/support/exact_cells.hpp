@@ -48,6 +48,17 @@ struct ExactBox {
   [[nodiscard]] ExactBox grown(const Growth& growth) const;
 };
 
+/// What lies between two parallel planes, closed: along the normal, counted in finest cells.
+struct ExactSlab {
+  ExactPoint normal;
+  mpq_class low;
+  mpq_class high;
+
+  [[nodiscard]] mpq_class height_of(const ExactPoint& point) const;
+  /// By as much as a box is that is grown on each axis.
+  [[nodiscard]] ExactSlab grown(const Growth& growth) const;
+};
+
 /// A cell that is not divided.
 struct LeafCell {
   std::array<std::uint32_t, 3> low;  ///< in finest cells
@@ -57,6 +68,8 @@ struct LeafCell {
   [[nodiscard]] ExactBox box() const;
   /// What its list, which is not empty, takes up of it.
   [[nodiscard]] ExactBox listed_box(const Grid& grid) const;
+  /// Where such a slab is in this cell.
+  [[nodiscard]] ExactSlab placed(CellSlab slab) const;
 };
 
 /// All cells of a grid that are not divided: they fill it without overlap.
@@ -90,5 +103,9 @@ class LeafCells {
 template <typename Scalar>
 [[nodiscard]] bool meets_box(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t,
                              const ExactBox& box);
+/// The same of the box's part in the slab.
+template <typename Scalar>
+[[nodiscard]] bool meets_part_in_slab(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t,
+                                      const ExactBox& box, const ExactSlab& slab);
 
 }  // namespace surehit::test

@@ -35,6 +35,29 @@ Vector3<Scalar> vertex(const LatticePoint& point, std::int32_t factor = 1) {
           static_cast<Scalar>(point[2] * factor)};
 }
 
+/// `count` × `count` squares of two triangles over [-1, 1]².
+template <typename Scalar, typename HeightAt>
+GeneratedMesh<Scalar> ground(std::uint32_t count, const HeightAt& height_at) {
+  GeneratedMesh<Scalar> mesh;
+  const Scalar step = 2 / static_cast<Scalar>(count);
+  for (std::uint32_t y = 0; y <= count; ++y) {
+    for (std::uint32_t x = 0; x <= count; ++x) {
+      const Scalar at_x = static_cast<Scalar>(x) * step - 1;
+      const Scalar at_y = static_cast<Scalar>(y) * step - 1;
+      mesh.vertices.emplace_back(at_x, at_y, height_at(at_x, at_y));
+    }
+  }
+  for (std::uint32_t y = 0; y < count; ++y) {
+    for (std::uint32_t x = 0; x < count; ++x) {
+      const std::uint32_t corner = y * (count + 1) + x;
+      const std::uint32_t above = corner + count + 1;
+      mesh.triangles.push_back({corner, corner + 1, above + 1});
+      mesh.triangles.push_back({corner, above + 1, above});
+    }
+  }
+  return mesh;
+}
+
 }  // namespace
 
 template <typename Scalar>
@@ -63,23 +86,13 @@ GeneratedMesh<Scalar> scattered_triangles(std::size_t count, Scalar size, Random
 
 template <typename Scalar>
 GeneratedMesh<Scalar> rough_ground(std::uint32_t count, Scalar height, Random& random) {
-  GeneratedMesh<Scalar> mesh;
-  const Scalar step = 2 / static_cast<Scalar>(count);
-  for (std::uint32_t y = 0; y <= count; ++y) {
-    for (std::uint32_t x = 0; x <= count; ++x) {
-      mesh.vertices.emplace_back(static_cast<Scalar>(x) * step - 1, static_cast<Scalar>(y) * step - 1,
-                                 height * random.unit<Scalar>());
-    }
-  }
-  for (std::uint32_t y = 0; y < count; ++y) {
-    for (std::uint32_t x = 0; x < count; ++x) {
-      const std::uint32_t corner = y * (count + 1) + x;
-      const std::uint32_t above = corner + count + 1;
-      mesh.triangles.push_back({corner, corner + 1, above + 1});
-      mesh.triangles.push_back({corner, above + 1, above});
-    }
-  }
-  return mesh;
+  return ground<Scalar>(count, [&](Scalar, Scalar) { return height * random.unit<Scalar>(); });
+}
+
+template <typename Scalar>
+GeneratedMesh<Scalar> smooth_bowl(std::uint32_t count) {
+  return ground<Scalar>(
+      count, [](Scalar x, Scalar y) { return (x + Scalar{1.5F}) * (x + Scalar{1.5F}) / 2 + (y + 2) * (y + 2) / 3; });
 }
 
 template <typename Scalar>
@@ -208,6 +221,7 @@ GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>& mesh, const V
   template struct GeneratedMesh<Scalar>;                                                        \
   template GeneratedMesh<Scalar> scattered_triangles(std::size_t, Scalar, Random&);             \
   template GeneratedMesh<Scalar> rough_ground(std::uint32_t, Scalar, Random&);                  \
+  template GeneratedMesh<Scalar> smooth_bowl(std::uint32_t);                                    \
   template GeneratedMesh<Scalar> line_of_needles(std::size_t, Random&);                         \
   template GeneratedMesh<Scalar> dust_in_square(std::size_t, Random&);                          \
   template GeneratedMesh<Scalar> lattice_cube(std::uint32_t);                                   \

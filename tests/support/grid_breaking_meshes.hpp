@@ -30,6 +30,11 @@ template <typename Scalar>
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> rough_ground(std::uint32_t count, Scalar height, Random& random);
 
+/// As many squares of a bowl's wall, steep all over and without an edge or a dent: most lists of a grid have slabs that
+/// are much thinner than their boxes.
+template <typename Scalar>
+[[nodiscard]] GeneratedMesh<Scalar> smooth_bowl(std::uint32_t count);
+
 /// `count` triangles one behind the other along x, each a thousand times as long as it is wide.
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> line_of_needles(std::size_t count, Random& random);

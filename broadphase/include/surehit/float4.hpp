@@ -48,11 +48,20 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
   return least(pairs, __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1));
 }
 
+/// The greatest lane, in every lane.
+[[gnu::always_inline]] inline Float4 greatest_lane(Float4 x) {
+  const Float4 pairs = greatest(x, __builtin_shufflevector(x, x, 1, 0, 3, 2));
+  return greatest(pairs, __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1));
+}
+
 /// Of all lanes.
 [[gnu::always_inline]] inline float sum_of(Float4 x) {
   const Float4 pairs = x + __builtin_shufflevector(x, x, 2, 3, 0, 1);
   return pairs[0] + pairs[1];
 }
+
+/// Of the first three lanes.
+[[gnu::always_inline]] inline float sum_of_three(Float4 x) { return x[0] + x[1] + x[2]; }
 
 [[gnu::always_inline]] inline bool any_lane(Int4 mask) {
   using Long2 = std::int64_t __attribute__((vector_size(16)));

@@ -134,6 +134,39 @@ class CellBox {
   std::uint32_t bits_ = 0;
 };
 
+/// Two parallel planes that have between them what of a list's triangles may be met in its cell, in 32 bits: their
+/// normal in whole numbers, five bits for each component, and two places along it, eight bits for each, in steps of
+/// 3/16 of the cell's edge from the cell's centre. No point of the cell grown by half a padding, 1/32 of its edge or
+/// less, is more than 127.5 steps from there; so the last places hold all beyond them too.
+class CellSlab {
+ public:
+  static constexpr std::int32_t longest = 15;   ///< component of a normal
+  static constexpr std::int32_t lowest = -128;  ///< place,
+  static constexpr std::int32_t highest = 127;  //
+  static constexpr float step = 3.0F / 16;      ///< from one to the next, in edges of the cell
+
+  /// All of the cell.
+  CellSlab() = default;
+  explicit CellSlab(std::uint32_t bits) : bits_(bits) {}
+
+  /// The upper plane is at the place after `high`.
+  static CellSlab between(const std::array<std::int32_t, 3>& normal, std::int32_t low, std::int32_t high) {
+    std::uint32_t bits = (static_cast<std::uint32_t>(low) & 0xff) << 16 | static_cast<std::uint32_t>(high) << 24;
+    for (std::size_t axis = 0; axis < 3; ++axis) bits |= (static_cast<std::uint32_t>(normal[axis]) & 31) << 5 * axis;
+    return CellSlab(bits);
+  }
+
+  [[nodiscard]] std::uint32_t bits() const { return bits_; }
+  [[nodiscard]] std::int32_t normal(std::size_t axis) const {
+    return static_cast<std::int32_t>(bits_ << (27 - 5 * axis)) >> 27;
+  }
+  [[nodiscard]] std::int32_t low() const { return static_cast<std::int32_t>(bits_ << 8) >> 24; }
+  [[nodiscard]] std::int32_t high() const { return static_cast<std::int32_t>(bits_) >> 24; }
+
+ private:
+  std::uint32_t bits_ = 0x7f800000;
+};
+
 /// What a grid knows of a list beside its triangles. It ends where the next one begins.
 struct CellList {
   CellBox box;                ///< the part of the cell that the triangles take up

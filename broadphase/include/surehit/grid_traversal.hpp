@@ -187,6 +187,38 @@ class GridTraversal {
 
   /// Whether the path may meet a triangle of the cell's list: it passes through the box that they take up there.
   [[gnu::always_inline]] [[nodiscard]] bool meets_box() const noexcept {
+    const TausOfBox tau = taus_of_box();
+    return !detail::any_lane_exceeds_any(tau.enters, tau.leaves);
+  }
+
+  /// The same of a path that passes through that box, by the list's slab: unless the path is beyond the same plane
+  /// where it enters the box and where it leaves that.
+  [[gnu::always_inline]] [[nodiscard]] bool meets(CellSlab slab) const noexcept {
+    using namespace detail;
+    const TausOfBox tau = taus_of_box();
+    const Int4 bits = all_lanes(static_cast<std::int32_t>(slab.bits()));
+    const Int4 components = (bits << Int4{27, 22, 17, 0}) >> 27;
+    const Float4 normal = to_float((components ^ falls_) - falls_);
+    const auto size = static_cast<float>(size_);
+    const Float4 to_start = path_.start - (planes_ - size / 2);
+    const float enters = sum_of_three((to_start + greatest_lane(tau.enters) * path_.rate) * normal);
+    const float leaves = sum_of_three((to_start + least_lane(tau.leaves) * path_.rate) * normal);
+    const float slack = sum_of_three(absolute(normal) * (GridFrame::padding_share * grid_.frame().float_stop));
+    const float step = CellSlab::step * size;
+    const float low = static_cast<float>(slab.low()) * step - slack;
+    const float high = static_cast<float>(slab.high() + 1) * step + slack;
+    return !(std::max(enters, leaves) < low || std::min(enters, leaves) > high);
+  }
+
+  /// What the path meets beyond parameter t is of no interest any more.
+  void shorten(double t) noexcept { end_ = std::min(end_, path_.beyond(t)); }
+
+ private:
+  /// tau at which the path enters and leaves the box on each axis, or begins and ends.
+  struct TausOfBox {
+    detail::Float4 enters, leaves;
+  };
+  [[gnu::always_inline]] [[nodiscard]] TausOfBox taus_of_box() const noexcept {
     using namespace detail;
     const Int4 bits = all_lanes(static_cast<std::int32_t>(grid_.box(word_).bits()));
     // Where the path falls, the sides change places and count from the other end.
@@ -203,13 +235,9 @@ class GridTraversal {
     const Float4 last_tau = (corner + (part + padding)) * path_.inverse_rate;
     const Float4 enters = to_float(first) * tau_of_part + first_tau;
     const Float4 leaves = to_float(last) * tau_of_part + last_tau;
-    return !any_lane_exceeds_any(with_fourth(enters, 0), with_fourth(leaves, end_));
+    return {with_fourth(enters, 0), with_fourth(leaves, end_)};
   }
 
-  /// What the path meets beyond parameter t is of no interest any more.
-  void shorten(double t) noexcept { end_ = std::min(end_, path_.beyond(t)); }
-
- private:
   /// Into the next top cell.
   [[gnu::always_inline]] void step() noexcept {
     using namespace detail;

@@ -14,7 +14,7 @@ namespace surehit {
 
 /// A collider's copy of its mesh: the vertices as they were given, the indices, in 16 bits if that numbers all
 /// vertices, and for each list of the grid the triangles' corners a, b and c, coordinate by coordinate, as the kernel
-/// loads them.
+/// loads them; where the mesh is smooth, also the slab in which they lie.
 template <typename Scalar>
 class MeshBlocks {
  public:
@@ -58,6 +58,12 @@ class MeshBlocks {
   /// Coordinate k of triangle i of a list of `count` is at k count + i. A vector load may read beyond the last.
   [[nodiscard]] static const Scalar* corners(const Scalar* block) noexcept { return block + 1; }
 
+  /// Whether lists have slabs: those of a smooth mesh, for most of which these are much thinner than the boxes.
+  [[nodiscard]] bool has_slabs() const noexcept { return !slabs_.empty(); }
+  /// Of the grid's lists, by their numbers; null if they have none.
+  [[nodiscard]] const CellSlab* slabs() const noexcept { return has_slabs() ? slabs_.data() : nullptr; }
+  [[nodiscard]] CellSlab slab(CellWord word) const noexcept { return slabs_[word.number()]; }
+
  private:
   static std::size_t offset(std::size_t list, std::size_t first_entry) noexcept {
     return coordinates * first_entry + list;  // each list before this one has an edge size too
@@ -77,10 +83,13 @@ class MeshBlocks {
   void fill_blocks(const MeshBlocks& indexed, const Grid& grid, const Executor* executor);
   template <typename Index>
   void fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor);
+  template <typename Fill>
+  bool try_fill_with_slabs(const Grid& grid, const Executor* executor, const Fill& fill);
 
   detail::UnsetVector<Vector3<Scalar>> vertices_;  ///< and one more, for a vector load of the last
   AnyCorners corners_;
   detail::UnsetVector<Scalar> blocks_;
+  detail::UnsetVector<CellSlab> slabs_;
 };
 
 }  // namespace surehit
