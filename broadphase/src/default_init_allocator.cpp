@@ -21,4 +21,21 @@ void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 #endif
 }
 
+void fault_in([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
+#if defined(__linux__) && defined(MADV_POPULATE_WRITE)
+  // Of fewer pages the call takes as long as it saves.
+  constexpr std::size_t least_bytes = std::size_t{1} << 16;
+  constexpr std::uintptr_t page = std::uintptr_t{1} << 12;
+  if (bytes < least_bytes) return;
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = begin & -page;
+  const std::uintptr_t last = (begin + bytes + page - 1) & -page;
+  char* const pages = static_cast<char*>(memory) - (begin - first);
+  // Where memory was used before, its pages are there; it would take some time to find that of each one.
+  unsigned char is_there = 0;
+  if (mincore(pages + ((last - first) / 2 & -page), page, &is_there) == 0 && (is_there & 1) != 0) return;
+  madvise(pages, last - first, MADV_POPULATE_WRITE);  // where it is refused, nothing is lost
+#endif
+}
+
 }  // namespace surehit::detail

@@ -13,7 +13,7 @@ namespace surehit::detail {
 /// largest empty cube that has the cell for its corner, up to `CellWord::farthest`. Beyond the grid all is empty. Cells
 /// of x lie side by side, then y, then z. What `scratch` holds does not matter; its memory is used again.
 void measure_empty_space(std::span<std::uint32_t> words, const std::array<std::uint32_t, 3>& cells,
-                         std::vector<std::uint8_t>& scratch);
+                         UnsetVector<std::uint8_t>& scratch);
 
 /// The same for a brick, beyond which nothing is known to be empty.
 void measure_empty_space(std::span<std::uint32_t, Grid::brick_size> words);

@@ -19,8 +19,9 @@ namespace {
 constexpr std::size_t entries_per_triangle = 8;
 /// Small meshes may be divided as finely as one likes up to here.
 constexpr std::size_t free_entries = std::size_t{1} << 18;
-/// Most meshes take fewer. Room that is not used is not touched.
+/// Most meshes take fewer than the one and more than the other. Room that is not used is not touched.
 constexpr std::size_t usual_entries = 4;
+constexpr std::size_t least_entries = 2;
 /// Vertices or triangles in an executor's task.
 constexpr std::size_t triangles_in_a_part = std::size_t{1} << 13;
 constexpr double cells_per_triangle_limit = 8;
@@ -234,7 +235,7 @@ class GridBuild {
 
   bool try_find_top(std::size_t first, std::size_t last, std::size_t most_entries, detail::CellEntries& entries,
                     bool may_grow) const {
-    entries.make_room(usual_entries * (last - first));
+    entries.make_room(usual_entries * (last - first), least_entries * (last - first));
     const auto id = [](std::size_t i) { return static_cast<std::uint32_t>(i); };
     return try_find<true>(first, last, id, {{0, 0, 0}, grid_.frame_.cells}, division, most_entries, entries, may_grow);
   }
@@ -244,7 +245,7 @@ class GridBuild {
     constexpr std::size_t size = triangles_in_a_part;
     auto& parts = scratch_.parts_;
     parts.resize((mesh_.triangle_count() + size - 1) / size);
-    for (detail::CellEntries& part : parts) part.make_room(entries_per_triangle * size);
+    for (detail::CellEntries& part : parts) part.make_room(entries_per_triangle * size, least_entries * size);
     detail::in_parts(executor_, mesh_.triangle_count(), size, [&](std::size_t first, std::size_t last) {
       static_cast<void>(try_find_top(first, last, most_entries, parts[first / size], false));
     });

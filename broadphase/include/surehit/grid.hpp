@@ -186,20 +186,23 @@ struct CellEntries {
   static constexpr std::size_t too_many = std::numeric_limits<std::size_t>::max();
 
   std::size_t count = 0;             ///< as far as the rest counts; `too_many` if there was no room
-  UnsetVector<std::uint32_t> cells;  ///< as many as there is room for
-  UnsetVector<std::uint32_t> triangles;
+  RoomyVector<std::uint32_t> cells;  ///< as many as there is room for
+  RoomyVector<std::uint32_t> triangles;
 
-  void make_room(std::size_t entries) {
+  /// So many of the entries are likely to be.
+  void make_room(std::size_t entries, std::size_t likely = 0) {
     if (cells.size() >= entries) return;
     triangles.resize(entries);
     cells.resize(entries);  // last: where that throws, they still tell what room there is
+    fault_in(triangles.data(), likely * sizeof(std::uint32_t));
+    fault_in(cells.data(), likely * sizeof(std::uint32_t));
   }
 };
 
 /// Lists of triangles, one for each of some cells, while they are made.
 struct CellLists {
   CellEntries entries;
-  std::vector<std::uint32_t> offsets;    ///< where each cell's list begins, and one more for the end
+  UnsetVector<std::uint32_t> offsets;    ///< where each cell's list begins, and one more for the end
   UnsetVector<std::uint32_t> triangles;  ///< the lists, one behind the other
 };
 
@@ -214,12 +217,12 @@ class GridScratch {
   template <typename Scalar>
   friend class GridBuild;
 
-  std::vector<detail::PaddedPoint> points_;       ///< the vertices
-  detail::UnsetVector<detail::PaddedBox> boxes_;  ///< the triangles'
-  std::array<detail::CellLists, 3> lists_;  ///< of the top cells, and of the brick of each level that is being made
-  std::vector<detail::CellEntries> parts_;  ///< of the top cells, where parts of the mesh are listed at once
-  std::vector<std::uint32_t> words_;        ///< the top cells' words
-  std::vector<std::uint8_t> distances_;     ///< through empty cells
+  detail::UnsetVector<detail::PaddedPoint> points_;  ///< the vertices
+  detail::UnsetVector<detail::PaddedBox> boxes_;     ///< the triangles'
+  std::array<detail::CellLists, 3> lists_;    ///< of the top cells, and of the brick of each level that is being made
+  std::vector<detail::CellEntries> parts_;    ///< of the top cells, where parts of the mesh are listed at once
+  detail::UnsetVector<std::uint32_t> words_;  ///< the top cells' words
+  detail::UnsetVector<std::uint8_t> distances_;  ///< through empty cells
 };
 
 /// A uniform grid over a mesh's box, in which crowded cells hold a brick of 4 × 4 × 4 cells of their own, and so on for
@@ -294,10 +297,10 @@ class Grid {
   GridCover cover_;
   std::uint32_t levels_ = 0;
   std::size_t top_count_ = 0;
-  std::vector<CellWord> top_;  ///< and as many more as one vector load may read beyond the last
+  detail::UnsetVector<CellWord> top_;  ///< and as many more as one vector load may read beyond the last
   std::vector<CellWord> bricks_;
-  std::vector<CellList> lists_;
-  std::vector<std::uint32_t> entries_;
+  detail::UnsetVector<CellList> lists_;
+  detail::UnsetVector<std::uint32_t> entries_;
 };
 
 }  // namespace surehit
