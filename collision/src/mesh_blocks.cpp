@@ -71,14 +71,14 @@ MeshBlocks<Scalar>::MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid&
   } else {
     copy_corners<std::uint32_t>(mesh);
   }
-  fill_blocks(*this, grid, executor);
+  fill_blocks(*this, grid, executor, Slabs::where_smooth);
 }
 
 template <typename Scalar>
 void MeshBlocks<Scalar>::rebuild(MeshBlocks& old, const VertexView<Scalar>& vertices, const Grid& grid,
                                  const Executor* executor) {
   copy_vertices(old.view_with(vertices));
-  fill_blocks(old, grid, executor);
+  fill_blocks(old, grid, executor, Slabs::none);
   corners_.swap(old.corners_);
 }
 
@@ -100,13 +100,15 @@ void MeshBlocks<Scalar>::copy_corners(const TriangleMeshView<Scalar>& mesh) {
 
 /// With the triangles of `indexed`.
 template <typename Scalar>
-void MeshBlocks<Scalar>::fill_blocks(const MeshBlocks& indexed, const Grid& grid, const Executor* executor) {
-  indexed.with_corners([&](const auto& triangles) { fill_blocks(triangles, grid, executor); });
+void MeshBlocks<Scalar>::fill_blocks(const MeshBlocks& indexed, const Grid& grid, const Executor* executor,
+                                     Slabs wanted) {
+  indexed.with_corners([&](const auto& triangles) { fill_blocks(triangles, grid, executor, wanted); });
 }
 
 template <typename Scalar>
 template <typename Index>
-void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor) {
+void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor,
+                                     [[maybe_unused]] Slabs wanted) {
   blocks_.resize(offset(grid.lists().size(), grid.entries().size()) + slack);
   Scalar largest = 0;
   for (const Vector3<Scalar>& vertex : vertices_) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
@@ -158,7 +160,7 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
   slabs_.clear();
   if (grid.lists().empty()) return;
   if constexpr (std::is_same_v<Scalar, float>) {
-    if (grid.frame().has_floats && try_fill_with_slabs(grid, executor, fill)) return;
+    if (wanted == Slabs::where_smooth && grid.frame().has_floats && try_fill_with_slabs(grid, executor, fill)) return;
   }
   fill_all(grid, executor, fill);
 }
@@ -178,17 +180,19 @@ bool MeshBlocks<Scalar>::try_fill_with_slabs(const Grid& grid, const Executor* e
   };
   if (!is_smooth(grid, fill_and_fit)) return false;
   slabs_.resize(grid.lists().size() - 1);
+  const auto keep_fitted = [&](const detail::ListCell& cell) { slabs_[cell.word.number()] = fit(cell); };
   if (executor == nullptr) {
     // Each one while its triangles are in the cache.
-    detail::visit_list_cells(grid, 0, grid.top().size(),
-                             [&](const detail::ListCell& cell) { slabs_[cell.word.number()] = fill_and_fit(cell); });
+    detail::visit_list_cells(grid, 0, grid.top().size(), [&](const detail::ListCell& cell) {
+      fill(cell.word);
+      keep_fitted(cell);
+    });
     return true;
   }
   // What is read beyond a list's end may be another task's to fill.
   fill_all(grid, executor, fill);
   detail::in_parts(executor, grid.top().size(), top_cells_in_a_part, [&](std::size_t first, std::size_t last) {
-    detail::visit_list_cells(grid, first, last,
-                             [&](const detail::ListCell& cell) { slabs_[cell.word.number()] = fit(cell); });
+    detail::visit_list_cells(grid, first, last, keep_fitted);
   });
   return true;
 }

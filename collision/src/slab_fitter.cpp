@@ -17,14 +17,13 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// With u = 2^-24 and R the resolution on an axis, a corner's place, counted from the cell's centre, is off by 4 u R:
-// for the difference, the product, the offset and the sum. Its height along the normal n, R taken times |n| and summed
-// over the axes, is off by another 3 u R for the products and the two sums, and by 2 u R for the slack and the sum with
-// that. Counted in steps, what is not beyond the last one is off by 2 u of 128 steps, which is 48 u edges of the cell:
-// less than 4 u R, since the longest component is 15 and a cell no wider than the grid. In all that is 13 u R at most,
-// and a slab is wider by half a padding, 16 u R, on either side.
+// With u = 2^-24 and R the resolution on an axis, R taken times |n| and summed over the axes, a corner's height along
+// the normal n, counted from the cell's centre, is off by 10 u R: for the difference, the weight, their product, the
+// three sums, and four for that of the low end of the mesh. The slack and the sum with that make 2 u R more. Counted in
+// steps, what is not beyond the last one is off by 2 u of 128 steps, which is 48 u edges of the cell: less than 4 u R,
+// since the longest component is 15 and a cell no wider than the grid. In all that is 16 u R, and a slab is wider by a
+// padding, 32 u R, on either side.
 CellSlab fit_floats(const SlabFitter& fitter, const ListCell& cell, const float* corners, std::size_t count) {
-  // Most lists are short.
   const hn::CappedTag<float, 8> d;
   using V = hn::Vec<decltype(d)>;
   const auto load = [&](std::size_t coordinate, std::size_t from) {
@@ -44,16 +43,18 @@ CellSlab fit_floats(const SlabFitter& fitter, const ListCell& cell, const float*
       f[k] = hn::Mul(hn::Sub(load(6 + k, from), a), scale);
     }
     V normal[3];
+    V side = hn::Zero(d);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
       const std::size_t m = (k + 2) % 3;
       normal[k] = hn::MulSub(e[l], f[m], hn::Mul(e[m], f[l]));
       if (from == 0) first[k] = hn::Set(d, hn::GetLane(normal[k]));
+      side = hn::MulAdd(normal[k], first[k], side);
     }
-    const V along = hn::MulAdd(normal[0], first[0], hn::MulAdd(normal[1], first[1], hn::Mul(normal[2], first[2])));
+    const auto is_turned = hn::Lt(side, hn::Zero(d));
     const auto taken = hn::FirstN(d, count - from);
     for (std::size_t k = 0; k < 3; ++k) {
-      const V turned = hn::IfThenElse(hn::Lt(along, hn::Zero(d)), hn::Neg(normal[k]), normal[k]);
+      const V turned = hn::IfThenElse(is_turned, hn::Neg(normal[k]), normal[k]);
       sum[k] = hn::Add(sum[k], hn::IfThenElseZero(taken, turned));
     }
   }
@@ -68,19 +69,18 @@ CellSlab fit_floats(const SlabFitter& fitter, const ListCell& cell, const float*
   if (!(share < infinity)) return {};
 
   std::array<std::int32_t, 3> components;
-  V normal[3];
-  V scale[3];
+  V weight[3];
   V low_end[3];
-  V offset[3];
+  float of_low_end = 0;
   float slack = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const SlabFitter::Axis& axis = fitter.axes[k];
     components[k] = static_cast<std::int32_t>(std::floor(along[k] * share + 0.5F));
     const auto component = static_cast<float>(components[k]);
-    normal[k] = hn::Set(d, component);
-    scale[k] = hn::Set(d, axis.scale);
+    const float centre = static_cast<float>(cell.low[k]) + static_cast<float>(cell.size) / 2;
+    weight[k] = hn::Set(d, component * axis.scale);
     low_end[k] = hn::Set(d, axis.low);
-    offset[k] = hn::Set(d, axis.margin - (static_cast<float>(cell.low[k]) + static_cast<float>(cell.size) / 2));
+    of_low_end += component * (axis.margin - centre);
     slack += std::fabs(component) * axis.slack;
   }
   V lowest = hn::Set(d, infinity);
@@ -89,10 +89,9 @@ CellSlab fit_floats(const SlabFitter& fitter, const ListCell& cell, const float*
     V low = hn::Set(d, infinity);
     V high = hn::Set(d, -infinity);
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      V height = hn::Zero(d);
+      V height = hn::Set(d, of_low_end);
       for (std::size_t k = 0; k < 3; ++k) {
-        const V place = hn::MulAdd(hn::Sub(load(3 * corner + k, from), low_end[k]), scale[k], offset[k]);
-        height = hn::MulAdd(place, normal[k], height);
+        height = hn::MulAdd(hn::Sub(load(3 * corner + k, from), low_end[k]), weight[k], height);
       }
       low = hn::Min(low, height);
       high = hn::Max(high, height);
@@ -121,7 +120,7 @@ HWY_EXPORT(fit_floats);
 
 SlabFitter::SlabFitter(const GridFrame& frame) {
   for (std::size_t k = 0; k < 3; ++k) {
-    axes[k] = {frame.float_low[k], frame.float_scale[k], frame.float_margin[k], frame.padding(k) / 2};
+    axes[k] = {frame.float_low[k], frame.float_scale[k], frame.float_margin[k], frame.padding(k)};
   }
 }
 

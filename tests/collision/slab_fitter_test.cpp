@@ -80,7 +80,7 @@ class SlabFitterTest : public testing::Test {
           is_first = false;
         }
       }
-      Growth padding = growth_by(frame, GridFrame::padding_share);
+      Growth padding = growth_by(frame, 2 * GridFrame::padding_share);
       mpq_class slack = double{CellSlab::step} * cell.size;
       for (std::size_t axis = 0; axis < 3; ++axis) slack += abs(exact.normal[axis]) * padding[axis];
       if (slab.low() != CellSlab::lowest) {

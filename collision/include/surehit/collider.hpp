@@ -84,8 +84,9 @@ class Collider {
 #endif
 
   /// Moves the vertices, for a mesh that deforms each tick: the same triangles, masks and options. Takes the time of a
-  /// build, but no memory after the first two times. Says why it cannot, and keeps the state from before, if the
-  /// vertices are not as many as the mesh has or not finite; so does std::bad_alloc.
+  /// build, but no memory after the first two times. In a smooth mesh paths then take up to 1.7 times as long as in a
+  /// collider that is built anew, which is prepared for more of them. Says why it cannot, and keeps the state from
+  /// before, if the vertices are not as many as the mesh has or not finite; so does std::bad_alloc.
   [[nodiscard]] std::optional<InvalidMesh> try_rebuild(const VertexView<Scalar>& vertices) {
     return move_vertices(vertices, nullptr);
   }

@@ -14,7 +14,7 @@ namespace surehit {
 
 /// A collider's copy of its mesh: the vertices as they were given, the indices, in 16 bits if that numbers all
 /// vertices, and for each list of the grid the triangles' corners a, b and c, coordinate by coordinate, as the kernel
-/// loads them; where the mesh is smooth, also the slab in which they lie.
+/// loads them; where the mesh is smooth, and until it moves, also the slab in which they lie.
 template <typename Scalar>
 class MeshBlocks {
  public:
@@ -22,8 +22,9 @@ class MeshBlocks {
   /// Of a valid mesh and its grid. May throw std::bad_alloc.
   MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor = nullptr);
 
-  /// Becomes `old` with other vertices, as many, and takes its indices over: `old` is good for the next rebuild only.
-  /// Memory is reused. If that throws, `old` is as before.
+  /// Becomes `old` with other vertices, as many, but without slabs, which the paths of one tick would not earn, and
+  /// takes its indices over: `old` is good for the next rebuild only. Memory is reused. If that throws, `old` is as
+  /// before.
   void rebuild(MeshBlocks& old, const VertexView<Scalar>& vertices, const Grid& grid,
                const Executor* executor = nullptr);
 
@@ -68,6 +69,7 @@ class MeshBlocks {
   static std::size_t offset(std::size_t list, std::size_t first_entry) noexcept {
     return coordinates * first_entry + list;  // each list before this one has an edge size too
   }
+  enum class Slabs : std::uint8_t { none, where_smooth };
   template <typename Index>
   using Corners = detail::UnsetVector<std::array<Index, 3>>;
   using AnyCorners = std::variant<Corners<std::uint16_t>, Corners<std::uint32_t>>;
@@ -80,9 +82,9 @@ class MeshBlocks {
   void copy_vertices(const TriangleMeshView<Scalar>& mesh);
   template <typename Index>
   void copy_corners(const TriangleMeshView<Scalar>& mesh);
-  void fill_blocks(const MeshBlocks& indexed, const Grid& grid, const Executor* executor);
+  void fill_blocks(const MeshBlocks& indexed, const Grid& grid, const Executor* executor, Slabs wanted);
   template <typename Index>
-  void fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor);
+  void fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor, Slabs wanted);
   template <typename Fill>
   bool try_fill_with_slabs(const Grid& grid, const Executor* executor, const Fill& fill);
 
