@@ -109,6 +109,15 @@ void GridFrame::coarsen(std::uint32_t factor) noexcept {
     last_top[axis] = static_cast<std::int32_t>(pitch * (cells[axis] - 1));
     pitch *= cells[axis];
   }
+  for (std::uint32_t octant = 0; octant < 8; ++octant) {
+    for (std::uint32_t axes = 0; axes < 8; ++axes) {
+      std::int32_t step = 0;
+      for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        if ((axes >> axis & 1) != 0) step += (octant >> axis & 1) != 0 ? -top_pitch[axis] : top_pitch[axis];
+      }
+      top_step[octant][axes] = step;
+    }
+  }
   has_floats = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     scale[axis] /= factor;

@@ -62,6 +62,18 @@ TEST(Float4, AnyLaneSeesEachOne) {
   EXPECT_FALSE(any_lane(Float4{1, 2, 3, 4} < Float4{1, 2, 3, 4}));
 }
 
+TEST(Float4, BitsOfAMaskAreItsLanes) {
+  for (std::uint32_t bits = 0; bits < 16; ++bits) {
+    Int4 mask = {0, 0, 0, 0};
+    for (std::size_t lane = 0; lane < 4; ++lane) mask[lane] = (bits >> lane & 1) != 0 ? -1 : 0;
+    EXPECT_EQ(bits_of_lanes(mask), bits);
+    const Float4 kept = masked(mask, Float4{-1, 2, std::numeric_limits<float>::infinity(), -4});
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      EXPECT_EQ(kept[lane], mask[lane] != 0 ? (Float4{-1, 2, std::numeric_limits<float>::infinity(), -4})[lane] : 0);
+    }
+  }
+}
+
 TEST(Float4, AnyLaneIsComparedWithAny) {
   EXPECT_FALSE(any_lane_exceeds_any(Float4{1, 2, 3, 4}, Float4{4, 5, 6, 7}));
   for (std::size_t i = 0; i < 4; ++i) {

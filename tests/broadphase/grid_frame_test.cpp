@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -50,6 +51,24 @@ class GridFrameTest : public testing::Test {
   }
 };
 TYPED_TEST_SUITE(GridFrameTest, Scalars, ScalarNames);
+
+TYPED_TEST(GridFrameTest, StepsAmongTopCellsAsThePathIsMirrored) {
+  GridFrame frame = GridFrame::around(this->box({0, 0, 0}, {5, 6, 7}), {5, 6, 7}, 16);
+  frame.coarsen(4);
+  ASSERT_EQ(frame.cells, (std::array<std::uint32_t, 3>{5, 6, 7}));
+  for (std::int32_t octant = 0; octant < 8; ++octant) {
+    const detail::Int4 falls = {-(octant & 1), -(octant >> 1 & 1), -(octant >> 2 & 1), 0};
+    const auto index_of = [&](const detail::Int4& cell) {
+      const detail::Int4 index = cell * frame.pitch_of(falls) + frame.first_top_of(falls);
+      return index[0] + index[1] + index[2];
+    };
+    for (std::int32_t axes = 0; axes < 8; ++axes) {
+      const detail::Int4 from = {2, 3, 4, 0};
+      const detail::Int4 to = from + detail::Int4{axes & 1, axes >> 1 & 1, axes >> 2 & 1, 0};
+      EXPECT_EQ(frame.top_step.at(octant).at(axes), index_of(to) - index_of(from)) << octant << ' ' << axes;
+    }
+  }
+}
 
 TYPED_TEST(GridFrameTest, BoxLiesInsideTheOuterPlanesByTwoPaddings) {
   for (const auto& box : this->boxes()) {

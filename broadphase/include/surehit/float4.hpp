@@ -24,6 +24,12 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
 /// Toward zero; of a number that no integer holds, any integer.
 [[gnu::always_inline]] inline Int4 to_int(Float4 x) { return __builtin_convertvector(x, Int4); }
 
+/// x where the mask's lanes are all ones, +0 elsewhere. A choice that is a mask and a sum or a maximum takes fewer
+/// operations than `mask ? x : y`, which is three of them on many x86 processors.
+[[gnu::always_inline]] inline Float4 masked(Int4 mask, Float4 x) {
+  return reinterpret_cast<Float4>(mask & reinterpret_cast<Int4>(x));
+}
+
 [[gnu::always_inline]] inline Float4 absolute(Float4 x) {
   return reinterpret_cast<Float4>(reinterpret_cast<Int4>(x) & 0x7fffffff);
 }
@@ -63,10 +69,24 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
 /// Of the first three lanes.
 [[gnu::always_inline]] inline float sum_of_three(Float4 x) { return x[0] + x[1] + x[2]; }
 
+/// Of a mask: bit k is lane k.
+[[gnu::always_inline]] inline std::uint32_t bits_of_lanes(Int4 mask) {
+#if defined(__SSE__)
+  return static_cast<std::uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Float4>(mask)));
+#else
+  const Int4 bits = mask & Int4{1, 2, 4, 8};
+  return static_cast<std::uint32_t>(bits[0] | bits[1] | bits[2] | bits[3]);
+#endif
+}
+
 [[gnu::always_inline]] inline bool any_lane(Int4 mask) {
+#if defined(__SSE__)
+  return bits_of_lanes(mask) != 0;
+#else
   using Long2 = std::int64_t __attribute__((vector_size(16)));
   const auto halves = reinterpret_cast<Long2>(mask);
   return (halves[0] | halves[1]) != 0;
+#endif
 }
 
 /// Whether the greatest lane of a is beyond the least one of b: sooner known than these are.

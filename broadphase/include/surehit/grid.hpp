@@ -45,6 +45,8 @@ struct GridFrame {
   std::uint32_t division = 1;                      ///< finest cells along an edge of a top cell
   detail::Int4 top_pitch = {0, 0, 0, 0};           ///< from one top cell to the next on an axis, among all of them,
   detail::Int4 last_top = {0, 0, 0, 0};            ///< and from the first to the last
+  /// The same by octant, then by the axes on which a step leads to the next cell (bit k: axis k), in all.
+  std::array<std::array<std::int32_t, 8>, 8> top_step = {};
   /// For coordinates in float, X = (x - float_low) float_scale + margin: the same frame, where floats hold its numbers.
   /// The fourth lane moves nothing: its place is 1, between 0 and 2.
   bool has_floats = false;

@@ -111,12 +111,11 @@ template <typename Scalar>
   const Int4 falls = move < all_lanes(0.0F);
   const Int4 stands = speed < all_lanes(least_rate);
   const Float4 from = falls ? stop - at : at;
-  rate = stands ? all_lanes(0.0F) : speed;
+  rate = masked(~stands, speed);
   inverse_rate = stands ? all_lanes(greatest_inverse) : 1 / speed;
   Float4 leaving = (from - stop) * inverse_rate;
   leaving[3] = -last_t;
-  const Float4 limits =
-      greatest_lanes(-from * inverse_rate, leaving, speed, is_near ? all_lanes(0.0F) : all_lanes(1.0F));
+  const Float4 limits = greatest_lanes(-from * inverse_rate, leaving, speed, masked(~is_near, all_lanes(1.0F)));
   if (limits[3] != 0 || !(limits[2] >= slow || path.has_end())) return false;
   // Whether it may enter later is known before the divisions are done. Most paths begin inside, and wait for none.
   const bool may_enter_later = any_lane(from < all_lanes(0.0F)) || !(first_t >= 0);
@@ -128,7 +127,7 @@ template <typename Scalar>
   if (!(enters <= leaves)) return true;
   place = Place::inside;
   is_placed_in_float = true;
-  octant = static_cast<std::uint32_t>((falls[0] & 1) | (falls[1] & 2) | (falls[2] & 4));
+  octant = bits_of_lanes(falls);
   origin[2] = double{enters};
   end = (last_t - enters) + (std::fabs(last_t) + std::fabs(enters)) * 0x1p-22F + std::numeric_limits<float>::min();
   exit = leaves - enters;
@@ -247,10 +246,11 @@ class GridTraversal {
     const Int4 crossed = (crossing_ <= next_axis) & (crossing_ <= last_axis) & Int4{-1, -1, -1, 0};
     const Float4 tau = least(least(crossing_, next_axis), last_axis);
     const auto size = static_cast<float>(size_);
-    crossing_ = crossed ? next_crossing_ : crossing_;
-    planes_ = crossed ? planes_ + size : planes_;
+    // No plane ahead is crossed before tau = 0, and the next one not before this one.
+    crossing_ = greatest(crossing_, masked(crossed, next_crossing_));
+    planes_ += masked(crossed, all_lanes(size));
     next_crossing_ = (planes_ + size - path_.start) * path_.inverse_rate;
-    index_ += crossed & pitch();
+    top_ += grid_.frame().top_step[path_.octant][bits_of_lanes(crossed)];
     at_end_ = !(tau[0] < end_);
     if (at_end_) return;
     look();
@@ -287,17 +287,14 @@ class GridTraversal {
   [[gnu::always_inline]] void enter(detail::Int4 finest) noexcept {
     size_ = static_cast<std::int32_t>(grid_.frame().division);
     const GridFrame& frame = grid_.frame();
-    index_ = (finest >> static_cast<std::int32_t>(2 * grid_.levels())) * pitch() + frame.first_top_of(falls_);
+    const detail::Int4 index =
+        (finest >> static_cast<std::int32_t>(2 * grid_.levels())) * frame.pitch_of(falls_) + frame.first_top_of(falls_);
+    top_ = index[0] + index[1] + index[2];
     planes_ = detail::to_float((finest & -size_) + size_);
     look();
     if (word_.is_divided()) descend(finest);
   }
-  /// Of top cells, as the path is mirrored.
-  [[nodiscard]] detail::Int4 pitch() const noexcept { return grid_.frame().pitch_of(falls_); }
-  [[gnu::always_inline]] void look() noexcept {
-    const std::int32_t index = index_[0] + index_[1] + index_[2];
-    word_ = grid_.top()[static_cast<std::size_t>(index)];
-  }
+  [[gnu::always_inline]] void look() noexcept { word_ = grid_.top()[static_cast<std::size_t>(top_)]; }
   [[gnu::always_inline]] void descend(detail::Int4 finest) noexcept {
     const auto [word, size] = undivided(grid_, word_, finest, falls_);
     word_ = word;
@@ -330,8 +327,8 @@ class GridTraversal {
   detail::Float4 planes_ = {0, 0, 0, 0};         ///< the cell's far ones
   detail::Float4 crossing_ = {0, 0, 0, 0};       ///< of a top cell: tau at which the path crosses them,
   detail::Float4 next_crossing_ = {0, 0, 0, 0};  ///< and those of the cells after it: known before they are wanted
-  detail::Int4 index_ = {0, 0, 0, 0};            ///< the top cell's, as a sum over the axes
   detail::Int4 falls_ = {0, 0, 0, 0};            ///< the axes on which it is mirrored
+  std::int32_t top_ = 0;                         ///< the top cell's index
   std::int32_t size_ = 1;
   std::int32_t step_size_ = 0;  ///< a top cell's, as soon as the walk may step
   float end_;
