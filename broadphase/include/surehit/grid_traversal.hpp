@@ -66,8 +66,16 @@ struct PlacedPath {
     const Int4 last = to_int(start + std::min(end, exit) * rate) >> shift;
     const Int4 index = first * frame.pitch_of(falls()) + frame.first_top_of(falls());
     const CellWord word = grid.top()[static_cast<std::size_t>(index[0] + index[1] + index[2])];
+    if (!word.is_empty()) {
+      // The word that a short path is likely to want next but one of its own: the walk comes to it too late to ask.
+      const Int4 stop = to_int(frame.float_stop) >> shift;
+      const Int4 end_index =
+          least(greatest(last, first), stop - 1) * frame.pitch_of(falls()) + frame.first_top_of(falls());
+      __builtin_prefetch(&grid.top()[static_cast<std::size_t>(end_index[0] + end_index[1] + end_index[2])]);
+      return false;
+    }
     const auto cells = static_cast<std::int32_t>(word.distance(octant));
-    return word.is_empty() && !any_lane(last - first >= all_lanes(cells));
+    return !any_lane(last - first >= all_lanes(cells));
   }
 
   /// tau at t or a little beyond it.
