@@ -50,28 +50,25 @@ static_assert(12 * 0x1p34 * 0x1p34 * 0x1p34 * 0x1p16 < double{std::numeric_limit
 /// lower end (T - first det) and for its upper one (last det - T). An end at infinity asks nothing: of det itself.
 template <typename Scalar>
 struct RangeWeights {
-  Scalar t_first = 0;
-  Scalar det_first = 1;
-  Scalar t_last = 0;
+  // As for the whole of a segment, which is what most queries ask.
+  Scalar t_first = 1;
+  Scalar det_first = 0;
+  Scalar t_last = -1;
   Scalar det_last = 1;
-  Scalar t_bound = 0;   ///< relative bound of T; 0 where T is not asked
-  Scalar det_size = 2;  ///< 1 + the greater weight of det, by size
-  bool decides = true;  ///< whether nothing else is left to decide
+  Scalar t_bound = KernelBound<Scalar>::relative;  ///< relative bound of T; 0 where T is not asked
+  Scalar det_size = 2;                             ///< 1 + the greater weight of det, by size
+  bool decides = true;                             ///< whether nothing else is left to decide
 
   explicit RangeWeights(const PathRange<Scalar>& range) {
-    const auto counts = [&](Scalar limit) {
+    if (range.first == 0 && range.last == 1) return;
+    const auto weigh = [&](Scalar limit, Scalar sign, Scalar& t_weight, Scalar& det_weight) {
       const bool small = std::fabs(limit) <= KernelBound<Scalar>::largest_limit;
       decides &= small || std::isinf(limit);
-      return small;
+      t_weight = small ? sign : 0;
+      det_weight = small ? -sign * limit : 1;
     };
-    if (counts(range.first)) {
-      t_first = 1;
-      det_first = -range.first;
-    }
-    if (counts(range.last)) {
-      t_last = -1;
-      det_last = range.last;
-    }
+    weigh(range.first, 1, t_first, det_first);
+    weigh(range.last, -1, t_last, det_last);
     t_bound = KernelBound<Scalar>::relative * std::max(t_first, -t_last);
     det_size = 1 + std::max(std::fabs(det_first), std::fabs(det_last));
   }
