@@ -377,6 +377,8 @@ class BatchRounding {
     }
     index_[count_] = index;
     entry_[count_] = first.entry();
+    t_size_[count_] = first.t_size();
+    edge_size_[count_] = first.edge_size();
     static_assert(sizeof(Triangle<float>) == 9 * sizeof(float) && PathSpan<float>::numbers_each == 6);
     copy(0, paths_.numbers(index), 2);
     copy(2, &first.triangle(), 3);
@@ -397,7 +399,12 @@ class BatchRounding {
     if (paths_.have_ends()) {
       direction = {hn::Sub(direction.x, start.x), hn::Sub(direction.y, start.y), hn::Sub(direction.z, start.z)};
     }
-    const RoundedHits<DoubleTag> rounded(d, start, direction, vectors(2), vectors(3), vectors(4));
+    const auto doubles = [&](const std::array<float, most>& floats) {
+      return hn::PromoteTo(d, hn::Load(df, floats.data()));
+    };
+    const HitIntervals<DoubleTag> intervals(d, start, direction, vectors(2), vectors(3), vectors(4), doubles(t_size_),
+                                            doubles(edge_size_));
+    const RoundedHits<DoubleTag> rounded(d, intervals);
     std::array<float, most> t;
     std::array<float, most> u;
     std::array<float, most> v;
@@ -443,6 +450,8 @@ class BatchRounding {
   std::size_t count_ = 0;
   /// The path's start and its end or direction, and the triangle's corners. Beyond the last hit anything finite.
   alignas(most * sizeof(float)) std::array<std::array<std::array<float, 4>, most>, 5> vectors_ = {};
+  alignas(most * sizeof(float)) std::array<float, most> t_size_ = {};
+  alignas(most * sizeof(float)) std::array<float, most> edge_size_ = {};
   std::array<std::size_t, most> index_;
   std::array<std::size_t, most> entry_;  ///< the one where the id stands, which is on its way into the cache
 };

@@ -64,6 +64,11 @@ class DoubleDeterminants {
     return hn::MulAdd(sizes, hn::Set(d_, Bound::relative), underflow_);
   }
 
+  /// The largest component.
+  [[nodiscard]] HWY_INLINE static V size(const Vectors<D>& x) {
+    return hn::Max(hn::Max(hn::Abs(x.x), hn::Abs(x.y)), hn::Abs(x.z));
+  }
+
   V det, height, u, v;
   V det_size, height_size, u_size, v_size;
 
@@ -78,8 +83,6 @@ class DoubleDeterminants {
   HWY_INLINE static V dot(const Vectors<D>& x, const Vectors<D>& y) {
     return hn::MulAdd(x.x, y.x, hn::MulAdd(x.y, y.y, hn::Mul(x.z, y.z)));
   }
-  HWY_INLINE static V size(const Vectors<D>& x) { return hn::Max(hn::Max(hn::Abs(x.x), hn::Abs(x.y)), hn::Abs(x.z)); }
-
   [[no_unique_address]] D d_;
   V underflow_;
 };

@@ -9,6 +9,7 @@
 
 #include <hwy/cache_control.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -98,11 +99,7 @@ class FirstHit {
       const auto lane = static_cast<std::size_t>(std::countr_zero(first.lanes));
       is_nearer = is_alone && first.t_upper < t_lower_;
       if (is_nearer) {
-        state_ = State::located;
-        entry_ = meeting.entry(lane);
-        best_.triangle = meeting.triangle(lane);
-        t_lower_ = first.t_lower;
-        t_upper_ = first.t_upper;
+        locate(meeting, lane);
         hwy::Prefetch(meeting.query.grid.entries().data() + entry_);  // wanted when the path ends
       } else if (first.t_lower <= t_upper_ && !(is_alone && is_best(meeting.query, meeting.entry(lane)))) {
         open |= first.lanes;
@@ -144,11 +141,7 @@ class FirstHit {
       if (meeting.query.grid.entries()[meeting.entry(lane)] >= id(meeting.query)) return true;
     }
     is_nearer = comes_first;
-    state_ = State::located;
-    entry_ = meeting.entry(lane);
-    best_.triangle = triangle;
-    t_lower_ = first.t_lower;
-    t_upper_ = first.t_upper;
+    locate(meeting, lane);
     return true;
   }
 
@@ -166,6 +159,10 @@ class FirstHit {
   }
   [[nodiscard]] const Triangle<Scalar>& triangle() const { return best_.triangle; }
   [[nodiscard]] std::size_t entry() const { return entry_; }
+  /// No less than |t|.
+  [[nodiscard]] Scalar t_size() const { return std::max(-t_lower_, t_upper_); }
+  /// Of a located one `TriangleList::edge_size`.
+  [[nodiscard]] Scalar edge_size() const { return edge_size_; }
   [[nodiscard]] Hit<Scalar> hit(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase) {
     return narrowphase.hit(best(query, narrowphase));
   }
@@ -177,6 +174,16 @@ class FirstHit {
     weighed,  ///< by the narrowphase
   };
 
+  /// Keeps a hit that the kernel is certain of.
+  template <typename AnyPath>
+  HWY_INLINE void locate(const Meeting<Scalar, AnyPath>& meeting, std::size_t lane) {
+    state_ = State::located;
+    entry_ = meeting.entry(lane);
+    edge_size_ = meeting.list.edge_size;
+    best_.triangle = meeting.triangle(lane);
+    t_lower_ = meeting.first.t_lower;
+    t_upper_ = meeting.first.t_upper;
+  }
   /// Most triangles are met again in the next cell.
   [[nodiscard]] bool is_best(const Query<Scalar>& query, std::size_t entry) const {
     return is_found() && query.grid.entries()[entry] == id(query);
@@ -191,7 +198,8 @@ class FirstHit {
 
   State state_ = State::none;
   bool trusts_kernel_;
-  std::size_t entry_ = 0;                                     ///< of a located one
+  std::size_t entry_ = 0;                                     ///< of a located one,
+  Scalar edge_size_ = 0;                                      ///< and of its list
   Scalar t_lower_ = std::numeric_limits<Scalar>::infinity();  ///< the best one's t is in [t_lower_, t_upper_]
   Scalar t_upper_ = std::numeric_limits<Scalar>::infinity();  //
   /// Of a located one the triangle alone.

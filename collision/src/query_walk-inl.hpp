@@ -251,7 +251,7 @@ std::optional<Hit<Scalar>> find_first(const Query<Scalar>& query, const Path<Sca
   if (!first.is_found()) return std::nullopt;
   if constexpr (std::is_same_v<Scalar, float>) {
     Hit<Scalar> hit;
-    if (first.is_located_only() && try_round(path, first.triangle(), hit)) {
+    if (first.is_located_only() && try_round(path, first.triangle(), first.t_size(), first.edge_size(), hit)) {
       hit.triangle = first.id(query);
       return hit;
     }

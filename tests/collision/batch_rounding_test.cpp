@@ -122,6 +122,24 @@ TEST(BatchRounding, of_hits_between_two_floats_is_that_of_intersect) {
   EXPECT_LT(statistics.exact_roundings, statistics.paths / 2);
 }
 
+/// The same of lines that leave the triangles behind them.
+TEST(BatchRounding, of_hits_at_negative_t_between_two_floats_is_that_of_intersect) {
+  constexpr float u = std::numeric_limits<float>::epsilon() / 2;
+  GeneratedMesh<float> mesh;
+  mesh.add({{-u, -u, 1}, {2, -u, 1}, {-u, 2, 1}});
+  Random random(74);
+  std::vector<Segment<float>> segments;
+  for (std::size_t i = 0; i < 60; ++i) {
+    const float x = random.unit<float>();
+    const float y = random.unit<float>() / 2;
+    // From -u, by -2: t = -(1 + u) / 2.
+    segments.push_back({{x, y, -u}, {x, y, -2}});
+  }
+  QueryStatistics statistics;
+  expect_rounded<Line<float>>(mesh, segments, 40, statistics);
+  EXPECT_EQ(statistics.exact_roundings, statistics.paths);
+}
+
 /// All paths meet a triangle that they ignore: that it was shown to them makes it no hit.
 TEST(BatchRounding, of_ignored_triangles_gives_no_hits) {
   GeneratedMesh<float> mesh;
@@ -156,8 +174,7 @@ TEST(BatchRounding, gives_zeros_their_sign) {
   expect_all_kinds_rounded(mesh, segments, 40, statistics);
 }
 
-/// A line's t that is negative and rounds to zero is +0 too. One corner is so near to the line that t is known to less
-/// than the least float.
+/// A line's t that is negative and rounds to zero is +0 too.
 TEST(BatchRounding, gives_zeros_of_negative_t_their_sign) {
   GeneratedMesh<float> mesh;
   mesh.add({{-0x1p-70F, 0, 0}, {0x1.8p-57F, -0x1.8p-57F, 0}, {0x1.8p-57F, 0x1.8p-57F, 0}});

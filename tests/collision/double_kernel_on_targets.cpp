@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "double_kernel-inl.hpp"
+#include "hit_rounding-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
@@ -39,14 +40,16 @@ LaneNumbers numbers_of(DoubleVector vector) {
   return numbers;
 }
 
+/// The vector that begins at coordinate `k` of pairs from `first` on.
+Vectors<DoubleTag> gather_vectors(std::span<const test::PairCoordinates> pairs, std::size_t first, std::size_t count,
+                                  std::size_t k) {
+  const auto load = [&](std::size_t j) { return gather(count, [&](std::size_t i) { return pairs[first + i][j]; }); };
+  return {load(k), load(k + 1), load(k + 2)};
+}
+
 void determinants_of(std::span<const test::PairCoordinates> pairs, std::span<test::LaneDeterminants> results) {
   for_each_vector(pairs.size(), [&](std::size_t first, std::size_t count) {
-    const auto vectors = [&](std::size_t k) -> Vectors<DoubleTag> {
-      const auto load = [&](std::size_t j) {
-        return gather(count, [&](std::size_t i) { return pairs[first + i][j]; });
-      };
-      return {load(k), load(k + 1), load(k + 2)};
-    };
+    const auto vectors = [&](std::size_t k) { return gather_vectors(pairs, first, count, k); };
     const DoubleDeterminants<DoubleTag> of(DoubleTag(), vectors(0), vectors(3), vectors(6), vectors(9), vectors(12));
     const auto put = [&](DoubleVector value, DoubleVector sizes, Bounded test::LaneDeterminants::*member) {
       const LaneNumbers values = numbers_of(value);
@@ -75,6 +78,27 @@ void quotients_of(std::span<const Bounded> numerators, std::span<const Bounded> 
   });
 }
 
+void intervals_of(std::span<const test::PairCoordinates> pairs, std::span<const test::HitSizes> sizes,
+                  std::span<test::LaneIntervals> results) {
+  for_each_vector(pairs.size(), [&](std::size_t first, std::size_t count) {
+    const auto vectors = [&](std::size_t k) { return gather_vectors(pairs, first, count, k); };
+    const auto size = [&](float test::HitSizes::*part) {
+      return gather(count, [&](std::size_t i) { return double{sizes[first + i].*part}; });
+    };
+    using Intervals = HitIntervals<DoubleTag>;
+    const Intervals of(DoubleTag(), vectors(0), vectors(3), vectors(6), vectors(9), vectors(12),
+                       size(&test::HitSizes::t), size(&test::HitSizes::edge));
+    const auto put = [&](const Intervals::Interval& interval, std::array<double, 2> test::LaneIntervals::*member) {
+      const LaneNumbers lower = numbers_of(interval.lower);
+      const LaneNumbers upper = numbers_of(interval.upper);
+      for (std::size_t i = 0; i < count; ++i) results[first + i].*member = {lower[i], upper[i]};
+    };
+    put(of.t, &test::LaneIntervals::t);
+    put(of.u, &test::LaneIntervals::u);
+    put(of.v, &test::LaneIntervals::v);
+  });
+}
+
 }  // namespace surehit::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -83,6 +107,7 @@ namespace surehit::detail {
 
 HWY_EXPORT(determinants_of);
 HWY_EXPORT(quotients_of);
+HWY_EXPORT(intervals_of);
 HWY_EXPORT(lanes_of_double);
 void chosen_determinants(std::span<const test::PairCoordinates> pairs, std::span<test::LaneDeterminants> results) {
   HWY_DYNAMIC_DISPATCH(determinants_of)(pairs, results);
@@ -90,6 +115,10 @@ void chosen_determinants(std::span<const test::PairCoordinates> pairs, std::span
 void chosen_quotients(std::span<const Bounded> numerators, std::span<const Bounded> denominators,
                       std::span<std::array<double, 2>> results) {
   HWY_DYNAMIC_DISPATCH(quotients_of)(numerators, denominators, results);
+}
+void chosen_intervals(std::span<const test::PairCoordinates> pairs, std::span<const test::HitSizes> sizes,
+                      std::span<test::LaneIntervals> results) {
+  HWY_DYNAMIC_DISPATCH(intervals_of)(pairs, sizes, results);
 }
 std::size_t chosen_lanes_of_double() { return HWY_DYNAMIC_DISPATCH(lanes_of_double)(); }
 
@@ -103,6 +132,10 @@ void double_determinants(std::span<const PairCoordinates> pairs, std::span<LaneD
 void quotients(std::span<const detail::Bounded> numerators, std::span<const detail::Bounded> denominators,
                std::span<std::array<double, 2>> results) {
   detail::chosen_quotients(numerators, denominators, results);
+}
+void hit_intervals(std::span<const PairCoordinates> pairs, std::span<const HitSizes> sizes,
+                   std::span<LaneIntervals> results) {
+  detail::chosen_intervals(pairs, sizes, results);
 }
 std::size_t double_lanes() { return detail::chosen_lanes_of_double(); }
 

@@ -5,11 +5,29 @@
 #include <span>
 
 #include "bounded.hpp"
+#include "surehit/path.hpp"
+#include "surehit/triangle.hpp"
 
 namespace surehit::test {
 
 /// Of a path from a start in a direction, and of corners a, b and c: three coordinates each.
 using PairCoordinates = std::array<double, 15>;
+
+template <typename Scalar>
+PairCoordinates coordinates_of(const Path<Scalar>& path, const Triangle<Scalar>& triangle) {
+  PairCoordinates coordinates;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    const double start = path.start[k];
+    const double toward = path.toward[k];
+    coordinates[axis] = start;
+    coordinates[3 + axis] = path.has_end() ? toward - start : toward;
+    coordinates[6 + axis] = triangle.a[k];
+    coordinates[9 + axis] = triangle.b[k];
+    coordinates[12 + axis] = triangle.c[k];
+  }
+  return coordinates;
+}
 
 struct LaneDeterminants {
   detail::Bounded det, height, u, v;
@@ -22,6 +40,17 @@ void double_determinants(std::span<const PairCoordinates> pairs, std::span<LaneD
 /// `detail::Quotients` there: [lower, upper] of each numerator by the denominator of the same index.
 void quotients(std::span<const detail::Bounded> numerators, std::span<const detail::Bounded> denominators,
                std::span<std::array<double, 2>> results);
+
+/// What `detail::HitIntervals` goes by besides the pair.
+struct HitSizes {
+  float t, edge;
+};
+struct LaneIntervals {
+  std::array<double, 2> t, u, v;
+};
+/// `detail::HitIntervals` there.
+void hit_intervals(std::span<const PairCoordinates> pairs, std::span<const HitSizes> sizes,
+                   std::span<LaneIntervals> results);
 
 [[nodiscard]] std::size_t double_lanes();
 
