@@ -95,8 +95,6 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
   return frame;
 }
 
-double GridFrame::scaled(double x) const noexcept { return x * unit[0] * unit[1]; }
-
 double GridFrame::place(std::size_t axis, double scaled_coordinate) const noexcept {
   return (scaled_coordinate - origin[axis]) * scale[axis] + double{margin[axis]};
 }

@@ -69,7 +69,7 @@ struct GridFrame {
   static GridFrame around(const Box<Scalar>& box, const std::array<double, 3>& wished_cells, std::uint32_t division);
 
   /// x 2^exponent, exactly unless it underflows (by less than 2^-1073) or overflows.
-  [[nodiscard]] double scaled(double x) const noexcept;
+  [[nodiscard]] double scaled(double x) const noexcept { return x * unit[0] * unit[1]; }
   /// Finest cells on an axis.
   [[nodiscard]] std::uint32_t resolution(std::size_t axis) const noexcept { return cells[axis] * division; }
   /// Counts in cells that are 1/factor as many, a power of two.
