@@ -170,6 +170,8 @@ template <typename Scalar>
 void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t,
                                  double last_t) noexcept {
   if (!path.start.allFinite() || !path.toward.allFinite()) return;
+  unit = {1, 1, 1};
+  origin = {0, 0, 0};
   std::array<double, 3> from;
   std::array<double, 3> by;
   double fastest = 0;

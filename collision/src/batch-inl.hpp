@@ -46,7 +46,7 @@ class Batch {
         paths_(paths),
         finish_(finish),
         alone_(alone),
-        visitors_(for_all_paths(Visitor(query), std::make_index_sequence<most_paths>())) {}
+        visitors_(for_all_paths(query, std::make_index_sequence<most_paths>())) {}
 
   HWY_INLINE void run() {
     if (query_.grid.levels() > 0) {
@@ -63,8 +63,8 @@ class Batch {
   static_assert(most_paths % most_lanes == 0 && most_paths <= 64);  // a bit each in a set of slots
 
   template <std::size_t... slot>
-  static std::array<Visitor, most_paths> for_all_paths(const Visitor& visitor, std::index_sequence<slot...>) {
-    return {((void)slot, visitor)...};
+  static std::array<Visitor, most_paths> for_all_paths(const Query<float>& query, std::index_sequence<slot...>) {
+    return {((void)slot, Visitor(query))...};
   }
 
   using Kernel = typename Visitor::Kernel;

@@ -202,9 +202,9 @@ class FirstHit {
   Scalar edge_size_ = 0;                                      ///< and of its list
   Scalar t_lower_ = std::numeric_limits<Scalar>::infinity();  ///< the best one's t is in [t_lower_, t_upper_]
   Scalar t_upper_ = std::numeric_limits<Scalar>::infinity();  //
-  /// Of a located one the triangle alone.
-  Candidate<Scalar> best_ = {
-      no_triangle, {Vector3<Scalar>::Zero(), Vector3<Scalar>::Zero(), Vector3<Scalar>::Zero()}, {}};
+  /// Of a located one the triangle alone. Not set before there is one: what a query stores counts as much as what it
+  /// computes, for a store that waits for its line holds up all behind it.
+  Candidate<Scalar> best_;
 };
 
 /// Is content with any hit.

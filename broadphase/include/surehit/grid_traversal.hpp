@@ -40,9 +40,10 @@ struct PlacedPath {
   detail::Float4 inverse_rate;      ///< finite
   float end = 0;                    ///< tau beyond which nothing counts
   float exit = 0;                   ///< tau at which the path leaves the grid, about
-  /// tau = t unit[0] unit[1] unit[2] - origin[0] - origin[1] - origin[2]
-  std::array<double, 3> unit = {1, 1, 1};
-  std::array<double, 3> origin = {0, 0, 0};
+  /// tau = t unit[0] unit[1] unit[2] - origin[0] - origin[1] - origin[2]. Of a path that is placed in float, only
+  /// `origin[2]` is set.
+  std::array<double, 3> unit;
+  std::array<double, 3> origin;
 
   /// The axes on which it is mirrored, all ones.
   [[nodiscard]] detail::Int4 falls() const noexcept {
