@@ -41,7 +41,7 @@ bool is_thin(CellSlab slab, CellBox box) {
 /// gives the slab of a cell's list.
 template <typename Fit>
 bool is_smooth(const Grid& grid, const Fit& fit) {
-  constexpr std::size_t samples = 64;
+  constexpr std::size_t samples = 32;
   constexpr std::size_t few = 8;
   const std::size_t tops = grid.top().size();
   std::size_t thin = 0;
