@@ -29,7 +29,7 @@ class BoundedQuotients {
 /// What doubles with error bounds say of a path and a triangle.
 struct BoundedContact {
   Verdict verdict = Verdict::undecided;
-  Contact contact;          ///< of a hit
+  Contact contact = {};     ///< of a hit
   BoundedQuotients by_det;  ///< of a hit, as are the rest: t = height / det, u = u_scaled / det, v = v_scaled / det
   Bounded u_scaled;
   Bounded v_scaled;

@@ -77,7 +77,7 @@ class ExactPair {
   template <int F, int L, int P>
   [[gnu::noinline]] std::optional<Contact> cut(const Ratio<F>& first, const Ratio<L>& last,
                                                const PathRange<Scalar>& range, Ratio<P>& t) {
-    Contact contact;
+    Contact contact = {};
     contact.at_start = path_.has_start() && first.num.sign() <= 0 && last.num.sign() >= 0;
     if (path_.has_end()) {
       const Limit<Scalar> end(1, scale_.t_exponent);
@@ -406,7 +406,7 @@ class ExactPair {
                                                           Weights<Scalar>* weights) {
     if (!(range.first <= 0 && range.last >= 0)) return std::nullopt;
     t.set(WideInt<1>(), WideInt<1>::power_of_two(0));
-    Contact contact;
+    Contact contact = {};
     contact.at_start = path_.has_start();
     contact.at_end = path_.has_end();
     return contains_start(weights) ? std::optional(contact) : std::nullopt;

@@ -18,10 +18,10 @@ namespace surehit::detail {
 template <typename Scalar>
 [[nodiscard]] bool share_axis_plane(const Triangle<Scalar>& x, const Triangle<Scalar>& y);
 
-/// A triangle that a path meets.
+/// A triangle that a path meets. Not set by itself, as a `Contact` is not.
 template <typename Scalar>
 struct Candidate {
-  std::uint32_t id = no_triangle;
+  std::uint32_t id;
   Triangle<Scalar> triangle;
   Contact contact;
 };
