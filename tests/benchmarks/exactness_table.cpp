@@ -9,8 +9,9 @@
 namespace surehit::benchmark {
 namespace {
 
-/// Rounds for each of another table: what is looked for is a few percent, no more than what one round is off by.
-constexpr std::size_t times_as_many_rounds = 3;
+/// Rounds for each of another table: what is looked for is a few percent, no more than what one round is off by. With
+/// 3, the median of a row wandered by 3 points from run to run; with 9, by 1.
+constexpr std::size_t times_as_many_rounds = 9;
 
 /// By how many percent the shipped batch takes longer than another, round by round.
 RoundSeries cost_in_percent(const RoundSeries& shipped, const RoundSeries& inexact) {
