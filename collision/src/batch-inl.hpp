@@ -450,8 +450,8 @@ class BatchRounding {
   std::size_t count_ = 0;
   /// The path's start and its end or direction, and the triangle's corners. Beyond the last hit anything finite.
   alignas(most * sizeof(float)) std::array<std::array<std::array<float, 4>, most>, 5> vectors_ = {};
-  alignas(most * sizeof(float)) std::array<float, most> t_size_ = {};
-  alignas(most * sizeof(float)) std::array<float, most> edge_size_ = {};
+  alignas(most * sizeof(float)) std::array<float, most> t_size_ = {};     ///< what `HitIntervals` goes by besides,
+  alignas(most * sizeof(float)) std::array<float, most> edge_size_ = {};  //
   std::array<std::size_t, most> index_;
   std::array<std::size_t, most> entry_;  ///< the one where the id stands, which is on its way into the cache
 };

@@ -39,7 +39,8 @@ class DoubleDeterminants {
     const Vectors<D> e1 = difference(b, a);
     const Vectors<D> e2 = difference(c, a);
     const Vectors<D> s = difference(start, a);
-    const V d_size = size(direction), e1_size = size(e1), e2_size = size(e2), s_size = size(s);
+    d_size = size(direction);
+    const V e1_size = size(e1), e2_size = size(e2), s_size = size(s);
     const Vectors<D> p = cross(direction, e2);
     const Vectors<D> q = cross(s, e1);
     det = dot(e1, p);
@@ -64,13 +65,9 @@ class DoubleDeterminants {
     return hn::MulAdd(sizes, hn::Set(d_, Bound::relative), underflow_);
   }
 
-  /// The largest component.
-  [[nodiscard]] HWY_INLINE static V size(const Vectors<D>& x) {
-    return hn::Max(hn::Max(hn::Abs(x.x), hn::Abs(x.y)), hn::Abs(x.z));
-  }
-
   V det, height, u, v;
   V det_size, height_size, u_size, v_size;
+  V d_size;  ///< the largest component of the direction
 
  private:
   HWY_INLINE static Vectors<D> difference(const Vectors<D>& x, const Vectors<D>& y) {
@@ -83,6 +80,8 @@ class DoubleDeterminants {
   HWY_INLINE static V dot(const Vectors<D>& x, const Vectors<D>& y) {
     return hn::MulAdd(x.x, y.x, hn::MulAdd(x.y, y.y, hn::Mul(x.z, y.z)));
   }
+  HWY_INLINE static V size(const Vectors<D>& x) { return hn::Max(hn::Max(hn::Abs(x.x), hn::Abs(x.y)), hn::Abs(x.z)); }
+
   [[no_unique_address]] D d_;
   V underflow_;
 };

@@ -43,10 +43,9 @@ struct HitIntervals {
                           const Vectors<D>& b, const Vectors<D>& c, V t_size, V edge_size) {
     const DoubleDeterminants<D> of(d, start, direction, a, b, c);
     det = of.det;
-    const V d_size = DoubleDeterminants<D>::size(direction);
-    const V way = hn::Mul(t_size, d_size);
+    const V way = hn::Mul(t_size, of.d_size);
     const V share = hn::Mul(edge_size, hn::Set(d, KernelBound<double>::relative));
-    const V of_side = hn::Mul(hn::Mul(share, d_size), hn::Add(way, hn::Add(edge_size, edge_size)));
+    const V of_side = hn::Mul(hn::Mul(share, of.d_size), hn::Add(way, hn::Add(edge_size, edge_size)));
     const V of_height = hn::Mul(hn::Mul(share, edge_size), hn::Add(hn::Add(way, way), edge_size));
     const V inverse = hn::Div(hn::Set(d, 1), det);
     const V inverse_size = hn::Abs(inverse);

@@ -58,7 +58,7 @@ struct PlacedPath {
   PlacedPath() = default;
 
   /// Whether it ends in the cube of empty cells in which it begins, as most short ones do, and so meets nothing. Of a
-  /// path that is inside.
+  /// path that is inside. Of one that begins in a cell with a list it also fetches the word of the cell where it ends.
   [[gnu::always_inline]] [[nodiscard]] bool stays_in_empty_space(const Grid& grid) const noexcept {
     using namespace detail;
     const GridFrame& frame = grid.frame();
@@ -68,7 +68,7 @@ struct PlacedPath {
     const Int4 index = first * frame.pitch_of(falls()) + frame.first_top_of(falls());
     const CellWord word = grid.top()[static_cast<std::size_t>(index[0] + index[1] + index[2])];
     if (!word.is_empty()) {
-      // The word that a short path is likely to want next but one of its own: the walk comes to it too late to ask.
+      // A short path mostly goes through one more cell, the one where it ends, whose word it would wait for then.
       const Int4 stop = to_int(frame.float_stop) >> shift;
       const Int4 end_index =
           least(greatest(last, first), stop - 1) * frame.pitch_of(falls()) + frame.first_top_of(falls());
