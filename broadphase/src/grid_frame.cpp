@@ -12,7 +12,7 @@ namespace surehit {
 //  R
 //    (in double, for other meshes, by u R when it is rounded at last);
 //  - the tests of `TriangleOverlap` and `find_overlaps` by less than 8 u R;
-//  - a path by less than 16 u R, see grid_traversal.cpp.
+//  - a path by less than 16 u R, or 19 u R where it stands in all of its cells at once, see grid_traversal.cpp.
 // Together they are below 32 u R = 2^-19 R = `padding`: a cell grown by it lists every triangle that a path, walking
 // through that cell by rounded numbers, truly meets there.
 

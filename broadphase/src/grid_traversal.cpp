@@ -60,14 +60,24 @@ Pair exact_difference(double x, double y) {
 // |n|, by as much for its own products and sums, and the plane by 2 u R more for S and its sum with that: by 8 u R,
 // where the other half of S has 16.
 //
-// A path may stand in all of its cells at once instead, where these are few (`LaneWalk::spread`): at the tau where it
-// begins, and at tau_X of each plane X beyond the cell of the rounded place where it begins, up to the whole part of
-// the one where it ends. At such a tau, c is the whole part of the rounded place on each axis, or the next cell if the
-// plane before that is crossed by then, as computed; and no less than the cell where the path begins, whose near planes
-// count as crossed from the start, since the place may be rounded otherwise here. So it is never behind the last plane
-// crossed. As above x(tau) >= c - e; and x <= c + 1 + e until some lane's plane is crossed next, or the path has ended:
-// a plane that is crossed before, but that has no lane, is beyond the rounded place of the end, so that the path comes
-// no more than e beyond it. Again the intervals cut the path without a gap.
+// A path may stand in all of its cells at once instead (`LaneWalk::stand`): at the tau where it begins, and at tau_X of
+// each plane X beyond the cell of the rounded place where it begins, up to the whole part of the one where it ends. At
+// such a tau, c is the whole part of fl(p + tau r'), rounded once, on each axis, where
+//     r' = fl(r (1 + 4 u)) >= r (1 + 4 u) (1 - u).
+// So no plane Y that is crossed by then, as computed, is beyond c: with tau >= tau_Y >= (1 - u)^3 (Y - p) / r,
+//     p + tau r' >= p + (1 - u)^4 (1 + 4 u) (Y - p) >= Y - 10 u^2 Y,
+// which is rounded to Y or more, since the float before Y is u Y or more away. Nor is the cell where the path begins
+// beyond c there, as its place is fl(p + fl(tau r)), and fl(tau r) <= (1 + u) tau r <= tau r'. So it does not matter
+// that a plane beyond that cell may be crossed before the path begins, as computed. But c may be ahead of the path by
+// more than in a step: with w the way that the path has in the grid on the axis, by 5 u w for r' and u R for the sum,
+// instead of 3 u w for a rounded crossing. So x(tau) >= c - e' with e' = e + 2 u w + u R, below 19 u R. As above
+// x <= c + 1 + e until some lane's plane is crossed next, or the path has ended: a plane that is crossed before, but
+// that has no lane, is beyond the rounded place of the end, so that the path comes no more than e beyond it. Again the
+// intervals cut the path without a gap. A point where a triangle is met is within e' of some cell here, which lists the
+// triangle, since that is what e' may be in grid_frame.cpp; and e' with the three roundings of a box's planes is below
+// the padding by which these are farther out. A slab holds the triangles as they are, but for its last places, which no
+// point within half a padding of the cell is beyond: one that is 3 u R farther out on each axis is beyond them by 3 u R
+// times |n|, and of the slack 8 are left.
 //
 // For the same reason a path meets nothing whose first cell begins a cube of empty ones that holds the cell of the
 // rounded place where it ends, or leaves the grid, as well (`PlacedPath::stays_in_empty_space`): on every axis all of

@@ -230,46 +230,64 @@ class LaneWalk {
     repeat(path, pieces);
   }
 
-  /// A path that is as many cells long or longer may need more lanes to be spread than there are: on each axis it
-  /// crosses less than one plane more than its length there, and it begins in a cell as well.
-  static float too_long_to_spread() { return static_cast<float>(hn::Lanes(FloatTag())) - 4; }
+  /// Whether a path can be spread: in fewer lanes it is walked as fast, and the bound on `Crossings::rate` presupposes
+  /// that the place is rounded once.
+  static constexpr bool can_spread = HWY_NATIVE_FMA != 0 && most_lanes >= 8;
 
-  /// Stands in all cells that a path comes to from some tau on, one in each lane: where the path begins, and behind
-  /// each plane that it crosses. Of a grid without levels. Returns the lanes that it takes. That no cell is left out is
-  /// argued in grid_traversal.cpp.
-  HWY_INLINE std::uint32_t spread(const PlacedPath& path, float enters, WalkingPaths& cells) const {
+  /// The planes that a path crosses from some tau on, numbered from 1: those on x, then those on y and on z. Number 0
+  /// is where it begins.
+  struct Crossings {
+    HWY_INLINE Crossings(const PlacedPath& any_path, float begins) : path(any_path), enters(begins) {
+      const Float4 first = to_float(to_int(path.start + enters * path.rate));
+      const Float4 end = to_float(to_int(path.start + std::min(path.end, path.exit) * path.rate));
+      const Float4 planes = end - first;
+      last_on_x = planes[0];
+      last_on_y = planes[0] + planes[1];
+      last = last_on_y + planes[2];
+      number_zero = first - Float4{0, last_on_x, last_on_y, 0};
+      rate = path.rate * (1 + 0x1p-22F);
+    }
+    const PlacedPath& path;
+    float enters;
+    Float4 rate;         ///< so much greater that no plane crossed by some tau is beyond the place then
+    Float4 number_zero;  ///< the plane that would have it if the axis were the first
+    float last_on_x;     ///< number
+    float last_on_y;
+    float last;
+  };
+
+  /// Makes lanes ready to `stand`.
+  HWY_INLINE void spread(const PlacedPath& path, WalkingPaths& cells) const {
     const FloatTag d;
-    const Float4 first = to_float(to_int(path.start + enters * path.rate));
-    const Float4 last = to_float(to_int(path.start + std::min(path.end, path.exit) * path.rate));
-    const Float4 planes = last - first;
-    const float until_z = planes[0] + planes[1];
-    // The first lane is where the path begins; then come the planes on x, on y and on z.
-    const Floats lane = hn::Iota(d, 0.0F);
-    const auto is_y = hn::Gt(lane, hn::Set(d, planes[0]));
-    const auto is_z = hn::Gt(lane, hn::Set(d, until_z));
-    const auto on_axis = [&](const Float4& of) {
-      return hn::IfThenElse(is_z, hn::Set(d, of[2]), hn::IfThenElse(is_y, hn::Set(d, of[1]), hn::Set(d, of[0])));
-    };
-    const Floats plane = hn::Add(lane, on_axis(first - Float4{0, planes[0], until_z, 0}));
-    const Floats crossing = hn::Mul(hn::Sub(plane, on_axis(path.start)), on_axis(path.inverse_rate));
-    const Floats tau = hn::IfThenElse(hn::FirstN(d, 1), hn::Set(d, enters), crossing);
-    auto inside = hn::Le(lane, hn::Set(d, until_z + planes[2]));
+    hn::Store(hn::Set(d, path.end), d, cells.end.data());
+    repeat(path, cells);
+  }
+
+  /// Stands in the cells behind as many crossings as there are lanes, from a number on, in a grid without levels.
+  /// Returns the lanes that it takes. Over all numbers no cell is left out, as is argued in grid_traversal.cpp.
+  HWY_INLINE std::uint32_t stand(const Crossings& crossings, float from, WalkingPaths& cells) const {
+    const FloatTag d;
+    const PlacedPath& path = crossings.path;
+    const Floats number = hn::Add(hn::Iota(d, 0.0F), hn::Set(d, from));
+    Floats crossed[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats plane = hn::Add(number, hn::Set(d, crossings.number_zero[axis]));
+      crossed[axis] = hn::Mul(hn::Sub(plane, hn::Set(d, path.start[axis])), hn::Set(d, path.inverse_rate[axis]));
+    }
+    const auto is_beyond_x = hn::Gt(number, hn::Set(d, crossings.last_on_x));
+    const auto is_beyond_y = hn::Gt(number, hn::Set(d, crossings.last_on_y));
+    const Floats crossing =
+        hn::IfThenElse(is_beyond_y, crossed[2], hn::IfThenElse(is_beyond_x, crossed[1], crossed[0]));
+    const Floats tau = hn::IfThenElse(hn::Eq(number, hn::Zero(d)), hn::Set(d, crossings.enters), crossing);
+    auto inside = hn::Le(number, hn::Set(d, crossings.last));
     Floats cell[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Floats start = hn::Set(d, path.start[axis]);
-      // Planes up to the first cell's have no lane: none may stand before them, however its place is rounded.
-      const Floats place =
-          hn::Max(hn::Floor(hn::MulAdd(tau, hn::Set(d, path.rate[axis]), start)), hn::Set(d, first[axis]));
-      const Floats next = hn::Add(place, hn::Set(d, 1.0F));
-      const auto is_next = hn::Le(hn::Mul(hn::Sub(next, start), hn::Set(d, path.inverse_rate[axis])), tau);
-      cell[axis] = hn::IfThenElse(is_next, next, place);
+      cell[axis] = hn::Floor(hn::MulAdd(tau, hn::Set(d, crossings.rate[axis]), hn::Set(d, path.start[axis])));
       inside = hn::And(inside, hn::Lt(cell[axis], hn::Set(d, frame_.float_stop[axis])));
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
       hn::Store(hn::IfThenElseZero(inside, cell[axis]), d, cells.finest[axis].data());
     }
-    hn::Store(hn::Set(d, path.end), d, cells.end.data());
-    repeat(path, cells);
     return static_cast<std::uint32_t>(bits_of(d, inside));
   }
 

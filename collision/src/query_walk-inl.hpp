@@ -96,67 +96,86 @@ HWY_INLINE bool is_long(float least_cells, const Grid& grid, const PlacedPath& p
 }
 
 #if HWY_TARGET != HWY_SCALAR
-/// What each lane does of a path.
-enum class LaneTask : std::uint8_t {
-  piece,            ///< walks a part of it
-  piece_in_levels,  ///< the same in a grid that has levels
-  cell,             ///< stands in one of its cells, in a grid that has none
-};
-
-/// Walks a path in lanes side by side, for a visitor that is content with any hit: no step has to wait for the cell
-/// that the step before it loads. Where the first hit is wanted, what the later lanes find would be in vain.
-template <LaneTask task, typename Visitor>
-HWY_NOINLINE void walk_side_by_side(float enters, const Query<float>& query, const Path<float>& path,
-                                    const PathRange<float>& range, const PlacedPath& placed, Visitor& visitor) {
+/// Shows the visitor the triangles of the lists that the path may meet in the cells in which lanes stand, until it is
+/// done.
+template <typename Visitor>
+HWY_INLINE void meet_cells(const Query<float>& query, const PathRange<float>& range, const Path<float>& path,
+                           const ForKernel<float>& for_kernel, const LaneWalk& lanes, const LaneWalk::Cells& cells,
+                           std::uint32_t standing, const WalkingPaths& paths, Visitor& visitor) {
   const BitsTag du;
-  const LaneWalk lanes(query.grid, query.mesh.slabs());
-  WalkingPaths paths;
-  auto walking = static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(du)) - 1);
-  if constexpr (task == LaneTask::cell) {
-    walking = lanes.spread(placed, enters, paths);
-  } else {
-    lanes.cut(placed, enters, paths);
-  }
-  const ForKernel<float> for_kernel(path, range, query.grid.frame());
-  while (walking != 0) {
-    query.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking));
-    const LaneWalk::Cells cells = lanes.look<task == LaneTask::piece_in_levels>(paths, walking);
-    const auto lists = hn::Eq(hn::And(cells.word, hn::Set(du, 15U)), hn::Zero(du));
-    auto arriving = static_cast<std::uint32_t>(bits_of(du, lists)) & walking;
-    if (arriving != 0) arriving = lanes.meet_lists(cells, arriving, paths);
-    if (arriving != 0) {
-      alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_lanes> words;
-      hn::Store(cells.word, du, words.data());
-      for (; arriving != 0; arriving &= arriving - 1) {
-        const TriangleList<float> list =
-            list_of(query, CellWord(words[static_cast<std::size_t>(std::countr_zero(arriving))]));
-        query.statistics.candidates += list.count;
-        meet_list(query, range, path, for_kernel.path, for_kernel.weights, list, 0, visitor);
-        if (visitor.is_done()) return;
-      }
-    }
-    if constexpr (task == LaneTask::cell) break;
-    walking = lanes.advance(cells, walking, paths);
+  query.statistics.cells += static_cast<std::uint64_t>(std::popcount(standing));
+  const auto lists = hn::Eq(hn::And(cells.word, hn::Set(du, 15U)), hn::Zero(du));
+  auto arriving = static_cast<std::uint32_t>(bits_of(du, lists)) & standing;
+  if (arriving != 0) arriving = lanes.meet_lists(cells, arriving, paths);
+  if (arriving == 0) return;
+  alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_lanes> words;
+  hn::Store(cells.word, du, words.data());
+  for (; arriving != 0 && !visitor.is_done(); arriving &= arriving - 1) {
+    const TriangleList<float> list =
+        list_of(query, CellWord(words[static_cast<std::size_t>(std::countr_zero(arriving))]));
+    query.statistics.candidates += list.count;
+    meet_list(query, range, path, for_kernel.path, for_kernel.weights, list, 0, visitor);
   }
 }
 
-/// The same if the path has so many cells before it that it pays. Returns whether it was walked. (In a grid of which
-/// two in five cells list triangles, long paths take 0.92 of the time if they are spread from 4 cells on, 0.94 from 6
-/// on; in one of which a tenth do, either costs as much as it saves.)
+// A path side by side, for a visitor that is content with any hit: no step has to wait for the cell that the step
+// before it loads. Where the first hit is wanted, what the later lanes find would be in vain.
+
+/// Walks a path in pieces, one in each lane.
+template <bool has_levels, typename Visitor>
+HWY_NOINLINE void walk_in_pieces(float enters, const Query<float>& query, const Path<float>& path,
+                                 const PathRange<float>& range, const PlacedPath& placed, Visitor& visitor) {
+  const LaneWalk lanes(query.grid, query.mesh.slabs());
+  WalkingPaths pieces;
+  lanes.cut(placed, enters, pieces);
+  const ForKernel<float> for_kernel(path, range, query.grid.frame());
+  auto walking = static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(BitsTag())) - 1);
+  while (walking != 0) {
+    const LaneWalk::Cells cells = lanes.look<has_levels>(pieces, walking);
+    meet_cells(query, range, path, for_kernel, lanes, cells, walking, pieces, visitor);
+    if (visitor.is_done()) return;
+    walking = lanes.advance(cells, walking, pieces);
+  }
+}
+
+/// Stands in all cells of a path, one in each lane, in a grid that has no levels. None waits for another, and none is
+/// leapt over.
+template <typename Visitor>
+HWY_NOINLINE void stand_in_cells(float enters, const Query<float>& query, const Path<float>& path,
+                                 const PathRange<float>& range, const PlacedPath& placed, Visitor& visitor) {
+  const LaneWalk lanes(query.grid, query.mesh.slabs());
+  const LaneWalk::Crossings crossings(placed, enters);
+  WalkingPaths paths;
+  lanes.spread(placed, paths);
+  const ForKernel<float> for_kernel(path, range, query.grid.frame());
+  float from = 0;
+  do {
+    const std::uint32_t standing = lanes.stand(crossings, from, paths);
+    const LaneWalk::Cells cells = lanes.look<false>(paths, standing);
+    meet_cells(query, range, path, for_kernel, lanes, cells, standing, paths, visitor);
+    from += static_cast<float>(hn::Lanes(FloatTag()));
+  } while (from <= crossings.last && !visitor.is_done());
+}
+
+/// The one or the other if the path has so many cells before it that it pays. Returns whether it did. (In a grid of
+/// which two in five cells list triangles, long paths that stand in all cells take 0.91 of the time of those that walk
+/// in pieces, and lines of sight 0.89; in one of which a tenth do, where a piece leaps over most cells, 1.06 and 1.11.)
 template <typename Visitor>
 HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const Path<float>& path,
                               const PathRange<float>& range, const PlacedPath& placed, Visitor& visitor) {
   constexpr float least_in_pieces = 12;
   constexpr float least_in_cells = 4;
-  const bool has_levels = query.grid.levels() > 0;
-  const bool may_spread = !has_levels && LaneWalk::too_long_to_spread() >= least_in_pieces;
-  if (!is_long(may_spread ? least_in_cells : least_in_pieces, query.grid, placed, enters)) return false;
-  if (has_levels) {
-    walk_side_by_side<LaneTask::piece_in_levels>(enters, query, path, range, placed, visitor);
-  } else if (is_long(least_in_pieces, query.grid, placed, enters)) {
-    walk_side_by_side<LaneTask::piece>(enters, query, path, range, placed, visitor);
+  constexpr std::size_t least_full = 4;  // one cell in as many lists triangles
+  const Grid& grid = query.grid;
+  const bool has_levels = grid.levels() > 0;
+  const bool is_spread = LaneWalk::can_spread && !has_levels && grid.lists().size() * least_full > grid.top().size();
+  if (!is_long(is_spread ? least_in_cells : least_in_pieces, grid, placed, enters)) return false;
+  if (is_spread) {
+    stand_in_cells(enters, query, path, range, placed, visitor);
+  } else if (has_levels) {
+    walk_in_pieces<true>(enters, query, path, range, placed, visitor);
   } else {
-    walk_side_by_side<LaneTask::cell>(enters, query, path, range, placed, visitor);
+    walk_in_pieces<false>(enters, query, path, range, placed, visitor);
   }
   return true;
 }

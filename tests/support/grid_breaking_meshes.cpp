@@ -213,6 +213,45 @@ GeneratedMesh<Scalar> grounds_askew(Random& random) {
 }
 
 template <typename Scalar>
+GeneratedMesh<Scalar> covered_from_a_plane() {
+  using Corners = Triangle<Scalar>;
+  GeneratedMesh<Scalar> mesh;
+  for (const Scalar x : {Scalar{-1}, Scalar{1}}) mesh.add({{x, x, x}, {x, x, x}, {x, x, x}});
+  for (const Corners& triangle : std::initializer_list<Corners>{
+           {{-0x1.6b5966p-5F, -0x1.911f0ep-5F, -0x1.e63856p-4F},
+            {-0x1.0a45c2p-4F, -0x1.fba13cp-6F, -0x1.fbabe8p-4F},
+            {-0x1.f205dp-5F, -0x1.3299fp-5F, -0x1.104ffp-3F}},
+           {{-0x1.cb3ef4p-4F, 0x1.805ed8p-3F, -0x1.0fca16p-3F},
+            {-0x1.06997cp-3F, 0x1.80891p-3F, -0x1.003c2cp-3F},
+            {-0x1.eba80ap-4F, 0x1.777d12p-3F, -0x1.47f3eap-3F}},
+           {{0x1.5e434ap-3F, 0x1.09080cp-3F, 0x1.4f4d3cp-3F},
+            {0x1.2836dap-3F, 0x1.186ed2p-3F, 0x1.0e93cep-3F},
+            {0x1.513b3ep-3F, 0x1.4a0088p-3F, 0x1.103b3p-3F}},
+           {{-0x1.5130bp-3F, -0x1.5f163cp-3F, -0x1.57a55p-4F},
+            {-0x1.46b43ap-3F, -0x1.15906ap-3F, -0x1.3e6892p-4F},
+            {-0x1.3f8d6p-3F, -0x1.4aeb7ap-3F, -0x1.187606p-4F}},
+           {{-0x1.648d34p-3F, 0x1.2cd03p-5F, -0x1.80f58p-11F},
+            {-0x1.6691cap-3F, 0x1.aa1fbcp-5F, -0x1.1ebefcp-6F},
+            {-0x1.83ebaep-3F, 0x1.55fbb2p-5F, -0x1.a7bde6p-7F}},
+           {{-0x1.a524dcp-7F, -0x1.0284cp-3F, 0x1.3c44cp-4F},
+            {0x1.69f36cp-6F, -0x1.078ddcp-3F, 0x1.1a8ad6p-4F},
+            {0x1.fbe2bp-9F, -0x1.44a348p-3F, 0x1.130b3cp-4F}},
+           {{0x1.638cbp-3F, -0x1.edae16p-5F, -0x1.4f8888p-4F},
+            {0x1.51b2fcp-3F, -0x1.3b110cp-4F, -0x1.2cca7p-4F},
+            {0x1.216524p-3F, -0x1.ae3d5cp-5F, -0x1.79428ep-4F}},
+           {{-0x1.7cff2ep-5F, 0x1.996ep-4F, 0x1.39c238p-3F},
+            {-0x1.392d56p-4F, 0x1.512726p-4F, 0x1.4644fap-3F},
+            {-0x1.67026cp-5F, 0x1.9cdab4p-4F, 0x1.293d88p-3F}},
+           {{0x1.9526ecp-3F, 0x1.e6837p-8F, 0x1.e4a7ccp-5F},
+            {0x1.bad85ap-3F, 0x1.ef762ep-6F, 0x1.faa0b6p-5F},
+            {0x1.947bb8p-3F, 0x1.d1599cp-6F, 0x1.064bbp-4F}},
+       }) {
+    mesh.add(triangle);
+  }
+  return mesh;
+}
+
+template <typename Scalar>
 GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>& mesh, const Vector3<Scalar>& offset) {
   return joined(mesh, placed(mesh, 1 / Scalar{24}, offset));
 }
@@ -231,6 +270,7 @@ GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>& mesh, const V
   template GeneratedMesh<Scalar> flattened(GeneratedMesh<Scalar>, int, Scalar);                 \
   template GeneratedMesh<Scalar> joined(GeneratedMesh<Scalar>, const GeneratedMesh<Scalar>&);   \
   template GeneratedMesh<Scalar> grounds_askew(Random&);                                        \
+  template GeneratedMesh<Scalar> covered_from_a_plane();                                        \
   template GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>&, const Vector3<Scalar>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

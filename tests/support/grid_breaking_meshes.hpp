@@ -74,6 +74,11 @@ template <typename Scalar>
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> grounds_askew(Random& random);
 
+/// Small triangles here and there in [-1, 1]³, whose cover in a grid of 40 × 40 × 40 cells begins next to a plane
+/// between cells for a path that `lane_walk_test` names.
+template <typename Scalar>
+[[nodiscard]] GeneratedMesh<Scalar> covered_from_a_plane();
+
 /// Joined with a copy of itself a 24th as large, at `offset`: a spot crowded with small triangles.
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> with_small_copy(const GeneratedMesh<Scalar>& mesh, const Vector3<Scalar>& offset);

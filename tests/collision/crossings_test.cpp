@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "broadphase/walk_error.hpp"
+#include "crossings_on_targets.hpp"
+#include "support/case_count.hpp"
+#include "support/instruction_sets.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// The cells in which a path stands at once, beside the 19 u R that grid_traversal.cpp says it stays within.
+class CrossingsTest : public WalkError<float> {
+ protected:
+  using Cell = std::array<float, 3>;
+
+  [[nodiscard]] GridOptions draw_options(Random& random) const override {
+    if (random.one_in(2)) return uniform();
+    return {.resolution = {static_cast<std::uint32_t>(random.between(1, 60)),
+                           static_cast<std::uint32_t>(random.between(1, 60)),
+                           static_cast<std::uint32_t>(random.between(1, 60))},
+            .crowded = 0};
+  }
+
+  using WalkError::worst_share;
+  [[nodiscard]] double worst_share(const Path<float>& path) const override { return worst_share_from(path, 0); }
+
+  /// From some tau on.
+  [[nodiscard]] double worst_share_from(const Path<float>& path, float enters) const {
+    const PlacedPath placed(grid_, path, 0, 1);
+    Course course = this->course(path, placed.octant);
+    if (course.first > course.last) return 0;
+    if (placed.place != PlacedPath::Place::inside) {
+      ADD_FAILURE() << hex_text(path) << " is not walked";
+      return 0;
+    }
+    if (enters > 0) course.first = std::max(course.first, mpq_class(mpq_class(placed.origin[2]) + enters));
+    if (course.first > course.last) return 0;
+    std::vector<Cell> cells = cells_of(grid_, placed, enters);
+    // In the path's order, which rises on every axis.
+    std::sort(cells.begin(), cells.end(),
+              [](const Cell& a, const Cell& b) { return a[0] + a[1] + a[2] < b[0] + b[1] + b[2]; });
+    std::vector<VisitedBox> boxes;
+    for (const Cell& cell : cells) {
+      VisitedBox box;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_LT(cell[axis], grid_.frame().resolution(axis)) << hex_text(path);
+        box.low[axis] = cell[axis];
+        box.high[axis] = box.low[axis] + 1;
+      }
+      boxes.push_back(box);
+    }
+    return this->worst_share(boxes, course, 19);
+  }
+
+  /// Of each instruction set that spreads paths: there are no more answers than one, but for bugs.
+  template <typename Measure>
+  void expect_below_one_on_each(const Measure& measure) {
+    for (const std::int64_t target : instruction_sets()) {
+      const ForcedInstructionSet forced(target);
+      if (!can_spread()) continue;
+      SCOPED_TRACE(name_of_instruction_set(target));
+      expect_below_one(measure());
+    }
+  }
+};
+
+TEST_F(CrossingsTest, StayBelowTheirBoundOnRandomPaths) {
+  expect_below_one_on_each([&] { return draw_worst(20, 300); });
+}
+
+TEST_F(CrossingsTest, StayBelowTheirBoundWhereHillClimbingMakesItWorst) {
+  expect_below_one_on_each([&] { return climb(12, 1'000); });
+}
+
+TEST_F(CrossingsTest, BeginWhereThePathIsToBegin) {
+  expect_below_one_on_each([&] {
+    Random random(73);
+    double worst = 0;
+    for (int grids = 20; grids > 0 && !HasFailure(); --grids) {
+      place_anew(random);
+      for (std::size_t i = case_count(300); i > 0; --i) {
+        const Segment<float> segment = draw_segment(random);
+        const PlacedPath placed(grid_, Path<float>(segment), 0, 1);
+        if (!placed.is_placed_in_float) continue;
+        const float enters = random.unit<float>() * std::min(placed.end, placed.exit);
+        worst = std::max(worst, worst_share_from(segment, enters));
+      }
+    }
+    return worst;
+  });
+}
+
+/// Just before a plane between cells or behind it, as one rounds: the cell behind that plane was left out. (Found by a
+/// fuzzer.)
+TEST_F(CrossingsTest, BeginWhereThePathEntersTheCover) {
+  build(covered_from_a_plane<float>(), {.resolution = {40, 40, 40}, .crowded = 0});
+  const Vector3<float> start = {0x1.9f2b66p-1F, 0x1.63d34ep-4F, -0x1.dea05ap-2F};
+  const Vector3<float> end = {-0x1.faa466p-3F, -0x1.acff5ap-6F, 0x1.d1ce4ap-2F};
+  for (const Segment<float>& segment : {Segment<float>{start, end}, Segment<float>{end, start}}) {
+    const PlacedPath placed(grid_, Path<float>(segment), 0, 1);
+    const GridCover::Part part = grid_.cover().part_of(placed.start, placed.inverse_rate, placed.octant, placed.end);
+    ASSERT_GT(part.enters, 0);
+    expect_below_one_on_each([&] { return worst_share_from(segment, part.enters); });
+  }
+}
+
+}  // namespace
+}  // namespace surehit::test
