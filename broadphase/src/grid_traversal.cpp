@@ -66,18 +66,22 @@ Pair exact_difference(double x, double y) {
 //     r' = fl(r (1 + 4 u)) >= r (1 + 4 u) (1 - u).
 // So no plane Y that is crossed by then, as computed, is beyond c: with tau >= tau_Y >= (1 - u)^3 (Y - p) / r,
 //     p + tau r' >= p + (1 - u)^4 (1 + 4 u) (Y - p) >= Y - 10 u^2 Y,
-// which is rounded to Y or more, since the float before Y is u Y or more away. Nor is the cell where the path begins
+// which is rounded to Y or more, since the float before Y is u Y or more away. (In double the inverse is rounded apart
+// from the rate. With m in [1, 2) the mantissa of r, their product is no less than 1 - u / m - u m / 2 then, instead of
+// 1 - u; and r' is r (1 + 4 u / m) for m up to 1.25, r (1 + 6 u / m) up to 1.75 and r (1 + 8 u / m) beyond, so that the
+// sum is no less than Y - 0.23 u Y, which is rounded to Y or more as well.) Nor is the cell where the path begins
 // beyond c there, as its place is fl(p + fl(tau r)), and fl(tau r) <= (1 + u) tau r <= tau r'. So it does not matter
 // that a plane beyond that cell may be crossed before the path begins, as computed. But c may be ahead of the path by
 // more than in a step: with w the way that the path has in the grid on the axis, by 5 u w for r' and u R for the sum,
-// instead of 3 u w for a rounded crossing. So x(tau) >= c - e' with e' = e + 2 u w + u R, below 19 u R. As above
-// x <= c + 1 + e until some lane's plane is crossed next, or the path has ended: a plane that is crossed before, but
-// that has no lane, is beyond the rounded place of the end, so that the path comes no more than e beyond it. Again the
-// intervals cut the path without a gap. A point where a triangle is met is within e' of some cell here, which lists the
-// triangle, since that is what e' may be in grid_frame.cpp; and e' with the three roundings of a box's planes is below
-// the padding by which these are farther out. A slab holds the triangles as they are, but for its last places, which no
-// point within half a padding of the cell is beyond: one that is 3 u R farther out on each axis is beyond them by 3 u R
-// times |n|, and of the slack 8 are left.
+// instead of 3 u w for a rounded crossing. So x(tau) >= c - e' with e' = e + 2 u w + u R, below 19 u R. As above x <= c
+// + 1 + e until some lane's plane is crossed next, or the path has ended: a plane that is crossed before, but that has
+// no lane, is beyond the rounded place of the end, so that the path comes no more than e beyond it. Again the intervals
+// cut the path without a gap. A point where a triangle is met is within e' of some cell here, which lists the triangle,
+// since that is what e' may be in grid_frame.cpp. A box's planes are farther out by a padding, and what the cell and
+// their crossings are off, |p - P| aside, which both have in common, is 7 u w + u R and 5 u w: with the three roundings
+// half of that. A slab holds the triangles as they are, but for its last places, which no point within half a padding
+// of the cell is beyond: one that is 3 u R farther out on each axis is beyond them by 3 u R times |n|, and of the slack
+// 8 are left.
 //
 // For the same reason a path meets nothing whose first cell begins a cube of empty ones that holds the cell of the
 // rounded place where it ends, or leaves the grid, as well (`PlacedPath::stays_in_empty_space`): on every axis all of
