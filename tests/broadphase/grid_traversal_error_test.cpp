@@ -16,7 +16,6 @@ class GridTraversalError : public WalkError<Scalar> {
  protected:
   using typename WalkError<Scalar>::VisitedBox;
 
-  using WalkError<Scalar>::worst_share;
   [[nodiscard]] double worst_share(const Path<Scalar>& path) const override {
     const PlacedPath placed(this->grid_, path, 0, 1);
     const auto course = this->course(path, placed.octant);
@@ -38,7 +37,7 @@ class GridTraversalError : public WalkError<Scalar> {
       }
       boxes.push_back(box);
     }
-    return this->worst_share(boxes, course, 16);
+    return this->share_for(boxes, course, 16);
   }
 };
 TYPED_TEST_SUITE(GridTraversalError, Scalars, ScalarNames);

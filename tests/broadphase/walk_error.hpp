@@ -64,7 +64,7 @@ class WalkError : public GridWalk<Scalar> {
   /// that they cover the path from end to end. One is left and the next one entered at the same parameter if the plane
   /// k of the one and the plane j of the other are crossed there: (high_k + g b_k - x_k) / d_k =
   /// (low_j - g b_j - x_j) / d_j.
-  [[nodiscard]] double worst_share(const std::vector<VisitedBox>& boxes, const Course& course, int roundings) const {
+  [[nodiscard]] double share_for(const std::vector<VisitedBox>& boxes, const Course& course, int roundings) const {
     if (boxes.empty()) {
       ADD_FAILURE() << "visits nothing";
       return 0;
@@ -181,16 +181,20 @@ class WalkError : public GridWalk<Scalar> {
     return worst;
   }
 
-  double draw_worst(std::size_t grids, std::size_t paths) {
+  /// Of what `share_of` says of segments and of numbers that it draws itself.
+  template <typename Share>
+  double draw_worst(std::size_t grids, std::size_t paths, const Share& share_of) {
     Random random(72);
     double worst = 0;
     for (; grids > 0 && !this->HasFailure(); --grids) {
       place_anew(random);
-      for (std::size_t i = case_count(paths); i > 0; --i) {
-        worst = std::max(worst, worst_share(draw_segment(random)));
-      }
+      for (std::size_t i = case_count(paths); i > 0; --i)
+        worst = std::max(worst, share_of(draw_segment(random), random));
     }
     return worst;
+  }
+  double draw_worst(std::size_t grids, std::size_t paths) {
+    return draw_worst(grids, paths, [this](const Segment<Scalar>& segment, Random&) { return worst_share(segment); });
   }
 
   void expect_below_one(double share) {
