@@ -120,8 +120,7 @@ class Batch {
       }
       std::uint64_t arriving = 0;
       for (std::size_t i = 0; i < used; ++i) {
-        const auto lists = hn::Eq(hn::And(cells_[i].word, hn::Set(du, 15U)), hn::Zero(du));
-        const auto standing = static_cast<std::uint32_t>(bits_of(du, lists)) & of_vector(i, walking_);
+        const std::uint32_t standing = LaneWalk::in_lists(cells_[i], of_vector(i, walking_));
         arriving |= slots_of(i, walk_.meet_lists(cells_[i], standing, lanes_[i]));
         hn::Store(cells_[i].word, du, &words_[i * most_lanes]);
       }
@@ -209,10 +208,8 @@ class Batch {
   /// Steps the placed paths that begin in empty cells: most short ones end with that. Returns those that still walk.
   template <bool has_levels>
   HWY_INLINE std::uint32_t leave_empty_space(std::uint32_t inside) {
-    const BitsTag du;
     const LaneWalk::Cells cells = walk_.look<has_levels>(placed_, inside);
-    const auto empty = hn::Ne(hn::And(cells.word, hn::Set(du, 15U)), hn::Zero(du));
-    const std::uint32_t leaving = static_cast<std::uint32_t>(bits_of(du, empty)) & inside;
+    const std::uint32_t leaving = inside & ~LaneWalk::in_lists(cells, inside);
     query_.statistics.cells += static_cast<std::uint64_t>(std::popcount(leaving));
     return (inside & ~leaving) | walk_.advance(cells, leaving, placed_);
   }

@@ -346,6 +346,13 @@ class LaneWalk {
     return cells;
   }
 
+  /// Of lanes, those that stand in cells with lists.
+  HWY_INLINE static std::uint32_t in_lists(const Cells& cells, std::uint32_t standing) {
+    const BitsTag du;
+    const auto lists = hn::Eq(hn::And(cells.word, hn::Set(du, 15U)), hn::Zero(du));
+    return static_cast<std::uint32_t>(bits_of(du, lists)) & standing;
+  }
+
   /// Of lanes that stand in cells with lists, those whose path may meet a triangle of the list: as
   /// `GridTraversal::meets_box` and, where there are slabs, `GridTraversal::meets`.
   HWY_INLINE std::uint32_t meet_lists(const Cells& cells, std::uint32_t standing, const WalkingPaths& paths) const {

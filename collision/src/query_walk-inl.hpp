@@ -102,14 +102,12 @@ template <typename Visitor>
 HWY_INLINE void meet_cells(const Query<float>& query, const PathRange<float>& range, const Path<float>& path,
                            const ForKernel<float>& for_kernel, const LaneWalk& lanes, const LaneWalk::Cells& cells,
                            std::uint32_t standing, const WalkingPaths& paths, Visitor& visitor) {
-  const BitsTag du;
   query.statistics.cells += static_cast<std::uint64_t>(std::popcount(standing));
-  const auto lists = hn::Eq(hn::And(cells.word, hn::Set(du, 15U)), hn::Zero(du));
-  auto arriving = static_cast<std::uint32_t>(bits_of(du, lists)) & standing;
+  std::uint32_t arriving = LaneWalk::in_lists(cells, standing);
   if (arriving != 0) arriving = lanes.meet_lists(cells, arriving, paths);
   if (arriving == 0) return;
   alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_lanes> words;
-  hn::Store(cells.word, du, words.data());
+  hn::Store(cells.word, BitsTag(), words.data());
   for (; arriving != 0 && !visitor.is_done(); arriving &= arriving - 1) {
     const TriangleList<float> list =
         list_of(query, CellWord(words[static_cast<std::size_t>(std::countr_zero(arriving))]));
