@@ -119,6 +119,28 @@ def queries(figures):
     )
 
 
+def ranges(figures):
+    def cell(question, contender, ours):
+        def ratio(mesh, paths):
+            where = {"mesh": mesh, "paths": paths, "question": question, "contender": contender}
+            return figures.median(table="queries", measure=f"over {ours}", **where)
+
+        sets = [paths for paths in PATH_SETS if paths != "edge"]
+        ratios = [ratio(mesh, paths) for mesh, _ in figures.meshes("queries") for paths in sets]
+        return f"{number(min(ratios))} to {number(max(ratios))}"
+
+    batch, single = OURS
+    rows = [
+        [asked, *(cell(question, f"{MEDIUM} {way}", ours) for question in (CLOSEST, ANY))]
+        for asked, ours, way in (
+            ("batch ÷ single rays", batch, "x1"),
+            ("batch ÷ packets", batch, "x8"),
+            ("single calls ÷ single rays", single, "x1"),
+        )
+    ]
+    return markdown(["least and most", "closest hit", "any hit"], rows)
+
+
 def builds(figures):
     rows = []
     for mesh, shown in figures.meshes("build"):
@@ -248,7 +270,7 @@ def bounds(figures):
 
 BLOCKS = {
     block.__name__: block
-    for block in (machine, queries, builds, ticks, growth, threads, instruction_sets, exactness, bounds)
+    for block in (machine, queries, ranges, builds, ticks, growth, threads, instruction_sets, exactness, bounds)
 }
 
 
