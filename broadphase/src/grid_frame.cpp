@@ -101,19 +101,20 @@ double GridFrame::place(std::size_t axis, double scaled_coordinate) const noexce
 
 void GridFrame::coarsen(std::uint32_t factor) noexcept {
   division /= factor;
-  std::uint32_t pitch = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    top_pitch[axis] = static_cast<std::int32_t>(pitch);
-    last_top[axis] = static_cast<std::int32_t>(pitch * (cells[axis] - 1));
-    pitch *= cells[axis];
-  }
   for (std::uint32_t octant = 0; octant < 8; ++octant) {
+    TopOrder& order = top_orders[octant];
+    order = {};
+    std::uint32_t pitch = 1;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      const bool falls = (octant >> axis & 1) != 0;
+      order.pitch[axis] = falls ? -static_cast<std::int32_t>(pitch) : static_cast<std::int32_t>(pitch);
+      if (falls) order.first += static_cast<std::int32_t>(pitch * (cells[axis] - 1));
+      pitch *= cells[axis];
+    }
     for (std::uint32_t axes = 0; axes < 8; ++axes) {
-      std::int32_t step = 0;
       for (std::uint32_t axis = 0; axis < 3; ++axis) {
-        if ((axes >> axis & 1) != 0) step += (octant >> axis & 1) != 0 ? -top_pitch[axis] : top_pitch[axis];
+        if ((axes >> axis & 1) != 0) order.step[axes] += order.pitch[axis];
       }
-      top_step[octant][axes] = step;
     }
   }
   has_floats = true;

@@ -252,7 +252,7 @@ void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pat
   if (place == Place::outside) return;
   if (!moves) enters = 0;
   origin[2] = enters;
-  end = moves ? beyond(last_t) : 0;
+  end = moves ? beyond_in_double(last_t) : 0;
   exit = moves ? static_cast<float>(leaves - enters) : 0;
   rate = detail::all_lanes(0.0F);
   inverse_rate = detail::all_lanes(greatest_inverse);
@@ -266,8 +266,7 @@ void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pat
   }
 }
 
-float PlacedPath::beyond(double t) const noexcept {
-  if (is_placed_in_float) return beyond(t, origin[2]);
+float PlacedPath::beyond_in_double(double t) const noexcept {
   const double scaled = t * unit[0] * unit[1] * unit[2];
   const double tau = scaled - origin[0] - origin[1] - origin[2];
   const double rounding = std::fabs(scaled) + std::fabs(origin[0]) + std::fabs(origin[1]) + std::fabs(origin[2]);

@@ -105,7 +105,9 @@ class FirstHit {
         open |= first.lanes;
       }
     }
-    return open != 0 ? is_nearer | meeting.show(open, *this) : is_nearer;
+    if (open == 0) return is_nearer;
+    // A copy, so that it alone has to be in memory, and only when it is shown.
+    return is_nearer | Meeting<Scalar, AnyPath>(meeting).show(open, *this);
   }
 
   HWY_NOINLINE bool meet(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase,

@@ -176,8 +176,8 @@ class LaneWalk {
           hn::IfThenElse(stands, hn::Set(d, PlacedPath::greatest_inverse), hn::Div(hn::Set(d, 1.0F), speed));
       enters = hn::Max(enters, hn::Mul(hn::Neg(from[k]), inverse));
       leaves = hn::Min(leaves, hn::Mul(hn::Sub(stop, from[k]), inverse));
-      const Floats pitch = hn::Set(d, static_cast<float>(frame_.top_pitch[k]));
-      const Floats turned = hn::Set(d, static_cast<float>(frame_.last_top[k]));
+      const Floats pitch = hn::Set(d, static_cast<float>(frame_.top_orders[0].pitch[k]));
+      const Floats turned = hn::Set(d, static_cast<float>(frame_.top_orders[std::size_t{1} << k].first));
       hn::Store(hn::IfThenElse(falls, hn::Neg(pitch), pitch), d, placed.pitch[k].data());
       hn::Store(inverse, d, placed.inverse_rate[k].data());
       hn::Store(by[k], d, placed.rate[k].data());
@@ -467,16 +467,14 @@ class LaneWalk {
   /// Puts one path into all lanes, but for where each stands and ends.
   HWY_INLINE void repeat(const PlacedPath& path, WalkingPaths& paths) const {
     const FloatTag d;
-    // Without branches on the direction, which nobody could foretell.
-    const Float4 pitch = to_float(frame_.pitch_of(path.falls()));
+    const GridFrame::TopOrder& order = frame_.top_orders[path.octant];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       hn::Store(hn::Set(d, path.start[axis]), d, paths.start[axis].data());
       hn::Store(hn::Set(d, path.rate[axis]), d, paths.rate[axis].data());
       hn::Store(hn::Set(d, path.inverse_rate[axis]), d, paths.inverse_rate[axis].data());
-      hn::Store(hn::Set(d, pitch[axis]), d, paths.pitch[axis].data());
+      hn::Store(hn::Set(d, static_cast<float>(order.pitch[axis])), d, paths.pitch[axis].data());
     }
-    const Int4 first_top = frame_.first_top_of(path.falls());
-    hn::Store(hn::Set(d, static_cast<float>(first_top[0] + first_top[1] + first_top[2])), d, paths.first_cell.data());
+    hn::Store(hn::Set(d, static_cast<float>(order.first)), d, paths.first_cell.data());
     hn::Store(hn::Set(BitsTag(), path.octant), BitsTag(), paths.octant.data());
   }
 

@@ -57,15 +57,18 @@ TYPED_TEST(GridFrameTest, StepsAmongTopCellsAsThePathIsMirrored) {
   frame.coarsen(4);
   ASSERT_EQ(frame.cells, (std::array<std::uint32_t, 3>{5, 6, 7}));
   for (std::int32_t octant = 0; octant < 8; ++octant) {
-    const detail::Int4 falls = {-(octant & 1), -(octant >> 1 & 1), -(octant >> 2 & 1), 0};
-    const auto index_of = [&](const detail::Int4& cell) {
-      const detail::Int4 index = cell * frame.pitch_of(falls) + frame.first_top_of(falls);
-      return index[0] + index[1] + index[2];
+    const GridFrame::TopOrder& order = frame.top_orders.at(octant);
+    const auto number_of = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+      if ((octant & 1) != 0) x = 4 - x;
+      if ((octant & 2) != 0) y = 5 - y;
+      if ((octant & 4) != 0) z = 6 - z;
+      return x + 5 * y + 30 * z;
     };
+    EXPECT_EQ(order.index(detail::Int4{2, 3, 4, 0}), number_of(2, 3, 4)) << octant;
+    EXPECT_EQ(order.index(detail::Int4{0, 5, 1, 0}), number_of(0, 5, 1)) << octant;
     for (std::int32_t axes = 0; axes < 8; ++axes) {
-      const detail::Int4 from = {2, 3, 4, 0};
-      const detail::Int4 to = from + detail::Int4{axes & 1, axes >> 1 & 1, axes >> 2 & 1, 0};
-      EXPECT_EQ(frame.top_step.at(octant).at(axes), index_of(to) - index_of(from)) << octant << ' ' << axes;
+      const std::int32_t next = number_of(2 + (axes & 1), 3 + (axes >> 1 & 1), 4 + (axes >> 2 & 1));
+      EXPECT_EQ(order.step.at(axes), next - number_of(2, 3, 4)) << octant << ' ' << axes;
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace surehit::detail {
 
@@ -28,6 +29,11 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
 /// operations than `mask ? x : y`, which is three of them on many x86 processors.
 [[gnu::always_inline]] inline Float4 masked(Int4 mask, Float4 x) {
   return reinterpret_cast<Float4>(mask & reinterpret_cast<Int4>(x));
+}
+
+/// -x where the mask's lanes are all ones, x elsewhere.
+[[gnu::always_inline]] inline Float4 turned(Float4 x, Int4 mask) {
+  return reinterpret_cast<Float4>(reinterpret_cast<Int4>(x) ^ (mask & std::numeric_limits<std::int32_t>::min()));
 }
 
 [[gnu::always_inline]] inline Float4 absolute(Float4 x) {

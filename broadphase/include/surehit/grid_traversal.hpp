@@ -65,14 +65,13 @@ struct PlacedPath {
     const auto shift = static_cast<std::int32_t>(2 * grid.levels());
     const Int4 first = to_int(start) >> shift;
     const Int4 last = to_int(start + std::min(end, exit) * rate) >> shift;
-    const Int4 index = first * frame.pitch_of(falls()) + frame.first_top_of(falls());
-    const CellWord word = grid.top()[static_cast<std::size_t>(index[0] + index[1] + index[2])];
+    const GridFrame::TopOrder& order = frame.top_orders[octant];
+    const CellWord word = grid.top()[static_cast<std::size_t>(order.index(first))];
     if (!word.is_empty()) {
       // A short path mostly goes through one more cell, the one where it ends, whose word it would wait for then.
       const Int4 stop = to_int(frame.float_stop) >> shift;
-      const Int4 end_index =
-          least(greatest(last, first), stop - 1) * frame.pitch_of(falls()) + frame.first_top_of(falls());
-      __builtin_prefetch(&grid.top()[static_cast<std::size_t>(end_index[0] + end_index[1] + end_index[2])]);
+      const Int4 end_cell = least(greatest(last, first), stop - 1);
+      __builtin_prefetch(&grid.top()[static_cast<std::size_t>(order.index(end_cell))]);
       return false;
     }
     const auto cells = static_cast<std::int32_t>(word.distance(octant));
@@ -80,7 +79,9 @@ struct PlacedPath {
   }
 
   /// tau at t or a little beyond it.
-  [[nodiscard]] float beyond(double t) const noexcept;
+  [[gnu::always_inline]] [[nodiscard]] float beyond(double t) const noexcept {
+    return is_placed_in_float ? beyond(t, origin[2]) : beyond_in_double(t);
+  }
   /// The same where tau is t - `enters`.
   [[nodiscard]] static float beyond(double t, double enters) noexcept {
     const double tau = t - enters;
@@ -92,6 +93,7 @@ struct PlacedPath {
   template <typename Scalar>
   void place_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t) noexcept;
   bool try_place_in_float(const GridFrame& frame, const Path<float>& path, float first_t, float last_t) noexcept;
+  [[nodiscard]] float beyond_in_double(double t) const noexcept;
 };
 
 template <typename Scalar>
@@ -119,18 +121,21 @@ template <typename Scalar>
   const Int4 is_near = (-stop <= at) & (at <= stop + stop) & (speed <= all_lanes(fast));
   const Int4 falls = move < all_lanes(0.0F);
   const Int4 stands = speed < all_lanes(least_rate);
-  const Float4 from = falls ? stop - at : at;
+  const Float4 from = turned(at, falls) + masked(falls, stop);
   rate = masked(~stands, speed);
   inverse_rate = stands ? all_lanes(greatest_inverse) : 1 / speed;
   Float4 leaving = (from - stop) * inverse_rate;
   leaving[3] = -last_t;
   const Float4 limits = greatest_lanes(-from * inverse_rate, leaving, speed, masked(~is_near, all_lanes(1.0F)));
   if (limits[3] != 0 || !(limits[2] >= slow || path.has_end())) return false;
-  // Whether it may enter later is known before the divisions are done. Most paths begin inside, and wait for none.
-  const bool may_enter_later = any_lane(from < all_lanes(0.0F)) || !(first_t >= 0);
-  float enters = first_t;
+  // Whether it may enter later is known before the divisions are done. Most paths begin inside, and wait for none: from
+  // here to the word of the first cell, what is not waited for counts (single first hits near a large mesh, 0.95).
+  const bool may_enter_later = any_lane(from < all_lanes(0.0F)) || first_t != 0;
+  float enters = 0;
+  start = from;
   if (may_enter_later) [[unlikely]] {
     enters = std::max(first_t, limits[0]);
+    start = greatest(from + enters * rate, all_lanes(0.0F));
   }
   const float leaves = -limits[1];
   if (!(enters <= leaves)) return true;
@@ -140,7 +145,7 @@ template <typename Scalar>
   origin[2] = double{enters};
   end = (last_t - enters) + (std::fabs(last_t) + std::fabs(enters)) * 0x1p-22F + std::numeric_limits<float>::min();
   exit = leaves - enters;
-  start = least(greatest(from + enters * rate, all_lanes(0.0F)), stop * (1 - 0x1p-24F));
+  start = least(start, stop * (1 - 0x1p-24F));
   return true;
 }
 
@@ -254,14 +259,14 @@ class GridTraversal {
     const Float4 last_axis = __builtin_shufflevector(crossing_, crossing_, 2, 0, 1, 3);
     const Int4 crossed = (crossing_ <= next_axis) & (crossing_ <= last_axis) & Int4{-1, -1, -1, 0};
     const Float4 tau = least(least(crossing_, next_axis), last_axis);
+    at_end_ = !(tau[0] < end_);
+    if (at_end_) return;
     const auto size = static_cast<float>(size_);
     // No plane ahead is crossed before tau = 0, and the next one not before this one.
     crossing_ = greatest(crossing_, masked(crossed, next_crossing_));
     planes_ += masked(crossed, all_lanes(size));
     next_crossing_ = (planes_ + size - path_.start) * path_.inverse_rate;
-    top_ += grid_.frame().top_step[path_.octant][bits_of_lanes(crossed)];
-    at_end_ = !(tau[0] < end_);
-    if (at_end_) return;
+    top_ += order().step[bits_of_lanes(crossed)];
     look();
     if (!word_.is_divided()) return;
     const Int4 low = to_int(planes_) - size_;
@@ -295,14 +300,12 @@ class GridTraversal {
   /// Finds the undivided cell around the finest one.
   [[gnu::always_inline]] void enter(detail::Int4 finest) noexcept {
     size_ = static_cast<std::int32_t>(grid_.frame().division);
-    const GridFrame& frame = grid_.frame();
-    const detail::Int4 index =
-        (finest >> static_cast<std::int32_t>(2 * grid_.levels())) * frame.pitch_of(falls_) + frame.first_top_of(falls_);
-    top_ = index[0] + index[1] + index[2];
+    top_ = order().index(finest >> static_cast<std::int32_t>(2 * grid_.levels()));
     planes_ = detail::to_float((finest & -size_) + size_);
     look();
     if (word_.is_divided()) descend(finest);
   }
+  [[nodiscard]] const GridFrame::TopOrder& order() const noexcept { return grid_.frame().top_orders[path_.octant]; }
   [[gnu::always_inline]] void look() noexcept { word_ = grid_.top()[static_cast<std::size_t>(top_)]; }
   [[gnu::always_inline]] void descend(detail::Int4 finest) noexcept {
     const auto [word, size] = undivided(grid_, word_, finest, falls_);
