@@ -20,12 +20,12 @@ namespace surehit::detail {
 // What is combined from them adds its own roundings, each at most u times the operands' sizes, 6 d e f and so on:
 //   W = det - U - V                48 u + 2 · 6 u of each
 //   t_weight T + det_weight det    48 u + 2 · 6 u of each, and T is not rounded when it is multiplied by 1, 0 or -1
-// so that 60 u of each product of sizes bounds them all. The bound is itself computed with at most 8 roundings in any
+// so that 60 u of each product of sizes bounds them all. The bound is itself computed with at most 9 roundings in any
 // of its terms, and holds sizes that are off by u each: 66 leaves a tenth for that, where 11 u would do.
 //
 // Of one triangle the sum of the sizes of the six products, as computed, bounds them closer than 6 d e f does, and the
 // size of det with them: 11 u of it stands for 66 u d e f, where W and the range need 10 u, 8 u and their own 2. A sum
-// is computed with at most 8 roundings in any of its terms, and what is combined of sums with 3 more, which take far
+// is computed with at most 8 roundings in any of its terms, and what is combined of sums with 4 more, which take far
 // less than the tenth that is left.
 //
 // Underflow: a product may lose half the least denormal, eta / 2. In det: eta in each component of the cross product,
@@ -57,10 +57,12 @@ struct RangeWeights {
   Scalar det_last = 1;
   Scalar t_bound = KernelBound<Scalar>::relative;  ///< relative bound of T; 0 where T is not asked
   Scalar det_size = 2;                             ///< 1 + the greater weight of det, by size
+  bool is_whole = true;                            ///< [0, 1]
   bool decides = true;                             ///< whether nothing else is left to decide
 
   explicit RangeWeights(const PathRange<Scalar>& range) {
-    if (range.first == 0 && range.last == 1) return;
+    is_whole = range.first == 0 && range.last == 1;
+    if (is_whole) return;
     const auto weigh = [&](Scalar limit, Scalar sign, Scalar& t_weight, Scalar& det_weight) {
       const bool small = std::fabs(limit) <= KernelBound<Scalar>::largest_limit;
       decides &= small || std::isinf(limit);
@@ -84,6 +86,9 @@ struct ListBounds {
   Scalar range;   ///< of both that the range asks: the greater of theirs
   Scalar det;     ///< of det,
   Scalar height;  ///< of T, and no less than that of det
+  // What the kernel asks of these in their sum with det's, below which there is no hit, whatever the sign of det is.
+  Scalar least_side;
+  Scalar least_end;  ///< of a whole segment's ends
 
   ListBounds() = default;
   ListBounds(Scalar d, Scalar s, Scalar edge, const RangeWeights<Scalar>& weights) {
@@ -94,6 +99,8 @@ struct ListBounds {
     det = d_edge * edge + Bound::underflow;
     height = s_edges * Bound::relative + det;
     range = s_edges * weights.t_bound + det * weights.det_size;
+    least_side = -(side + det);
+    least_end = -(range + det);
   }
 };
 

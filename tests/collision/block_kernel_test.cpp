@@ -290,16 +290,30 @@ TYPED_TEST(BlockKernel, is_certain_from_its_bounds_on) {
   const auto down_from = [&](TypeParam z, const QueryOptions<TypeParam>& options) {
     return this->verdict(Ray<TypeParam>{{quarter, quarter, z}, {0, 0, -2}}, triangle, options);
   };
+  const auto along = [&](TypeParam from, TypeParam to) {
+    return this->verdict(Segment<TypeParam>{{quarter, quarter, from}, {quarter, quarter, to}}, triangle);
+  };
   on_every_instruction_set([&] {
-    // 66 u |D| |E| (2 |S| + |E|) = 396 u, where U is 2 x, and W is 2 (1/2 - y).
+    // 66 u |D| |E| (2 |S| + |E|) = 396 u for a hit, and det's bound, 66 u |D| |E|² = 132 u, more for a miss, where U is
+    // 2 x, and W is 2 (1/2 - y).
     EXPECT_EQ(down_at(198 * u, quarter), Verdict::undecided);
     EXPECT_EQ(down_at(199 * u, quarter), Verdict::hit);
-    EXPECT_EQ(down_at(-198 * u, quarter), Verdict::undecided);
-    EXPECT_EQ(down_at(-199 * u, quarter), Verdict::miss);
+    EXPECT_EQ(down_at(-264 * u, quarter), Verdict::undecided);
+    EXPECT_EQ(down_at(-265 * u, quarter), Verdict::miss);
     EXPECT_EQ(down_at(half, half - 198 * u), Verdict::undecided);
     EXPECT_EQ(down_at(half, half - 199 * u), Verdict::hit);
-    EXPECT_EQ(down_at(half, half + 198 * u), Verdict::undecided);
-    EXPECT_EQ(down_at(half, half + 199 * u), Verdict::miss);
+    EXPECT_EQ(down_at(half, half + 264 * u), Verdict::undecided);
+    EXPECT_EQ(down_at(half, half + 265 * u), Verdict::miss);
+    // Likewise 66 u |E|² (|S| + 2 |D|) = 280.5 u or 396 u of a segment that begins at z or ends at -z, where T is z and
+    // det - T is z.
+    EXPECT_EQ(along(280 * u, -2), Verdict::undecided);
+    EXPECT_EQ(along(281 * u, -2), Verdict::hit);
+    EXPECT_EQ(along(-412 * u, -2), Verdict::undecided);
+    EXPECT_EQ(along(-413 * u, -2), Verdict::miss);
+    EXPECT_EQ(along(2, -392 * u), Verdict::undecided);
+    EXPECT_EQ(along(2, -400 * u), Verdict::hit);
+    EXPECT_EQ(along(2, 524 * u), Verdict::undecided);
+    EXPECT_EQ(along(2, 532 * u), Verdict::miss);
     // 66 u |E|² (|S| + 2 |D|) = 66 u (1/4 + 4) = 280.5 u, where T is z.
     EXPECT_EQ(down_from(280 * u, {}), Verdict::undecided);
     EXPECT_EQ(down_from(281 * u, {}), Verdict::hit);
@@ -325,16 +339,25 @@ TYPED_TEST(BlockKernel, is_certain_from_the_bounds_of_its_products_on) {
   const auto down_from = [&](TypeParam z, const QueryOptions<TypeParam>& options) {
     return this->verdict_of_its_own(Ray<TypeParam>{{quarter, quarter, z}, {0, 0, -2}}, triangle, options);
   };
+  const auto along = [&](TypeParam from, TypeParam to) {
+    return this->verdict_of_its_own(Segment<TypeParam>{{quarter, quarter, from}, {quarter, quarter, to}}, triangle);
+  };
   on_every_instruction_set([&] {
-    // 11 u of U = 2 x, V = 2 y and det = 2, where U is 27.5 u and W, which is 2 (1/2 - y), is 44 u.
+    // 11 u of U = 2 x, V = 2 y and det = 2, where U is 27.5 u and W, which is 2 (1/2 - y), is 44 u. For a miss 22 u
+    // more, which are det's.
     EXPECT_EQ(down_at(TypeParam(13.5) * u, quarter), Verdict::undecided);
     EXPECT_EQ(down_at(14 * u, quarter), Verdict::hit);
-    EXPECT_EQ(down_at(TypeParam(-13.5) * u, quarter), Verdict::undecided);
-    EXPECT_EQ(down_at(-14 * u, quarter), Verdict::miss);
+    EXPECT_EQ(down_at(TypeParam(-24.5) * u, quarter), Verdict::undecided);
+    EXPECT_EQ(down_at(-25 * u, quarter), Verdict::miss);
     EXPECT_EQ(down_at(half, half - 21 * u), Verdict::undecided);
     EXPECT_EQ(down_at(half, half - 23 * u), Verdict::hit);
-    EXPECT_EQ(down_at(half, half + 21 * u), Verdict::undecided);
-    EXPECT_EQ(down_at(half, half + 23 * u), Verdict::miss);
+    EXPECT_EQ(down_at(half, half + 32 * u), Verdict::undecided);
+    EXPECT_EQ(down_at(half, half + 34 * u), Verdict::miss);
+    // Likewise 11 u of T = z and of twice det, 44 u, of a segment that begins at z.
+    EXPECT_EQ(along(43 * u, -2), Verdict::undecided);
+    EXPECT_EQ(along(45 * u, -2), Verdict::hit);
+    EXPECT_EQ(along(-65 * u, -2), Verdict::undecided);
+    EXPECT_EQ(along(-67 * u, -2), Verdict::miss);
     // 11 u of T = z, which is next to nothing, and of twice det.
     EXPECT_EQ(down_from(43 * u, {}), Verdict::undecided);
     EXPECT_EQ(down_from(45 * u, {}), Verdict::hit);
@@ -345,6 +368,23 @@ TYPED_TEST(BlockKernel, is_certain_from_the_bounds_of_its_products_on) {
     EXPECT_EQ(down_from(6 - 160 * u, {.max_t = 3}), Verdict::hit);
     EXPECT_EQ(down_from(6 + 152 * u, {.max_t = 3}), Verdict::undecided);
     EXPECT_EQ(down_from(6 + 160 * u, {.max_t = 3}), Verdict::miss);
+  });
+}
+
+/// A ray from so far away that sides are certain of nothing, in a plane beside the triangle's: its first end is
+/// certainly below zero if det is positive, and above it if det is negative.
+TYPED_TEST(BlockKernel, leaves_an_end_undecided_where_det_may_be_of_either_sign) {
+  const TypeParam far = std::ldexp(TypeParam{1}, std::numeric_limits<TypeParam>::digits - 11);
+  const Triangle<TypeParam> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const auto beside = [&](TypeParam height) {
+    const Vector3<TypeParam> start{-far, TypeParam{0.25}, height};
+    return this->verdict(Ray<TypeParam>{start, {1, 0, 0}}, triangle);
+  };
+  on_every_instruction_set([&] {
+    for (const TypeParam side : {TypeParam{0.05F}, TypeParam{-0.05F}}) {
+      EXPECT_EQ(beside(side), Verdict::undecided);
+      EXPECT_EQ(beside(4 * side), Verdict::miss);  // by its sides
+    }
   });
 }
 
