@@ -105,12 +105,14 @@ void GridFrame::coarsen(std::uint32_t factor) noexcept {
     TopOrder& order = top_orders[octant];
     order = {};
     std::uint32_t pitch = 1;
+    std::uint32_t first = 0;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
       const bool falls = (octant >> axis & 1) != 0;
-      order.pitch[axis] = falls ? -static_cast<std::int32_t>(pitch) : static_cast<std::int32_t>(pitch);
-      if (falls) order.first += static_cast<std::int32_t>(pitch * (cells[axis] - 1));
+      order.pitch[axis] = static_cast<std::int32_t>(falls ? -pitch : pitch);
+      if (falls) first += pitch * (cells[axis] - 1);
       pitch *= cells[axis];
     }
+    order.first = static_cast<std::int32_t>(first);
     for (std::uint32_t axes = 0; axes < 8; ++axes) {
       for (std::uint32_t axis = 0; axis < 3; ++axis) {
         if ((axes >> axis & 1) != 0) order.step[axes] += order.pitch[axis];

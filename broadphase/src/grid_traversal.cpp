@@ -99,12 +99,13 @@ Pair exact_difference(double x, double y) {
 // w for the rate, and |p - P| is what follows.
 //
 // The place where the walk begins. In float, a start is within one width of the grid, so that P is at most 2 R by size:
-// 6 u R for its three roundings; the way to the grid is at most 2 R - w, its rate is off by 2 u of itself and the
-// product and the sum are rounded, 4 u (2 R - w) + u R; and what enters the grid by its rounded crossing is clamped
-// into it, 3 u (2 R - w) at most. With the above that stays below 16 u R for every w: p is not placed better than to 15
-// u R. In double, a start within `near` of a box [0, w] with w <= 1, and w >= 2^-20 on an axis that is divided, is off
-// by a few 2^-53, in cells less than 2^-29 R, one that is placed anew by 2^-43, less than 2^-22 R = 4 u R, and either
-// by u R when it is rounded to float at last and 3 u R when it is clamped.
+// 6 u R for its three roundings, or 5 u R with that of mirroring, which is exact where P is R / 2 or more; the way to
+// the grid is at most 2 R - w, its rate is off by 2 u of itself and the product and the sum are rounded, 4 u (2 R - w)
+// + u R; and what enters the grid by its rounded crossing is clamped into it, 3 u (2 R - w) at most. With the above
+// that stays below 16 u R for every w: p is not placed better than to 15 u R. In double, a start within `near` of a box
+// [0, w] with w <= 1, and w >= 2^-20 on an axis that is divided, is off by a few 2^-53, in cells less than 2^-29 R, one
+// that is placed anew by 2^-43, less than 2^-22 R = 4 u R, and either by u R when it is rounded to float at last and 3
+// u R when it is clamped.
 //
 // A path is taken to stand still on an axis if its rate is below `least_rate`. In the grid, tau is at most 2^37 on a
 // path that needs no scaling (a start within 2 R of the grid, at `slow` or faster; 1 on a segment), and 2^39 on one

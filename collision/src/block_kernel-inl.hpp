@@ -117,9 +117,11 @@ class BlockBounds : BlockDeterminants<Scalar, Products::by_size> {
     det = hn::MulAdd(this->det_, share, underflow);
     height = hn::MulAdd(this->height_, share, det);
     range = hn::MulAdd(this->height_, all(weights.t_bound / 6), hn::Mul(det, all(weights.det_size)));
+    least_side = hn::Neg(hn::Add(side, det));
+    least_end = hn::Neg(hn::Add(range, det));
   }
 
-  V side, range, det, height;
+  V side, range, det, height, least_side, least_end;
 };
 
 /// The determinants as their own filter: the bound stands in kernel_bound.hpp. Verdicts are certain, fused or not; what
@@ -159,14 +161,17 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// would vanish. So that is a miss. (A bound for each sign, with none of them taken out, takes twice the comparisons:
   /// on AVX2 and AVX-512 1.03 and 1.01 of the time.)
   ///
-  /// So it is with the ends of a whole segment, T and det - T, which sum to det. Of other ranges an end that is
+  /// So it is with the ends of [0, 1], T and det - T, which sum to det. Of other ranges an end that is
   /// certainly below zero is a miss where det's sign is certain.
   ///
   /// Comparisons accept what is certain, and where sizes might overflow, the bound is infinite or NaN, so that nothing
   /// is.
   [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<Scalar>& range, const Bounds& bounds) const {
-    return classify(
-        range, {all(bounds.side), all(bounds.range), all(bounds.det), all(bounds.least_side), all(bounds.least_end)});
+    const struct {
+      V side, range, det, least_side, least_end;
+    } in_all_lanes = {all(bounds.side), all(bounds.range), all(bounds.det), all(bounds.least_side),
+                      all(bounds.least_end)};
+    return classify_by(range, in_all_lanes);
   }
 
   /// Where the path crosses the triangles' planes: t = height / det.
@@ -217,20 +222,16 @@ class BlockKernel : BlockDeterminants<Scalar> {
     if (!(list.edge_size < too_large && path.d_size < too_large)) return;
     const BlockKernel kernel(path, list, from);
     const BlockBounds<Scalar> bounds(path, list, from, range);
-    const Lanes each =
-        kernel.classify(range, {bounds.side, bounds.range, bounds.det, hn::Neg(hn::Add(bounds.side, bounds.det)),
-                                hn::Neg(hn::Add(bounds.range, bounds.det))});
+    const Lanes each = kernel.classify_by(range, bounds);
     lanes.possible &= each.possible;
     lanes.certain = lanes.possible & (lanes.certain | each.certain);
     first = first_of(bounds.det, bounds.height, kernel.crossing(), lanes.certain, limit);
   }
 
  private:
-  /// `ListBounds` in vectors.
-  struct Limits {
-    V side, range, det, least_side, least_end;
-  };
-  [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<Scalar>& range, const Limits& limits) const {
+  /// By `BlockBounds` or what has the same names.
+  template <typename Limits>
+  [[nodiscard]] HWY_INLINE Lanes classify_by(const RangeWeights<Scalar>& range, const Limits& limits) const {
     const V sign = hn::And(det_, all(Scalar{-0.0}));
     const V det = hn::Abs(det_), height = hn::Xor(height_, sign);
     const V u = hn::Xor(u_, sign), v = hn::Xor(v_, sign), w = hn::Sub(hn::Sub(det, u), v);

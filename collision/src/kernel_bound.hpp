@@ -25,7 +25,7 @@ namespace surehit::detail {
 //
 // Of one triangle the sum of the sizes of the six products, as computed, bounds them closer than 6 d e f does, and the
 // size of det with them: 11 u of it stands for 66 u d e f, where W and the range need 10 u, 8 u and their own 2. A sum
-// is computed with at most 8 roundings in any of its terms, and what is combined of sums with 4 more, which take far
+// is computed with at most 8 roundings in any of its terms, and what is combined of sums with 6 more, which take far
 // less than the tenth that is left.
 //
 // Underflow: a product may lose half the least denormal, eta / 2. In det: eta in each component of the cross product,
@@ -86,9 +86,9 @@ struct ListBounds {
   Scalar range;   ///< of both that the range asks: the greater of theirs
   Scalar det;     ///< of det,
   Scalar height;  ///< of T, and no less than that of det
-  // What the kernel asks of these in their sum with det's, below which there is no hit, whatever the sign of det is.
-  Scalar least_side;
-  Scalar least_end;  ///< of a whole segment's ends
+  // Below the sum of a bound and det's there is no hit, whatever det's sign is:
+  Scalar least_side;  ///< -(side + det)
+  Scalar least_end;   ///< -(range + det), for the ends of [0, 1]
 
   ListBounds() = default;
   ListBounds(Scalar d, Scalar s, Scalar edge, const RangeWeights<Scalar>& weights) {

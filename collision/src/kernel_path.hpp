@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "kernel_bound.hpp"
 #include "surehit/float4.hpp"
@@ -30,7 +31,7 @@ namespace surehit::detail {
   return reach;
 }
 
-/// A path as the kernel takes it: plain numbers.
+/// A path as the kernel takes it: plain numbers, in the order of two vectors.
 template <typename Scalar>
 struct KernelPath {
   Scalar start[3];
@@ -63,8 +64,8 @@ inline KernelPath<double>::KernelPath(const Path<double>& path, const GridFrame&
   reach = reach_of(path, d, frame);
 }
 
-/// The same with the axes side by side: with the numbers one by one, single first hits near surfaces and short ones
-/// take 1.02 of the time.
+/// The same, `reach_of` too, with the axes side by side: with the numbers one by one, single first hits near surfaces
+/// take 1.02 of the time and short ones 1.05.
 template <>
 inline KernelPath<float>::KernelPath(const Path<float>& path, const GridFrame& frame) {
   Float4 from = {path.start[0], path.start[1], path.start[2], 0};
@@ -75,9 +76,10 @@ inline KernelPath<float>::KernelPath(const Path<float>& path, const GridFrame& f
   const Float4 sizes = greatest_lanes(absolute(from), absolute(way), far, far);
   from[3] = sizes[2];
   way[3] = are_small(sizes[0], sizes[1]) ? sizes[1] : std::numeric_limits<float>::infinity();
-  static_assert(sizeof(KernelPath) == 2 * sizeof(Float4));
-  std::memcpy(start, &from, sizeof from);
-  std::memcpy(d, &way, sizeof way);
+  static_assert(std::is_standard_layout_v<KernelPath> && sizeof(KernelPath) == 2 * sizeof(Float4));
+  auto* const bytes = reinterpret_cast<unsigned char*>(this);
+  std::memcpy(bytes, &from, sizeof from);
+  std::memcpy(bytes + sizeof from, &way, sizeof way);
 }
 
 }  // namespace surehit::detail

@@ -128,8 +128,7 @@ template <typename Scalar>
   leaving[3] = -last_t;
   const Float4 limits = greatest_lanes(-from * inverse_rate, leaving, speed, masked(~is_near, all_lanes(1.0F)));
   if (limits[3] != 0 || !(limits[2] >= slow || path.has_end())) return false;
-  // Whether it may enter later is known before the divisions are done. Most paths begin inside, and wait for none: from
-  // here to the word of the first cell, what is not waited for counts (single first hits near a large mesh, 0.95).
+  // Whether it may enter later is known before the divisions are done. Most paths begin inside, and wait for none.
   const bool may_enter_later = any_lane(from < all_lanes(0.0F)) || first_t != 0;
   float enters = 0;
   start = from;
