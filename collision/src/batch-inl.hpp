@@ -377,8 +377,12 @@ class BatchRounding {
     t_size_[count_] = first.t_size();
     edge_size_[count_] = first.edge_size();
     static_assert(sizeof(Triangle<float>) == 9 * sizeof(float) && PathSpan<float>::numbers_each == 6);
-    copy(0, paths_.numbers(index), 2);
-    copy(2, &first.triangle(), 3);
+    // Four numbers at once, one of which is another vector's: the last one, or the first where there is none behind.
+    copy(0, paths_.numbers(index), 0);
+    copy(1, paths_.numbers(index), 2);
+    copy(2, &first.triangle(), 0);
+    copy(3, &first.triangle(), 3);
+    copy(4, &first.triangle(), 5);
     if (++count_ == hn::Lanes(DoubleTag())) flush();
   }
 
@@ -386,21 +390,24 @@ class BatchRounding {
     if (count_ == 0) return;
     const DoubleTag d;
     const FloatTag df;
-    const auto vectors = [&](std::size_t which) -> Vectors<DoubleTag> {
-      hn::Vec<FloatTag> x, y, z, none;
-      hn::LoadInterleaved4(df, vectors_[which][0].data(), x, y, z, none);
-      return {hn::PromoteTo(d, x), hn::PromoteTo(d, y), hn::PromoteTo(d, z)};
+    const auto vectors = [&](std::size_t which, bool is_behind_another = false) -> Vectors<DoubleTag> {
+      hn::Vec<FloatTag> first, second, third, fourth;
+      hn::LoadInterleaved4(df, vectors_[which][0].data(), first, second, third, fourth);
+      const auto of = [&](const auto& x, const auto& y, const auto& z) -> Vectors<DoubleTag> {
+        return {hn::PromoteTo(d, x), hn::PromoteTo(d, y), hn::PromoteTo(d, z)};
+      };
+      return is_behind_another ? of(second, third, fourth) : of(first, second, third);
     };
     const Vectors<DoubleTag> start = vectors(0);
-    Vectors<DoubleTag> direction = vectors(1);
+    Vectors<DoubleTag> direction = vectors(1, true);
     if (paths_.have_ends()) {
       direction = {hn::Sub(direction.x, start.x), hn::Sub(direction.y, start.y), hn::Sub(direction.z, start.z)};
     }
     const auto doubles = [&](const std::array<float, most>& floats) {
       return hn::PromoteTo(d, hn::Load(df, floats.data()));
     };
-    const HitIntervals<DoubleTag> intervals(d, start, direction, vectors(2), vectors(3), vectors(4), doubles(t_size_),
-                                            doubles(edge_size_));
+    const HitIntervals<DoubleTag> intervals(d, start, direction, vectors(2), vectors(3), vectors(4, true),
+                                            doubles(t_size_), doubles(edge_size_));
     const RoundedHits<DoubleTag> rounded(d, intervals);
     std::array<float, most> t;
     std::array<float, most> u;
@@ -425,11 +432,9 @@ class BatchRounding {
   /// As many as the widest instruction set of today has doubles.
   static constexpr std::size_t most = 8;
 
-  HWY_INLINE void copy(std::size_t which, const void* vectors, std::size_t count) {
-    constexpr std::size_t size = 3 * sizeof(float);
-    for (std::size_t k = 0; k < count; ++k) {
-      std::memcpy(vectors_[which + k][count_].data(), static_cast<const char*>(vectors) + k * size, size);
-    }
+  HWY_INLINE void copy(std::size_t which, const void* numbers, std::size_t from) {
+    auto& four = vectors_[which][count_];
+    std::memcpy(four.data(), static_cast<const char*>(numbers) + from * sizeof(float), sizeof four);
   }
 
   HWY_NOINLINE void round_alone(std::size_t i) {
@@ -445,7 +450,8 @@ class BatchRounding {
   PathSpan<float> paths_;
   std::span<Hit<float>> hits_;
   std::size_t count_ = 0;
-  /// The path's start and its end or direction, and the triangle's corners. Beyond the last hit anything finite.
+  /// The path's start and its end or direction, and the triangle's corners, each with one number more. Beyond the last
+  /// hit anything finite.
   alignas(most * sizeof(float)) std::array<std::array<std::array<float, 4>, most>, 5> vectors_ = {};
   alignas(most * sizeof(float)) std::array<float, most> t_size_ = {};     ///< what `HitIntervals` goes by besides,
   alignas(most * sizeof(float)) std::array<float, most> edge_size_ = {};  //
