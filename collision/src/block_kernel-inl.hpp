@@ -161,8 +161,8 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// would vanish. So that is a miss. (A bound for each sign, with none of them taken out, takes twice the comparisons:
   /// on AVX2 and AVX-512 1.03 and 1.01 of the time.)
   ///
-  /// So it is with the ends of [0, 1], T and det - T, which sum to det. Of other ranges an end that is
-  /// certainly below zero is a miss where det's sign is certain.
+  /// So it is with the ends of [0, 1], T and det - T, which sum to det. Of other ranges an end that is certainly below
+  /// zero is a miss where det's sign is certain.
   ///
   /// Comparisons accept what is certain, and where sizes might overflow, the bound is infinite or NaN, so that nothing
   /// is.
