@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <string>
 #include <type_traits>
 
 #include "mesh_io/input_error.hpp"
+#include "mesh_io/lower_case.hpp"
 
 namespace surehit::example {
 namespace {
@@ -71,6 +73,20 @@ Scalar parse_number(std::string_view text) {
   return negative ? -value : value;
 }
 
+template <typename Scalar>
+Scalar parse_number_or_non_finite(std::string_view text) {
+  using Limits = std::numeric_limits<Scalar>;
+  const bool is_signed = text.starts_with('-') || text.starts_with('+');
+  const std::string_view unsigned_text = text.substr(is_signed ? 1 : 0);
+  const std::string_view letter = unsigned_text.substr(0, 1);
+  if (letter == "i" || letter == "I" || letter == "n" || letter == "N") {
+    const std::string word = lower_case(unsigned_text);
+    if (word == "nan" || (word.starts_with("nan(") && word.ends_with(')'))) return Limits::quiet_NaN();
+    if (word == "inf" || word == "infinity") return text.starts_with('-') ? -Limits::infinity() : Limits::infinity();
+  }
+  return parse_number<Scalar>(text);
+}
+
 std::int64_t parse_integer(std::string_view text) {
   std::int64_t value = 0;
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -83,5 +99,7 @@ std::int64_t parse_integer(std::string_view text) {
 
 template float parse_number<float>(std::string_view);
 template double parse_number<double>(std::string_view);
+template float parse_number_or_non_finite<float>(std::string_view);
+template double parse_number_or_non_finite<double>(std::string_view);
 
 }  // namespace surehit::example

@@ -13,6 +13,11 @@ namespace surehit::example {
 template <typename Scalar>
 [[nodiscard]] Scalar parse_number(std::string_view text);
 
+/// The same for a number that may not be finite. C spells it nan or inf, in any case, with or without a sign, also
+/// infinity and nan(…). What is beyond the largest finite Scalar is still an error.
+template <typename Scalar>
+[[nodiscard]] Scalar parse_number_or_non_finite(std::string_view text);
+
 /// The whole text as a decimal integer. Throws InputError.
 [[nodiscard]] std::int64_t parse_integer(std::string_view text);
 

@@ -57,6 +57,18 @@ PlyProperty parse_property(const Fields& fields, const PlyHeader& header) {
   return property;
 }
 
+void read_first_line(TextLines& lines) {
+  if (lines.next() && lines.line() == "ply") return;
+  Fields fields;
+  split(lines.line(), fields);
+  if (!fields.empty() && fields[0] == "ply") {
+    throw InputError(fields.size() == 1
+                         ? "the first line of a PLY file is ply alone, but here it has a blank beside it"
+                         : "the first line of a PLY file is ply alone, but here it goes on with " + quoted(fields[1]));
+  }
+  throw InputError("a PLY file begins with a line: ply");
+}
+
 }  // namespace
 
 std::optional<std::size_t> PlyElement::find(std::string_view property) const {
@@ -82,10 +94,11 @@ PlyHeader read_ply_header(TextLines& lines) {
     } while (fields.empty() || fields[0] == "comment" || fields[0] == "obj_info");
   };
 
-  if (!lines.next() || lines.line() != "ply") throw InputError("a PLY file begins with a line: ply");
+  read_first_line(lines);
+  PlyHeader header;
+  header.ends_in_lone_return = lines.line_end() == "\r";
   next_fields();
   if (fields.size() != 3 || fields[0] != "format") throw InputError("expected: format NAME VERSION");
-  PlyHeader header;
   header.format = named(format_names, fields[1], "format");
 
   for (next_fields(); fields[0] != "end_header"; next_fields()) {

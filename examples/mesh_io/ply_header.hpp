@@ -35,6 +35,7 @@ struct PlyElement {
 /// What a PLY file says that it holds. The names are views of the file's text.
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
+  bool ends_in_lone_return = false;  ///< as the header's lines do, of old Macs
   std::vector<PlyElement> elements;
 
   /// Throws InputError where there is none of this name.

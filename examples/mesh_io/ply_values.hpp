@@ -36,8 +36,11 @@ class PlyTextValues {
 
   template <typename Scalar>
   Scalar number(PlyType) {
-    return parse_number<Scalar>(next());
+    return parse_number_or_non_finite<Scalar>(next());
   }
+
+  /// Where the element is.
+  [[nodiscard]] std::size_t line() const { return lines_.number(); }
 
   void skip(PlyType, std::uint64_t count) {
     for (; count > 0; --count) next();
@@ -69,7 +72,7 @@ class PlyBinaryValues {
   void end_element() {}
 
   void end_file() const {
-    if (bytes_.rest().find_first_not_of("\r\n") != std::string_view::npos) {
+    if (bytes_.rest().find_first_not_of("\r\n\x1a") != std::string_view::npos) {
       throw InputError(std::to_string(bytes_.rest().size()) + " bytes follow the last element");
     }
   }
@@ -78,10 +81,14 @@ class PlyBinaryValues {
 
   template <typename Scalar>
   Scalar number(PlyType type) {
-    const Scalar value = take<Scalar>(type);
-    if (!std::isfinite(value)) throw InputError("a coordinate is not finite, or beyond the largest number");
+    const auto written = take<double>(type);
+    const auto value = static_cast<Scalar>(written);
+    if (std::isinf(value) && std::isfinite(written)) throw InputError("a coordinate is beyond the largest number");
     return value;
   }
+
+  /// A binary file has none.
+  [[nodiscard]] std::size_t line() const { return 0; }
 
   void skip(PlyType type, std::uint64_t count) { bytes_.skip(count * size_of(type)); }
 

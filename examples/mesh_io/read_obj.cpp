@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mesh_io/input_error.hpp"
+#include "mesh_io/mesh_builder.hpp"
 #include "mesh_io/parse_number.hpp"
-#include "mesh_io/polygon.hpp"
 #include "mesh_io/text_lines.hpp"
 
 namespace surehit::example {
@@ -32,11 +33,11 @@ class ObjReader {
       while (next_statement()) read_statement();
     });
     // A face may stand before its vertices, so only now is it known what is out of range.
-    if (greatest_ > static_cast<std::int64_t>(mesh_.vertices.size())) {
+    if (greatest_ > static_cast<std::int64_t>(mesh_.vertex_count())) {
       throw InputError("line " + std::to_string(greatest_line_) + ": vertex index " + std::to_string(greatest_) +
-                       " is out of range, there are " + std::to_string(mesh_.vertices.size()) + " vertices");
+                       " is out of range, there are " + std::to_string(mesh_.vertex_count()) + " vertices");
     }
-    return std::move(mesh_);
+    return mesh_.finish();
   }
 
  private:
@@ -64,18 +65,42 @@ class ObjReader {
     }
   }
 
+  /// x y z, or with a weight x y z w, or with a color x y z r g b and x y z r g b a.
   void read_vertex() {
-    if (fields_.size() < 4) {
-      throw InputError("a vertex needs 3 coordinates, not " + std::to_string(fields_.size() - 1));
+    const std::size_t numbers = fields_.size() - 1;
+    if (numbers < 3) throw InputError("a vertex needs 3 coordinates, not " + std::to_string(numbers));
+    if (numbers == 5 || numbers > 7) {
+      throw InputError(
+          "a vertex has 3 coordinates and then nothing, a weight, or a color of 3 or 4 numbers, but here are " +
+          std::to_string(numbers) + " numbers");
     }
-    mesh_.vertices.push_back(
-        {parse_number<Scalar>(fields_[1]), parse_number<Scalar>(fields_[2]), parse_number<Scalar>(fields_[3])});
+    std::array<Scalar, 3> vertex;
+    for (std::size_t axis = 0; axis < 3; ++axis) vertex[axis] = number(1 + axis);
+    for (std::size_t i = 4; i < fields_.size(); ++i) static_cast<void>(number(i));
+    if (numbers == 4) divide(vertex, number(4));
+    mesh_.add_vertex(vertex, lines_.number());
+  }
+
+  [[nodiscard]] Scalar number(std::size_t field) const { return parse_number_or_non_finite<Scalar>(fields_[field]); }
+
+  /// A weight other than 1 makes the coordinates homogeneous.
+  void divide(std::array<Scalar, 3>& vertex, Scalar weight) const {
+    if (weight == 0 || !std::isfinite(weight)) {
+      throw InputError("a vertex of weight " + quoted(fields_[4]) + " is no point");
+    }
+    for (Scalar& coordinate : vertex) {
+      const Scalar quotient = coordinate / weight;
+      if (std::isinf(quotient) && std::isfinite(coordinate)) {
+        throw InputError("divided by its weight " + quoted(fields_[4]) + ", a coordinate is beyond the largest number");
+      }
+      coordinate = quotient;
+    }
   }
 
   void read_face() {
     corners_.clear();
     for (std::size_t i = 1; i < fields_.size(); ++i) corners_.push_back(corner(fields_[i]));
-    append_fan(corners_, mesh_.triangles);
+    mesh_.add_face(corners_, lines_.number());
   }
 
   /// A corner is 7, 7/1, 7/1/3 or 7//3, of which only the vertex matters.
@@ -85,13 +110,13 @@ class ObjReader {
     }
     const std::int64_t index = parse_integer(field.substr(0, field.find('/')));
     if (index == 0) throw InputError("vertex indices count from 1, there is no vertex 0");
-    const auto count = static_cast<std::int64_t>(mesh_.vertices.size());
+    const auto count = static_cast<std::int64_t>(mesh_.vertex_count());
     if (index < 0) {
       if (index < -count) {
         throw InputError("vertex index " + std::to_string(index) + " reaches back before the first of " +
                          std::to_string(count) + " vertices");
       }
-      return checked_corner(count + index, mesh_.vertices.size());
+      return checked_corner(count + index, mesh_.vertex_count());
     }
     if (index > greatest_) {
       greatest_ = index;
@@ -104,7 +129,7 @@ class ObjReader {
   Fields fields_;
   Fields continued_;
   std::vector<std::uint32_t> corners_;
-  Mesh<Scalar> mesh_;
+  MeshBuilder<Scalar> mesh_;
   std::int64_t greatest_ = 0;  ///< of the positive vertex indices, which count from 1
   std::size_t greatest_line_ = 0;
 };

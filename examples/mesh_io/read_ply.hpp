@@ -6,8 +6,11 @@
 
 namespace surehit::example {
 
-/// A PLY file, ASCII or binary in either order of bytes: x, y and z of the element vertex, and the list vertex_indices
-/// (or vertex_index) of the element face. Other elements and properties are passed over. Throws InputError.
+/// Reads a PLY file, ASCII or binary in either order of bytes.
+///
+/// Taken are x, y and z of the element vertex, and the lists vertex_indices (or vertex_index) of the elements face and
+/// tristrips; each triangle of a strip is a face. Other elements and properties are passed over. A file may have no
+/// faces. Throws InputError.
 template <typename Scalar>
 [[nodiscard]] Mesh<Scalar> read_ply(std::string_view bytes);
 

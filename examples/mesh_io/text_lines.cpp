@@ -3,18 +3,31 @@
 #include <algorithm>
 
 namespace surehit::example {
+namespace {
 
-TextLines::TextLines(std::string_view text) : rest_(text) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+constexpr std::string_view closing_bytes = "\x1a\n \t\r\v\f";
+constexpr char control_z = '\x1a';
+
+std::string_view closing(std::string_view text) {
+  const std::string_view tail = text.substr(text.find_last_not_of(closing_bytes) + 1);
+  return tail.substr(std::min(tail.find(control_z), tail.size()));
+}
+
+}  // namespace
+
+TextLines::TextLines(std::string_view text) : rest_(text), closing_size_(closing(text).size()) {
   if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
 }
 
 bool TextLines::next() {
-  if (rest_.empty()) return false;
-  const std::size_t end = rest_.find('\n');
-  line_ = rest_.substr(0, end);
-  rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
-  if (line_.ends_with('\r')) line_.remove_suffix(1);
+  if (rest_.size() <= closing_size_) return false;
+  const std::string_view text = rest_.substr(0, rest_.size() - closing_size_);
+  const auto* const end = std::find_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; });
+  const auto size = static_cast<std::size_t>(end - text.begin());
+  line_ = text.substr(0, size);
+  line_end_ = text.substr(size, text.substr(size).starts_with("\r\n") ? 2 : 1);
+  rest_.remove_prefix(size + line_end_.size());
   ++number_;
   return true;
 }
@@ -27,6 +40,18 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
     end = std::min(line.find_first_of(white_space, begin), line.size());
     fields.push_back(line.substr(begin, end - begin));
   }
+}
+
+std::string_view without_comment(std::string_view line) {
+  std::size_t mark = line.find('#');
+  while (mark != std::string_view::npos && mark > 0 && white_space.find(line[mark - 1]) == std::string_view::npos) {
+    mark = line.find('#', mark + 1);
+  }
+  return line.substr(0, mark);
+}
+
+InputError at_line(const InputError& error, std::size_t number) {
+  return number == 0 ? error : error.at("line " + std::to_string(number));
 }
 
 }  // namespace surehit::example

@@ -33,7 +33,8 @@ class EdgeMiddles {
 };
 
 Mesh subdivided(const Mesh& mesh) {
-  Mesh finer{mesh.vertices, {}};
+  Mesh finer;
+  finer.vertices = mesh.vertices;
   finer.triangles.reserve(4 * mesh.triangles.size());
   EdgeMiddles middles(finer);
   for (const auto& [a, b, c] : mesh.triangles) {

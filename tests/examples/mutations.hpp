@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "mesh_io/input_error.hpp"
@@ -11,6 +12,20 @@
 #include "support/random.hpp"
 
 namespace surehit::test {
+
+/// Whether all indices and coordinates are sound, each triangle has a face, faces go up, and warnings are lines.
+template <typename Scalar>
+void expect_sound_mesh(const example::Mesh<Scalar>& mesh) {
+  const auto invalid = find_invalid(mesh.view());
+  ASSERT_FALSE(invalid) << invalid->what();
+  ASSERT_TRUE(mesh.faces.empty() || mesh.faces.size() == mesh.triangles.size());
+  ASSERT_TRUE(std::is_sorted(mesh.faces.begin(), mesh.faces.end()));
+  ASSERT_LE(mesh.face_count(), mesh.triangles.size());
+  for (const std::string& warning : mesh.warnings) {
+    ASSERT_FALSE(warning.empty());
+    ASSERT_EQ(warning.find('\n'), std::string::npos) << warning;
+  }
+}
 
 /// Whatever becomes of a valid file, it is an error of one line or a sound mesh of a size that the bytes account for.
 template <typename Read>
@@ -24,10 +39,10 @@ void expect_error_or_sound_mesh(const std::string& valid, Read read) {
     try {
       const auto mesh = read(bytes);
       ASSERT_LE(mesh.vertices.size() + mesh.triangles.size(), bytes.size());
-      const auto invalid = find_invalid(mesh.view());
-      ASSERT_FALSE(invalid) << invalid->what();
+      ASSERT_NO_FATAL_FAILURE(expect_sound_mesh(mesh)) << bytes;
     } catch (const example::InputError& error) {
       ++errors;
+      ASSERT_FALSE(std::string(error.what()).empty());
       ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     }
   }

@@ -19,6 +19,7 @@ namespace {
 
 using example::parse_integer;
 using example::parse_number;
+using example::parse_number_or_non_finite;
 
 template <typename Scalar>
 std::string hex_of(Scalar value) {
@@ -235,6 +236,37 @@ TYPED_TEST(ParseNumber, RejectsWhatIsNoNumber) {
                            "0xinf", "1f",     "1e99999999999999999999x",
                            "one"}) {
     EXPECT_EQ(error_of([&] { return parse_number<TypeParam>(text); }), example::quoted(text) + " is not a number");
+  }
+}
+
+TYPED_TEST(ParseNumber, RejectsNonFiniteNumbersAsOldWindowsSpellsThem) {
+  for (const char* text : {"1.#QNAN", "-1.#QNAN0", "1.#SNAN", "-1.#IND", "-1.#IND00", "1.#INF", "-1.#INF00", "1.#J"}) {
+    const std::string error = example::quoted(text) + " is not a number";
+    EXPECT_EQ(error_of([&] { return parse_number<TypeParam>(text); }), error);
+    EXPECT_EQ(error_of([&] { return parse_number_or_non_finite<TypeParam>(text); }), error);
+  }
+}
+
+TYPED_TEST(ParseNumber, MayTakeWhatIsNotFinite) {
+  for (const char* text : {"nan", "NaN", "NAN", "+nan", "-nan", "nan()", "-nan(ind)", "nan(0x8000)"}) {
+    EXPECT_TRUE(std::isnan(parse_number_or_non_finite<TypeParam>(text))) << text;
+  }
+  constexpr TypeParam infinity = std::numeric_limits<TypeParam>::infinity();
+  for (const char* text : {"inf", "Inf", "INF", "+inf", "infinity", "+INFINITY"}) {
+    EXPECT_EQ(parse_number_or_non_finite<TypeParam>(text), infinity) << text;
+    EXPECT_EQ(parse_number_or_non_finite<TypeParam>("-" + std::string(text).substr(text[0] == '+' ? 1 : 0)), -infinity);
+  }
+}
+
+TYPED_TEST(ParseNumber, TakesFiniteNumbersAsBeforeWhereItMayTakeOthers) {
+  EXPECT_EQ(parse_number_or_non_finite<TypeParam>("-1.5e3"), -1500);
+  EXPECT_EQ(parse_number_or_non_finite<TypeParam>("+0x1.8p1"), 3);
+  const std::string beyond = error_of([] { return parse_number_or_non_finite<TypeParam>("-1e400"); });
+  EXPECT_NE(beyond.find("'-1e400' is beyond the largest "), std::string::npos) << beyond;
+  for (const char* text : {"", "-", "n", "i", "in", "na", "nanx", "nan(", "nan)", "-nan(", "infinit", "infinity1",
+                           "--inf", "+-nan", "- nan", "0xnan", "1inf"}) {
+    EXPECT_EQ(error_of([&] { return parse_number_or_non_finite<TypeParam>(text); }),
+              example::quoted(text) + " is not a number");
   }
 }
 

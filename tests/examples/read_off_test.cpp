@@ -2,8 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "error_of.hpp"
+#include "mesh_io/text_lines.hpp"
 #include "mutations.hpp"
+#include "sample_polygons.hpp"
+#include "with_line_ends.hpp"
 
 namespace surehit::test {
 namespace {
@@ -11,11 +20,46 @@ namespace {
 using example::Mesh;
 using example::read_off;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using Floats = std::vector<std::array<float, 3>>;
+using Faces = std::vector<std::uint32_t>;
+using Warnings = std::vector<std::string>;
 
 const std::string square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+const Floats square_corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const Triangles square_fan = {{0, 1, 2}, {0, 2, 3}};
+const Triangles two_triangles = {{0, 1, 2}, {3, 2, 1}};
 
 std::string error_in(const std::string& text) {
   return error_of([&] { return read_off<float>(text); });
+}
+
+void expect_reads(const std::string& text, const Floats& vertices, const Triangles& triangles) {
+  Mesh<float> mesh;
+  ASSERT_NO_THROW(mesh = read_off<float>(text)) << text;
+  EXPECT_EQ(mesh.vertices, vertices) << text;
+  EXPECT_EQ(mesh.triangles, triangles) << text;
+  EXPECT_TRUE(mesh.warnings.empty()) << text;
+}
+
+std::string text_of(const SampleFace& face) {
+  std::string text = "OFF\n" + std::to_string(face.vertices.size()) + " 1 0\n";
+  for (const auto& [x, y, z] : face.vertices) {
+    text += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  }
+  text += std::to_string(face.corners.size());
+  for (const std::uint32_t corner : face.corners) text += " " + std::to_string(corner);
+  return text + "\n";
+}
+
+/// The text with some of its white space changed: a line break at each `nth` word, and no other.
+std::string broken_at_each(std::size_t nth, const std::string& text) {
+  std::vector<std::string_view> words;
+  std::string line = text;
+  for (char& c : line) c = c == '\n' ? ' ' : c;
+  example::split(line, words);
+  std::string broken;
+  for (std::size_t i = 0; i < words.size(); ++i) broken += std::string(words[i]) + ((i + 1) % nth == 0 ? "\n" : " ");
+  return broken;
 }
 
 TEST(ReadOff, ReadsVerticesAndPolygons) {
@@ -23,58 +67,434 @@ TEST(ReadOff, ReadsVerticesAndPolygons) {
   const std::vector<std::array<double, 3>> expected = {{0.1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   EXPECT_EQ(mesh.vertices, expected);
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {3, 2, 1}}));
+  EXPECT_EQ(mesh.faces, (Faces{0, 0, 1}));
+  EXPECT_EQ(mesh.face_count(), 2u);
+}
+
+TEST(ReadOff, CutsConcaveFaces) {
+  expect_every_sample_is_cut_rightly<double>([](const SampleFace& face) { return read_off<double>(text_of(face)); });
+  expect_every_sample_is_cut_rightly<float>(
+      [](const SampleFace& face) { return read_off<float>(broken_at_each(5, text_of(face))); });
+}
+
+TEST(ReadOff, LeavesTheWindowOfAKeyholedWallOpen) {
+  expect_keyholed_wall_has_its_window([](const SampleFace& face) { return read_off<double>(text_of(face)); });
+}
+
+TEST(ReadOff, TellsWhichFaceATriangleIsOf) {
+  const std::string l = "0 0 0\n4 0 0\n4 2 0\n2 2 0\n2 4 0\n0 4 0\n";
+  const Mesh<float> mesh = read_off<float>("OFF\n6 4 0\n" + l + "3 0 1 2\n6 0 1 2 3 4 5\n4 0 1 2 3 1 0 0\n3 3 4 5\n");
+  EXPECT_EQ(mesh.faces, (Faces{0, 1, 1, 1, 1, 2, 2, 3}));
+  EXPECT_EQ(mesh.face_count(), 4u);
+  const Mesh<float> triangles = read_off<float>("OFF\n6 2 0\n" + l + "3 0 1 2\n3 3 4 5\n");
+  EXPECT_TRUE(triangles.faces.empty());
+  EXPECT_EQ(triangles.face_of(1), 1u);
+}
+
+TEST(ReadOff, NamesTheFaceWhoseOutlineCrossesItself) {
+  const std::string vertices = "0 0 0\n4 4 0\n4 0 0\n0 4 0\n";
+  EXPECT_EQ(error_in("OFF\n4 1 0\n" + vertices + "4 0 1 2 3\n"),
+            "line 7: face 0 of 4 corners has no valid triangulation: its outline crosses itself");
+  EXPECT_EQ(error_in("OFF\n4 3 0\n" + vertices + "3 0 1 2\n4 0 1 2 3 0 1 0\n3 0 1 2\n"),
+            "line 8: face 1 of 4 corners has no valid triangulation: its outline crosses itself");
+  EXPECT_EQ(error_in(broken_at_each(4, "OFF 4 2 0\n" + vertices + "3 0 1 2 4 0 1 2 3\n")),
+            "line 7: face 1 of 4 corners has no valid triangulation: its outline crosses itself");
 }
 
 TEST(ReadOff, TakesCommentsAndBlankLinesAnywhere) {
   EXPECT_EQ(read_off<float>("# a\nOFF # b\n\n4 1 0 # c\n# d\n" + square + "\n4 0 1 2 3 # e\n# f\n").triangles.size(),
             2u);
+  expect_reads(
+      "#\n\n \t# 1\nOFF\n# 2\n4 # vertices\n#\n1 # face\n0\n0 0 0 # 3\n\n1 0\n# 4\n0\n1 1 0\t# 5\n0 1 0\n"
+      "4 0 1 # 6\n#\n2 3 #",
+      square_corners, square_fan);
+  EXPECT_EQ(error_in("OFF\n4 1 0\n" + square + "4 0 1 2 3#\n"), "line 7: '3#' is not an integer");
 }
 
-TEST(ReadOff, TakesCountsOnTheFirstLineAndNoEdges) {
-  for (const char* header : {"OFF 4 1 0\n", "OFF4 1 0\n", "OFF\n4 1\n"}) {
-    EXPECT_EQ(read_off<float>(header + square + "4 0 1 2 3").triangles.size(), 2u) << header;
+TEST(ReadOff, TakesAnyLineEnds) {
+  const std::string text = "OFF\n# a comment\n4 2 0\n" + square + "\n3 0 1 2\n3 3 2 1 255 0 0\n";
+  for (const std::string_view end : line_ends) expect_reads(with_line_ends(text, end), square_corners, two_triangles);
+  expect_reads(with_mixed_line_ends(text), square_corners, two_triangles);
+}
+
+TEST(ReadOff, CountsLinesByAnyEnds) {
+  const std::string text = "OFF\n# a comment\n4 2 0\n\n0 0 0\n1 0 0\n1 x 0\n0 1 0\n3 0 1 2\n3 3 2 1\n";
+  for (const std::string_view end : line_ends) {
+    EXPECT_EQ(error_in(with_line_ends(text, end)), "line 7: 'x' is not a number");
+  }
+  EXPECT_EQ(error_in(with_mixed_line_ends(text)), "line 7: 'x' is not a number");
+}
+
+TEST(ReadOff, TakesAClosingControlZ) {
+  for (const std::string_view closing : closing_control_z) {
+    expect_reads("OFF\n4 2 0\n" + square + "3 0 1 2\n3 3 2 1" + std::string(closing), square_corners, two_triangles);
+    expect_reads("OFF\n4 2 0\n" + square + "3 0 1 2\n3 3 2 1\n" + std::string(closing), square_corners, two_triangles);
+  }
+  EXPECT_EQ(error_in("OFF\n4 1 0\n" + square + "4 0 1 2 3\n\x1a\n3 2 1 0"), "line 8: something follows the last face");
+}
+
+TEST(ReadOff, TakesItsFirstWordInAnyCaseOrNone) {
+  for (const char* word :
+       {"OFF\n", "off\n", "Off\n", "oFF ", "", "\n", "# no word\n", "\xef\xbb\xbfOFF\n", "OFF # a\n"}) {
+    expect_reads(word + ("4 2 0\n" + square) + "3 0 1 2\n3 3 2 1\n", square_corners, two_triangles);
   }
 }
 
-TEST(ReadOff, PassesOverColorsAndNormals) {
-  EXPECT_EQ(
-      read_off<float>("COFF\n3 1 0\n0 0 0 255 0 0 1\n1 0 0 0 255 0 1\n0 1 0 0 0 255 1\n3 0 1 2\n").vertices.size(), 3u);
-  EXPECT_EQ(read_off<float>("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n").vertices.size(), 3u);
-  EXPECT_EQ(read_off<float>("OFF\n4 1 0\n" + square + "3 0 1 2 255 128 0").triangles, (Triangles{{0, 1, 2}}));
+TEST(ReadOff, TakesCountsWithAndWithoutEdges) {
+  for (const char* header : {"OFF 4 2 0\n", "OFF4 2 0\n", "OFF\n4 2\n", "OFF 4 2\n", "off4 2\n", "4 2\n", "4 2 0\n",
+                             "OFF\n4\n2\n0\n", "OFF 4\n2 0\n", "OFF\n4 2\n0\n", "OFF\n\n4\n\n2 # faces\n5\n",
+                             "OFF\n4\n2\n", "OFF 4\n2\n", "OFF\n4 2 99 # edges\n"}) {
+    expect_reads(header + square + "3 0 1 2\n3 3 2 1\n", square_corners, two_triangles);
+  }
 }
 
-TEST(ReadOff, ReadsAMeshOfNothing) { EXPECT_TRUE(read_off<float>("OFF\n0 0 0\n").vertices.empty()); }
+TEST(ReadOff, TakesTheCountOfEdgesForNoCoordinate) {
+  // Without its last word, the body of each would be one of four vertices and one face as well.
+  expect_reads("OFF\n4 1\n0\n0 0 0\n1 0 0\n1 1 0\n0 1 3\n3 0 1 2\n", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 3}},
+               {{0, 1, 2}});
+  expect_reads("OFF\n4 1\n0\n0 0 4 4\n0 4 4 4 4 0 4 4\n3 0 1 2\n", {{0, 0, 4}, {4, 0, 4}, {4, 4, 4}, {0, 4, 4}},
+               {{0, 1, 2}});
+  // Nor a coordinate for the count of edges.
+  expect_reads("OFF\n3\n1\n0 0 0 9 0 0 9\n4 0 0 9 9 9 9\n0 4 0 9 9 9 9\n3 0 1 2\n", {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}},
+               {{0, 1, 2}});
+}
 
-TEST(ReadOff, NamesTheLineOfAnError) {
+TEST(ReadOff, TakesFreeLineBreaks) {
+  for (const char* header : {"OFF 4 2 0\n", "4 2 0\n", "off\n4\n2\n0\n"}) {
+    const std::string text = header + square + "3 0 1 2\n3 3 2 1\n";
+    expect_reads(broken_at_each(1, text), square_corners, two_triangles);
+    expect_reads(broken_at_each(1000, text), square_corners, two_triangles);
+    for (std::size_t nth = 2; nth < 23; ++nth) {
+      const std::string broken = broken_at_each(nth, text);
+      expect_reads(broken, square_corners, two_triangles);
+      for (const std::string_view end : line_ends) {
+        expect_reads(with_line_ends(broken, end), square_corners, two_triangles);
+      }
+    }
+  }
+}
+
+TEST(ReadOff, TakesFacesOverSeveralLinesAndSeveralInOne) {
+  const std::string start = "OFF\n4 2 0\n" + square;
+  for (const char* faces : {"3 0 1 2 3 3 2 1", "3\n0 1 2\n3 3\n2 1\n", "3 0\n1 2 3 3\n2\n1", "3 0 1\n2\n3 3 2 1"}) {
+    expect_reads(start + faces, square_corners, two_triangles);
+  }
+  expect_reads("OFF\n4 3 0\n" + square + "3 0 1 2 3 3 2 1\n3 1 2 3", square_corners, {{0, 1, 2}, {3, 2, 1}, {1, 2, 3}});
+  expect_reads("OFF\n4 1 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n4 0 1\n2 3", square_corners, square_fan);
+}
+
+TEST(ReadOff, PassesOverColorsOfFaces) {
+  const std::string start = "OFF\n4 2 0\n" + square;
+  expect_reads(start + "3 0 1 2 7\n3 3 2 1\n", square_corners, two_triangles);
+  expect_reads(start + "3 0 1 2 255 128 0\n3 3 2 1 0.5 0.5 1e-1\n", square_corners, two_triangles);
+  expect_reads(start + "3 0 1 2 255 128 0 255\n3 3 2 1 0 0 0 1\n", square_corners, two_triangles);
+  expect_reads(start + "3 0 1 2\n3 3 2 1 3 0 1 2\n", square_corners, two_triangles);
+  // A color may stand behind a face of several lines as well.
+  expect_reads(start + "3 0\n1 2 1 0 0\n3 3\n2 1 0 1 0\n", square_corners, two_triangles);
+  EXPECT_EQ(error_in(start + "3 0 1 2 0 1\n3 3 2 1\n"),
+            "line 7: a face is followed by 2 numbers in its line, but a color has 1, 3 or 4");
+  EXPECT_EQ(error_in(start + "3 0 1 2\n3 3 2 1 1 1 1 1 1\n"),
+            "line 8: a face is followed by 5 numbers in its line, but a color has 1, 3 or 4");
+  EXPECT_EQ(error_in(start + "3 0 1 2 red\n3 3 2 1\n"), "line 7: 'red' is not a number");
+}
+
+TEST(ReadOff, PassesOverWhatItsFirstWordAnnounces) {
+  const Floats vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  const Triangles triangles = {{0, 1, 2}};
+  const std::pair<const char*, const char*> attributes_of[] = {
+      {"COFF", " 255 0 0 1"},     {"coff", " 0.5 0.5 0.5"},
+      {"NOFF", " 0 0 1"},         {"noff", " nan 0 1"},
+      {"STOFF", " 0.5 0.25"},     {"CNOFF", " 1 0 0 1 0 0 1"},
+      {"STCOFF", " 1 1 0 0 1 7"}, {"STCNOFF", " 0 0 1 1 0 0 1 0.5 0.5"}};
+  for (const auto& [word, attributes] : attributes_of) {
+    const std::string text = word + std::string("\n3 1 0\n0 0 0") + attributes + "\n4 0 0" + attributes + "\n0 4 0" +
+                             attributes + "\n3 0 1 2\n";
+    expect_reads(text, vertices, triangles);
+    for (const std::size_t nth : {1u, 2u, 5u, 1000u}) expect_reads(broken_at_each(nth, text), vertices, triangles);
+  }
+  // In lines of their own there may be as many as one likes.
+  expect_reads("COFF\n3 1 0\n0 0 0\n4 0 0 7\n0 4 0 1 1\n3 0 1 2\n", vertices, triangles);
+}
+
+TEST(ReadOff, PassesOverColorsOfVerticesUnderAPlainFirstWord) {
+  const Floats vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  for (const char* color : {" 255 0 0", " 0.5 0.25 0.125", " 255 0 0 255", " 3 0 1 2", " 0 0 0"}) {
+    for (const char* word : {"OFF", "off", ""}) {
+      const std::string text =
+          word + std::string("\n3 1 0\n0 0 0") + color + "\n4 0 0" + color + "\n0 4 0" + color + "\n3 0 1 2\n";
+      expect_reads(text, vertices, {{0, 1, 2}});
+    }
+    const std::string text =
+        "OFF 3 2 0 0 0 0" + std::string(color) + " 4 0 0" + color + " 0 4 0" + color + " 3 0 1 2 3 2 1 0";
+    for (const std::size_t nth : {1u, 4u, 1000u}) {
+      expect_reads(broken_at_each(nth, text), vertices, {{0, 1, 2}, {2, 1, 0}});
+    }
+  }
+  expect_reads("OFF\n3 1 0\n0 0 0\n4 0 0 1 0 0\n0 4 0 1 0 0 1\n3 0 1 2\n", vertices, {{0, 1, 2}});
+}
+
+TEST(ReadOff, NamesLineAndValueOfANumberThatOldWindowsWrote) {
+  for (const std::string value : {"1.#QNAN", "-1.#IND00", "1.#INF", "1.#IND", "-1.#INF"}) {
+    const std::string error = "'" + value + "' is not a number";
+    EXPECT_EQ(error_in("OFF\n3 1 0\n0 0 0\n4 0 0\n0 4 " + value + "\n3 0 1 2\n"), "line 5: " + error);
+    EXPECT_EQ(error_in("OFF 3 1 0\n0 0 0\n4 0 0\n0 4 " + value + "\n3 0 1 2\n"), "line 4: " + error);
+    EXPECT_EQ(error_in("3 1\n0 0 0\n" + value + " 0 0\n0 4 0\n3 0 1 2\n"), "line 3: " + error);
+    EXPECT_EQ(error_in("OFF 3 1 0 0 0 0\n4 0 0 0 4\n" + value + " 3 0 1 2\n"), "line 3: " + error);
+    EXPECT_EQ(error_in("OFF\n3 1 0\n0 0 0 1 0 0\n4 0 0 1 0 " + value + "\n0 4 0 1 0 0\n3 0 1 2\n"), "line 4: " + error);
+    EXPECT_EQ(error_in("NOFF\n3 1 0\n0 0 0 1 0 0\n4 0 0 1 0 0\n0 4 0 1 " + value + " 0\n3 0 1 2\n"),
+              "line 5: " + error);
+    EXPECT_EQ(error_in("OFF\n3 1 0\n0 0 0\n4 0 0\n0 4 0\n3 0 1 2 " + value + "\n"), "line 6: " + error);
+    EXPECT_EQ(error_in("OFF\n3 1 0\n0 0 0\n4 0 0\n0 4 0\n3 0 " + value + " 2\n"),
+              "line 6: '" + value + "' is not an integer");
+  }
+}
+
+TEST(ReadOff, WarnsOfVerticesThatAreNotFiniteWhereNoFaceUsesThem) {
+  const Mesh<float> mesh = read_off<float>("OFF\n5 1 0\n0 0 0\nnan 0 0\n4 0 0\n0 4 0\n0 -inf 0\n3 0 2 3\n");
+  EXPECT_EQ(mesh.warnings,
+            Warnings{"2 vertices are not finite, the first of them vertex 1 of line 4; no face uses them"});
+  EXPECT_FALSE(find_invalid(mesh.view()));
+  EXPECT_EQ(error_in("OFF\n4 1 0\n0 0 0\nnan 0 0\n4 0 0\n0 4 0\n3 0 2 1\n"),
+            "line 7: face 0 uses vertex 1 of line 4, of which x is nan");
+  EXPECT_EQ(error_in("OFF\n3 1 0\n0 0 0\n4 0 0\n0 inf 0\n3 0 2 1\n"),
+            "line 6: face 0 uses vertex 2 of line 5, of which y is infinite");
+}
+
+TEST(ReadOff, WarnsOfAMeshOfNothing) {
+  for (const char* text : {"OFF\n0 0 0\n", "OFF 0 0", "0 0\n", "OFF\n0\n0\n0\n", "OFF\n2 0 0\n0 0 0\n1 0 0\n"}) {
+    const Mesh<float> mesh = read_off<float>(text);
+    EXPECT_TRUE(mesh.triangles.empty()) << text;
+    EXPECT_EQ(mesh.warnings, Warnings{example::no_triangles}) << text;
+  }
+}
+
+TEST(ReadOff, NamesTheLineOfAnErrorInItsHeader) {
+  EXPECT_EQ(error_in(""), "the file is empty");
   EXPECT_EQ(error_in("# nothing\n"), "line 1: the file is empty");
-  EXPECT_EQ(error_in("ply\n"), "line 1: an OFF file begins with OFF, not with 'ply'");
-  EXPECT_EQ(error_in("4OFF\n"), "line 1: '4OFF' is a kind of OFF file without 3 coordinates a vertex");
-  EXPECT_EQ(error_in("OFF BINARY\n"), "line 1: binary OFF files are not supported");
+  EXPECT_EQ(error_in("ply\n"), "line 1: an OFF file begins with OFF, or without it with the counts, not with 'ply'");
+  EXPECT_EQ(error_in("-3 1 0\n"), "line 1: an OFF file begins with OFF, or without it with the counts, not with '-3'");
+  for (const std::string word : {"4OFF", "nOFF", "4nOFF", "NnOFF", "CnOFF", "C4OFF", "STnOFF"}) {
+    EXPECT_EQ(error_in("# first\n" + word + "\n3\n4 1 0\n"),
+              "line 2: '" + word + "' is a kind of OFF file without 3 coordinates a vertex");
+  }
+  for (const char* word : {"OFF BINARY", "OFF\nBINARY", "OFFBINARY", "off binary", "COFF BINARY", "OFF Binary"}) {
+    EXPECT_NE(error_in(word + std::string("\n\0\0\0\1", 5)).find(": binary OFF files are not supported"),
+              std::string::npos)
+        << word;
+  }
   EXPECT_EQ(error_in("OFF\n"), "line 1: the file ends before the counts");
-  EXPECT_EQ(error_in("OFF\n4\n"), "line 2: expected the counts of vertices, faces and edges");
+  EXPECT_EQ(error_in("OFF\n4\n"), "line 2: the file ends before the counts");
   EXPECT_EQ(error_in("OFF\n-4 1 0\n"), "line 2: a count is negative: '-4'");
+  EXPECT_EQ(error_in("OFF\n4 -1 0\n"), "line 2: a count is negative: '-1'");
+  EXPECT_EQ(error_in("OFF\n4 1 x\n" + square), "line 2: 'x' is not an integer");
+  EXPECT_EQ(error_in("OFF\n4\n1.5\n0\n" + square), "line 3: '1.5' is not an integer");
+  EXPECT_EQ(error_in("OFF\n99999999999999999999 1 0\n"), "line 2: '99999999999999999999' is beyond 64 bits");
+}
+
+TEST(ReadOff, NamesTheLineOfAnErrorInItsBody) {
+  EXPECT_EQ(error_in("OFF\n4 1\n"), "line 2: the file ends before vertex 0");
   EXPECT_EQ(error_in("OFF\n4 1 0\n0 0 0\n"), "line 3: the file ends before vertex 1");
-  EXPECT_EQ(error_in("OFF\n4 1 0\n0 0\n"), "line 3: a vertex has 3 coordinates, not 2");
-  EXPECT_EQ(error_in("OFF\n4 1 0\n0 0 0 1\n"), "line 3: a vertex has 3 coordinates, not 4");
-  EXPECT_EQ(error_in("OFF\n4 1 0\n0 0 inf\n"), "line 3: 'inf' is not a number");
+  EXPECT_EQ(error_in("OFF\n4 1 0\n0 0\n"), "line 3: the file ends within a vertex");
+  EXPECT_EQ(error_in("OFF\n4 1 0\n0 0 0 1\n1 0 0 1\n1 1 0 1\n0 1 0 1\n4 0 1 2 3\n"),
+            "line 3: a vertex has 3 coordinates, not 4");
+  EXPECT_EQ(error_in("OFF\n4 1 0\n0 0 x\n"), "line 3: 'x' is not a number");
+  EXPECT_EQ(error_in("OFF\n4 1 0\n0 0 1e39\n" + square), "line 3: '1e39' is beyond the largest float");
   EXPECT_EQ(error_in("OFF\n4 2 0\n" + square + "3 0 1 2"), "line 7: the file ends before face 1");
   EXPECT_EQ(error_in("OFF\n4 1 0\n" + square + "4 0 1 2"), "line 7: a face of 4 corners has only 3 numbers");
   EXPECT_EQ(error_in("OFF\n4 1 0\n" + square + "2 0 1"), "line 7: a face needs 3 corners or more, not 2");
+  EXPECT_EQ(error_in("OFF\n4 1 0\n" + square + "-3 0 1"), "line 7: a count is negative: -3");
   EXPECT_EQ(error_in("OFF\n4 1 0\n" + square + "3 0 1 4"),
             "line 7: vertex index 4 is out of range, there are 4 vertices");
   EXPECT_EQ(error_in("OFF\n4 1 0\n" + square + "3 0 1 -1"),
             "line 7: vertex index -1 is out of range, there are 4 vertices");
   EXPECT_EQ(error_in("OFF\n4 1 0\n" + square + "3 0 1 2\n3 1 2 3"), "line 8: something follows the last face");
+  EXPECT_EQ(error_in("OFF\n3 1 0\n" + square + "3 0 1 2"), "line 6: a face needs 3 corners or more, not 0");
+  EXPECT_EQ(error_in("OFF\n5 1 0\n" + square + "4 0 1 2 3"), "line 7: a vertex has 3 coordinates, not 5");
+  EXPECT_EQ(error_in("OFF\n5 2 0\n" + square + "3 0 1 2\n3 3 2 1"), "line 7: a vertex has 3 coordinates, not 4");
+}
+
+TEST(ReadOff, NamesTheLineThatIsAtFaultInAFileOfLines) {
+  const std::string faces = "4 0 1 2 3\n3 0 1 2\n3 3 2 1\n";
+  EXPECT_EQ(error_in("OFF\n4 3 0\n0 0 0\n1 0\n1 1 0\n0 1 0\n" + faces), "line 4: a vertex has 3 coordinates, not 2");
+  EXPECT_EQ(error_in("OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0 0\n0 1 0\n" + faces),
+            "line 5: a vertex has 3 coordinates, not 4");
+  EXPECT_EQ(error_in("OFF\n4 3 0\n" + square + "4 0 1 2\n3 0 1 2\n3 3 2 1\n"),
+            "line 7: a face of 4 corners has only 3 numbers");
+  EXPECT_EQ(error_in("OFF\n4 3 0\n" + square + "4 0 1 2 3\n3 0 1\n3 3 2 1\n"),
+            "line 8: a face of 3 corners has only 2 numbers");
+  EXPECT_EQ(error_in("OFF\n4 3 0\n" + square + "4 0 1 2 3\n3 0 1 9\n3 3 2 1\n"),
+            "line 8: vertex index 9 is out of range, there are 4 vertices");
+  EXPECT_EQ(error_in("OFF\n4 2 0\n" + square + "3 0 1 2 3\n3 2 1\n"), "line 8: a face of 3 corners has only 2 numbers");
+  // What would fit with other line breaks, or other counts, is no better than the file as it is meant.
+  EXPECT_EQ(error_in("OFF\n4 1 0\n0 0\n1 0 0\n1 1 0\n0 1 0\n4 3 2 1 0\n"), "line 3: a vertex has 3 coordinates, not 2");
+  EXPECT_EQ(error_in("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1\n4 3 2 1 0\n"), "line 6: a vertex has 3 coordinates, not 2");
+  EXPECT_EQ(error_in("OFF\n4 1\n0.5 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 9\n"),
+            "line 7: vertex index 9 is out of range, there are 4 vertices");
+  // So it is with colors of vertices, of which the first word does not tell.
+  const std::string colored = "0 0 0 9 0 0\n1 0 0 9 0 0\n1 1 0 9 0 0\n";
+  EXPECT_EQ(error_in("OFF\n4 1 0\n" + colored + "0 x 0 9 0 0\n4 0 1 2 3\n"), "line 6: 'x' is not a number");
+  EXPECT_EQ(error_in("OFF\n4 1 0\n" + colored + "0 1 0 9 0\n4 0 1 2 3\n"), "line 6: a vertex has 3 coordinates, not 5");
+  EXPECT_EQ(error_in("OFF\n4 1 0\n" + colored + "0 1 0 9 0 0\n4 0 1 2 4\n"),
+            "line 7: vertex index 4 is out of range, there are 4 vertices");
+}
+
+TEST(ReadOff, NamesTheLineThatIsAtFaultInAFileOfFreeLineBreaks) {
+  EXPECT_EQ(error_in("OFF 4 2 0\n0 0 0 1 0 0\n1 1 0 0 x 0\n3 0 1 2 3 3 2 1\n"), "line 3: 'x' is not a number");
+  EXPECT_EQ(error_in("OFF 4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2 3 3 2 4\n"),
+            "line 4: vertex index 4 is out of range, there are 4 vertices");
+  EXPECT_EQ(error_in("OFF\n4\n2\n0\n0 0 0 1 0\n0 1 1 0 0 1\n0 3 0\n1 2 3 3 2\nx\n"), "line 9: 'x' is not an integer");
+  EXPECT_EQ(error_in("OFF 4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2 3 3 2\n"),
+            "line 4: a face of 3 corners has only 2 numbers");
+  EXPECT_EQ(error_in("OFF 4 2 0\n0 0 0 1 0 0\n1 1 0 0 1\n"), "line 3: the file ends within a vertex");
+  EXPECT_EQ(error_in("OFF 4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2 3 3 2 1 3 0 1 2 3 3 2 1\n"),
+            "line 4: something follows the last face");
+  EXPECT_EQ(error_in("OFF\n4 3 0\n" + square + "3 0 1 2 3 0 1 2\n3 0 1 x\n"), "line 8: 'x' is not an integer");
+  EXPECT_EQ(error_in("OFF\n4 5 0\n" + square + "3 0 1 2 3 0 1 2 3 0 1 2\n3 0 1 2\n3 0 1 x\n"),
+            "line 9: 'x' is not an integer");
+  EXPECT_EQ(error_in("OFF 4 2 0 0 0 0 1 0 0 1 1 0 0 x 0 3 0 1 2 3 3 2 1"), "line 1: 'x' is not a number");
+  EXPECT_EQ(error_in("COFF 3 1 0\n0 0 0 1 0\n0 1 4 0 0\n1 0 0 1\n0 4 0 1 x 0 1\n3 0 1 2\n"),
+            "line 5: 'x' is not a number");
+}
+
+/// A cube whose faces begin with its greatest corners, so that a shifted number may well be a face's count.
+const std::string cube =
+    "OFF\n8 6 12\n0 0 0\n4 0 0\n4 4 0\n0 4 0\n0 0 4\n4 0 4\n4 4 4\n0 4 4\n4 3 2 1 0\n4 4 5 6 7\n4 5 4 0 1\n4 6 5 1 2\n"
+    "4 7 6 2 3\n4 4 7 3 0\n";
+
+TEST(ReadOff, MakesAnErrorOfAWordTooFewOrTooManyInAFileOfLines) {
+  ASSERT_EQ(read_off<float>(cube).triangles.size(), 12u);
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < cube.size(); at = cube.find('\n', at) + 1) {
+    lines.push_back(cube.substr(at, cube.find('\n', at) - at));
+  }
+  for (std::size_t changed = 2; changed < lines.size(); ++changed) {
+    std::vector<std::string_view> words;
+    example::split(lines[changed], words);
+    const bool is_face = words.size() == 5;
+    for (std::size_t gone = is_face ? 1 : 0; gone < words.size(); ++gone) {
+      std::string text;
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (i != changed) text += lines[i];
+        for (std::size_t word = 0; i == changed && word < words.size(); ++word) {
+          if (word != gone) text += std::string(words[word]) + " ";
+        }
+        text += "\n";
+      }
+      EXPECT_EQ(error_in(text),
+                "line " + std::to_string(changed + 1) +
+                    (is_face ? ": a face of 4 corners has only 3 numbers" : ": a vertex has 3 coordinates, not 2"));
+    }
+    std::string text;
+    for (std::size_t i = 0; i < lines.size(); ++i) text += lines[i] + (i == changed ? " 3 3\n" : "\n");
+    EXPECT_EQ(error_in(text), "line " + std::to_string(changed + 1) +
+                                  (is_face ? ": a face is followed by 2 numbers in its line, but a color has 1, 3 or 4"
+                                           : ": a vertex has 3 coordinates, not 5"));
+  }
+}
+
+struct RandomMesh {
+  Floats vertices;
+  std::vector<std::vector<std::uint32_t>> faces;
+
+  [[nodiscard]] Triangles fans() const {
+    Triangles triangles;
+    for (const auto& face : faces) {
+      for (std::size_t i = 2; i < face.size(); ++i) triangles.push_back({face[0], face[i - 1], face[i]});
+    }
+    return triangles;
+  }
+};
+
+/// Vertices on a parabola, so that corners in the order of their ids make a convex face. All numbers are small and
+/// whole: what is read at a wrong place may well pass for a count or for an index.
+RandomMesh random_mesh(Random& random) {
+  RandomMesh mesh;
+  const auto height = static_cast<float>(random.between(2, 5));
+  for (std::int64_t i = random.between(3, 9); i > 0; --i) {
+    const auto x = static_cast<float>(mesh.vertices.size());
+    mesh.vertices.push_back({x, x * x, height});
+  }
+  for (std::uint64_t count = 1 + random.below(8); count > 0; --count) {
+    std::vector<std::uint32_t> face;
+    while (face.size() < 3) {
+      face.clear();
+      for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
+        if (random.one_in(2)) face.push_back(i);
+      }
+    }
+    const auto first = static_cast<std::ptrdiff_t>(random.below(face.size()));
+    std::rotate(face.begin(), face.begin() + first, face.end());
+    mesh.faces.push_back(face);
+  }
+  return mesh;
+}
+
+/// The mesh in a line for each vertex and face; `attributes` and `color` are written behind each.
+std::string lines_of(const RandomMesh& mesh, const std::string& header, const std::string& attributes,
+                     const std::string& color) {
+  std::ostringstream text;
+  text << header << " " << mesh.vertices.size() << " " << mesh.faces.size() << " 0\n";
+  for (const auto& [x, y, z] : mesh.vertices) text << x << " " << y << " " << z << attributes << "\n";
+  for (const auto& face : mesh.faces) {
+    text << face.size();
+    for (const std::uint32_t corner : face) text << " " << corner;
+    text << color << "\n";
+  }
+  return text.str();
+}
+
+TEST(ReadOff, ReadsRandomMeshesInLines) {
+  constexpr const char* headers[] = {"OFF", "off", "", "OFF\n"};
+  constexpr const char* attributes[] = {"", " 3 3 3", " 3 4 5 3"};
+  constexpr const char* colors[] = {"", " 3", " 3 4 3", " 3 0 1 2"};
+  Random random(41);
+  for (std::size_t i = case_count(3000); i > 0; --i) {
+    const RandomMesh mesh = random_mesh(random);
+    const std::string text =
+        lines_of(mesh, headers[random.below(4)], attributes[random.below(3)], colors[random.below(4)]);
+    expect_reads(text, mesh.vertices, mesh.fans());
+    ASSERT_FALSE(HasFailure());
+  }
+}
+
+TEST(ReadOff, ReadsRandomMeshesInFreeLineBreaks) {
+  constexpr std::pair<const char*, const char*> kinds[] = {{"OFF", ""},
+                                                           {"off", ""},
+                                                           {"", ""},
+                                                           {"NOFF", " 3 3 3"},
+                                                           {"COFF", " 3 4 5 3"},
+                                                           {"OFF", " 0.5 0.5 0.5"},
+                                                           {"OFF", " 0.5 0.5 0.5 1"},
+                                                           {"COFF", " 0.5 0.5 0.5"}};
+  Random random(42);
+  for (std::size_t i = case_count(3000); i > 0; --i) {
+    const RandomMesh mesh = random_mesh(random);
+    const auto [header, attributes] = kinds[random.below(std::size(kinds))];
+    std::string text = lines_of(mesh, header, attributes, "");
+    const std::uint64_t rarity = 1 + random.below(20);
+    for (char& c : text) {
+      if (c == ' ' || c == '\n') c = random.one_in(rarity) ? '\n' : ' ';
+    }
+    expect_reads(text, mesh.vertices, mesh.fans());
+    ASSERT_FALSE(HasFailure());
+  }
 }
 
 TEST(ReadOff, TakesNoMemoryOnTheWordOfAHeader) {
   EXPECT_EQ(error_in("OFF\n9223372036854775807 9223372036854775807 0\n0 0 0\n"),
             "line 3: the file ends before vertex 1");
   EXPECT_EQ(error_in("OFF\n0 9223372036854775807 0\n"), "line 2: the file ends before face 0");
+  EXPECT_EQ(error_in("OFF\n4 1 0\n" + square + "9223372036854775807 0 1 2 3\n"),
+            "line 7: a face of 9223372036854775807 corners has only 4 numbers");
 }
 
 TEST(ReadOff, MakesAnErrorOrAMeshOfAnyBytes) {
   expect_error_or_sound_mesh("OFF # square\n4 2 5\n" + square + "4 0 1 2 3\n3 0 1 2 0.5 0.5 0.5\n", read_off<float>);
+  expect_error_or_sound_mesh("4 2\r0 0 0 1 0 0\r1 0 0 1 0 0\r1 1 0 1 0 0\r0 1 0 1 0 0\r\n3 0 1 2 3 0 1 2\r\n\x1a",
+                             read_off<double>);
+  expect_error_or_sound_mesh("coff 4 2 0 0 0 0 1 0 0 1 1\n0 0 1 0 0 1 1 1 0 1 0 0 1 0 1\n0 1 0 0 1 3 0 1 2 3 3 2 1",
+                             read_off<float>);
+  expect_error_or_sound_mesh(text_of(placed(wall_plane, keyholed_wall)), read_off<float>);
 }
 
 }  // namespace

@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "append_bytes.hpp"
 #include "error_of.hpp"
 #include "mutations.hpp"
+#include "sample_polygons.hpp"
+#include "with_line_ends.hpp"
 
 namespace surehit::test {
 namespace {
@@ -14,6 +19,9 @@ namespace {
 using example::Mesh;
 using example::read_ply;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using Floats = std::vector<std::array<float, 3>>;
+using Faces = std::vector<std::uint32_t>;
+using Warnings = std::vector<std::string>;
 
 const std::string vertex_lines = "property float x\nproperty float y\nproperty float z\n";
 const std::string face_line = "property list uchar int vertex_indices\n";
@@ -67,6 +75,33 @@ std::string busy_binary_square(const std::string& format, Append append) {
 const auto little_endian = [](auto number, std::string& bytes) { append_little_endian(number, bytes); };
 const auto big_endian = [](auto number, std::string& bytes) { append_big_endian(number, bytes); };
 
+std::string ascii_text_of(const SampleFace& face) {
+  std::string text = header("ascii", face.vertices.size(), 1);
+  for (const auto& [x, y, z] : face.vertices) {
+    text += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  }
+  text += std::to_string(face.corners.size());
+  for (const std::uint32_t corner : face.corners) text += " " + std::to_string(corner);
+  return text + "\n";
+}
+
+template <typename Append>
+std::string bytes_of(const SampleFace& face, const std::string& format, Append append) {
+  std::string bytes = header(format, face.vertices.size(), 1);
+  for (const auto& vertex : face.vertices) {
+    for (const std::int64_t coordinate : vertex) append(static_cast<float>(coordinate), bytes);
+  }
+  append(static_cast<std::uint8_t>(face.corners.size()), bytes);
+  for (const std::uint32_t corner : face.corners) append(static_cast<std::int32_t>(corner), bytes);
+  return bytes;
+}
+
+std::string little_endian_bytes_of(const SampleFace& face) {
+  return bytes_of(face, "binary_little_endian", little_endian);
+}
+
+std::string big_endian_bytes_of(const SampleFace& face) { return bytes_of(face, "binary_big_endian", big_endian); }
+
 const std::string ascii_square = header("ascii", 4, 2) + "0 0 0\n1 0 0\n1 1 0\n0 0.1 0\n4 0 1 2 3\n3 3 2 1\n";
 
 TEST(ReadPly, ReadsText) {
@@ -74,6 +109,328 @@ TEST(ReadPly, ReadsText) {
   const std::vector<std::array<double, 3>> expected = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0.1, 0}};
   EXPECT_EQ(mesh.vertices, expected);
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {3, 2, 1}}));
+  EXPECT_EQ(mesh.faces, (Faces{0, 0, 1}));
+  EXPECT_TRUE(mesh.warnings.empty());
+}
+
+TEST(ReadPly, CutsConcaveFacesInText) {
+  expect_every_sample_is_cut_rightly<float>(
+      [](const SampleFace& face) { return read_ply<float>(ascii_text_of(face)); });
+}
+
+TEST(ReadPly, CutsConcaveFacesInBytesOfEitherOrder) {
+  expect_every_sample_is_cut_rightly<double>(
+      [](const SampleFace& face) { return read_ply<double>(little_endian_bytes_of(face)); });
+  expect_every_sample_is_cut_rightly<float>(
+      [](const SampleFace& face) { return read_ply<float>(big_endian_bytes_of(face)); });
+}
+
+TEST(ReadPly, LeavesTheWindowOfAKeyholedWallOpen) {
+  for (const auto write : {ascii_text_of, little_endian_bytes_of, big_endian_bytes_of}) {
+    expect_keyholed_wall_has_its_window([&](const SampleFace& face) { return read_ply<double>(write(face)); });
+  }
+}
+
+TEST(ReadPly, NamesTheFaceWhoseOutlineCrossesItself) {
+  const SampleFace bow_tie = {{{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}}, {0, 1, 2, 3}};
+  const std::string error = "face 0 of 4 corners has no valid triangulation: its outline crosses itself";
+  EXPECT_EQ(error_in(ascii_text_of(bow_tie)), "line 14: " + error);
+  EXPECT_EQ(error_in(with_line_ends(ascii_text_of(bow_tie), "\r")), "line 14: " + error);
+  EXPECT_EQ(error_in(little_endian_bytes_of(bow_tie)), error);
+  EXPECT_EQ(error_in(big_endian_bytes_of(bow_tie)), error);
+  EXPECT_EQ(error_in(header("ascii", 4, 3) + "0 0 0\n4 4 0\n4 0 0\n0 4 0\n3 0 1 2\n\n4 0 2 1 3\n4 3 2 1 0\n"),
+            "line 17: face 2 of 4 corners has no valid triangulation: its outline crosses itself");
+}
+
+TEST(ReadPly, ReadsFacesBeforeTheirVertices) {
+  const std::string start =
+      "ply\nformat ascii 1.0\nelement face 2\n" + face_line + "element vertex 6\n" + vertex_lines + "end_header\n";
+  const std::string l = "0 0 0\n4 0 0\n4 2 0\n2 2 0\n2 4 0\n0 4 0\n";
+  const Mesh<float> mesh = read_ply<float>(start + "3 0 1 2\n6 2 3 4 5 0 1\n" + l);
+  EXPECT_EQ(mesh.faces, (Faces{0, 1, 1, 1, 1}));
+  EXPECT_FALSE(Colliderf(mesh.view()).any_hit(Segmentf{{3, 3, 5}, {3, 3, -5}}));
+  EXPECT_TRUE(Colliderf(mesh.view()).any_hit(Segmentf{{1, 3, 5}, {1, 3, -5}}));
+  EXPECT_EQ(error_in(start + "3 0 1 2\n4 0 2 1 3\n" + l),
+            "line 11: face 1 of 4 corners has no valid triangulation: its outline crosses itself");
+  EXPECT_EQ(error_in(start + "3 0 1 6\n4 0 2 1 3\n" + l),
+            "line 10: face 0: vertex index 6 is out of range, there are 6 vertices");
+}
+
+TEST(ReadPly, TellsWhichFaceATriangleIsOf) {
+  const std::string l = "0 0 0\n4 0 0\n4 2 0\n2 2 0\n2 4 0\n0 4 0\n";
+  const Mesh<float> mesh = read_ply<float>(header("ascii", 6, 4) + l + "3 0 1 2\n6 0 1 2 3 4 5\n4 0 1 2 3\n3 3 4 5\n");
+  EXPECT_EQ(mesh.faces, (Faces{0, 1, 1, 1, 1, 2, 2, 3}));
+  EXPECT_EQ(mesh.face_count(), 4u);
+  const Mesh<float> triangles = read_ply<float>(header("ascii", 6, 2) + l + "3 0 1 2\n3 3 4 5\n");
+  EXPECT_TRUE(triangles.faces.empty());
+  EXPECT_EQ(triangles.face_of(1), 1u);
+}
+
+TEST(ReadPly, TakesAnyLineEndsInText) {
+  for (const std::string_view end : line_ends) {
+    const Mesh<float> mesh = read_ply<float>(with_line_ends(ascii_square, end));
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {3, 2, 1}}));
+    EXPECT_EQ(error_in(with_line_ends(header("ascii", 3, 1) + "0 0 0\n\n1 0\n", end)),
+              "line 12: vertex 1: the line ends too early");
+    EXPECT_EQ(error_in(with_line_ends("ply\nformat ascii 1.0\nelement vertex x\n", end)),
+              "line 3: 'x' is not an integer");
+  }
+  EXPECT_EQ(read_ply<float>(with_mixed_line_ends(ascii_square)).vertices.size(), 4u);
+}
+
+/// Three vertices whose first byte, and whole first coordinate, are as they are told.
+template <typename Append>
+std::string bytes_that_begin_with(std::string_view first, std::string_view line_end, const std::string& format,
+                                  Append append) {
+  std::string bytes = with_line_ends(header(format, 3, 1), line_end);
+  bytes += first;
+  for (std::size_t i = 1; i < 9; ++i) append(static_cast<float>(i), bytes);
+  append(std::uint8_t{3}, bytes);
+  for (std::int32_t corner = 0; corner < 3; ++corner) append(corner, bytes);
+  return bytes;
+}
+
+TEST(ReadPly, ReadsBytesBehindAnyLineEndWhateverTheyBeginWith) {
+  for (const std::string_view line_end : line_ends) {
+    for (const std::string_view first :
+         {"\x0a\x0b\x0c\x3d", "\x0d\x0b\x0c\x3d", "\x0d\x0a\x0c\x3d", "\x0a\x0d\x0c\x3d", "\x0a\x0a\x0a\x0a",
+          "\x0d\x0d\x0d\x0d", "\x1a\x1a\x1a\x1a", "\x0a\x1a\x0a\x1a", "\x20\x20\x0a\x0d"}) {
+      const auto little = std::bit_cast<std::uint32_t>(std::array<char, 4>{first[0], first[1], first[2], first[3]});
+      const auto big = std::bit_cast<std::uint32_t>(std::array<char, 4>{first[3], first[2], first[1], first[0]});
+      const auto in_little =
+          read_ply<float>(bytes_that_begin_with(first, line_end, "binary_little_endian", little_endian));
+      const auto in_big = read_ply<float>(bytes_that_begin_with(first, line_end, "binary_big_endian", big_endian));
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(in_little.vertices[0][0]), little);
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(in_big.vertices[0][0]), big);
+      EXPECT_EQ(in_little.vertices[2], (std::array<float, 3>{6, 7, 8}));
+      EXPECT_EQ(in_big.vertices[2], (std::array<float, 3>{6, 7, 8}));
+      EXPECT_EQ(in_big.triangles, (Triangles{{0, 1, 2}}));
+    }
+  }
+}
+
+TEST(ReadPly, ReadsBytesThatAreAllWhiteSpaceOrControlZ) {
+  for (const std::string_view line_end : line_ends) {
+    for (const char byte : {'\n', '\r', '\x1a', ' '}) {
+      const std::string bytes =
+          with_line_ends(header("binary_little_endian", 3, 0), line_end) + std::string(3 * 12, byte);
+      const float number = std::bit_cast<float>(std::array<char, 4>{byte, byte, byte, byte});
+      const Floats expected(3, {number, number, number});
+      EXPECT_EQ(read_ply<float>(bytes).vertices, expected);
+      EXPECT_EQ(error_in(bytes.substr(0, bytes.size() - 1)), "vertex 2: the file ends too early");
+    }
+  }
+}
+
+TEST(ReadPly, TakesAClosingControlZ) {
+  for (const std::string_view closing : closing_control_z) {
+    EXPECT_EQ(read_ply<float>(ascii_square + std::string(closing)).triangles.size(), 3u);
+  }
+  for (const char* closing : {"\x1a", "\x1a\x1a", "\n", "\r\n", "\n\x1a", "\r\n\x1a\r\n"}) {
+    EXPECT_EQ(read_ply<float>(busy_binary_square("binary_little_endian", little_endian) + closing).triangles.size(),
+              2u);
+    EXPECT_EQ(read_ply<float>(busy_binary_square("binary_big_endian", big_endian) + closing).triangles.size(), 2u);
+  }
+  EXPECT_EQ(error_in(ascii_square + "\x1a\n3 0 1 2\n"), "line 16: something follows the last element");
+}
+
+TEST(ReadPly, KeepsALastByteThatIsAControlZ) {
+  const auto with_last = [](std::uint32_t last, const std::string& format, auto append) {
+    std::string bytes = "ply\nformat " + format + " 1.0\nelement vertex 27\n" + vertex_lines +
+                        "element face 1\nproperty list uchar uint vertex_indices\nend_header\n";
+    for (int i = 0; i < 27 * 3; ++i) append(static_cast<float>(i % 5), bytes);
+    append(std::uint8_t{3}, bytes);
+    for (const std::uint32_t corner : {0u, 1u, last}) append(corner, bytes);
+    return bytes;
+  };
+  const std::string big = with_last(26, "binary_big_endian", big_endian);
+  ASSERT_EQ(big.back(), '\x1a');
+  for (const char* closing : {"", "\x1a", "\n\x1a"}) {
+    EXPECT_EQ(read_ply<float>(big + closing).triangles, (Triangles{{0, 1, 26}}));
+  }
+  const std::string little = with_last(0x1a000000, "binary_little_endian", little_endian);
+  ASSERT_EQ(little.back(), '\x1a');
+  EXPECT_EQ(error_in(little), "face 0: vertex index 436207616 is out of range, there are 27 vertices");
+}
+
+const std::string strip_list = "property list int int vertex_indices\n";
+
+/// A file of the corners of a strip of unit squares, and of the strips.
+std::string ascii_strips(const std::string& strips, std::size_t count = 1) {
+  return "ply\nformat ascii 1.0\nelement vertex 6\n" + vertex_lines + "element tristrips " + std::to_string(count) +
+         "\n" + strip_list + "end_header\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n" + strips;
+}
+
+template <typename Append>
+std::string binary_strips(const std::vector<std::int32_t>& strip, const std::string& format, Append append) {
+  std::string bytes = "ply\nformat " + format + " 1.0\nelement vertex 6\n" + vertex_lines + "element tristrips 1\n" +
+                      strip_list + "end_header\n";
+  for (const auto& [x, y] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}, {2, 0}, {2, 1}}) {
+    append(static_cast<float>(x), bytes);
+    append(static_cast<float>(y), bytes);
+    append(0.0f, bytes);
+  }
+  append(static_cast<std::int32_t>(strip.size()), bytes);
+  for (const std::int32_t corner : strip) append(corner, bytes);
+  return bytes;
+}
+
+TEST(ReadPly, ReadsStripsOfTriangles) {
+  struct Case {
+    std::vector<std::int32_t> strip;
+    Triangles triangles;
+  };
+  const Case cases[] = {
+      {{0, 1, 2}, {{0, 1, 2}}},
+      // Every second triangle is turned, so all look the same way.
+      {{0, 1, 2, 3, 4, 5}, {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}},
+      // -1 begins anew, with a triangle that is not turned.
+      {{0, 1, 2, 3, -1, 2, 3, 4, 5}, {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}},
+      {{0, 1, 2, -1, 3, 4, 5, -1}, {{0, 1, 2}, {3, 4, 5}}},
+      {{-1, -1, 0, 1, 2, -1, -1, 5}, {{0, 1, 2}}},
+      {{0, 1, -1, 2, 3, 4}, {{2, 3, 4}}},
+      // Stitches: corners named twice lead on, and count on.
+      {{0, 1, 2, 2, 3, 3, 4, 5}, {{0, 1, 2}, {4, 3, 5}}},
+      {{0, 1, 2, 2, 3, 4, 5}, {{0, 1, 2}, {3, 2, 4}, {3, 4, 5}}},
+      {{0, 1, 0, 2}, {{0, 1, 2}}},
+      {{0, 0, 1, 2}, {{1, 0, 2}}},
+      {{}, {}},
+      {{0, 1}, {}},
+      {{0, 1, 1, 1, 0}, {}},
+  };
+  for (const auto& [strip, triangles] : cases) {
+    std::string line = std::to_string(strip.size());
+    for (const std::int32_t corner : strip) line += " " + std::to_string(corner);
+    for (const Mesh<float>& mesh : {read_ply<float>(ascii_strips(line)),
+                                    read_ply<float>(binary_strips(strip, "binary_little_endian", little_endian)),
+                                    read_ply<float>(binary_strips(strip, "binary_big_endian", big_endian))}) {
+      EXPECT_EQ(mesh.triangles, triangles) << line;
+      EXPECT_TRUE(mesh.faces.empty()) << line;
+      EXPECT_EQ(mesh.face_count(), triangles.size()) << line;
+      EXPECT_EQ(mesh.warnings, triangles.empty() ? Warnings{example::no_triangles} : Warnings{}) << line;
+    }
+  }
+}
+
+TEST(ReadPly, LetsAllTrianglesOfAStripLookTheSameWay) {
+  const Mesh<float> mesh = read_ply<float>(ascii_strips("6 0 1 2 3 4 5"));
+  const Colliderf collider(mesh.view());
+  for (const float x : {0.25f, 0.75f, 1.25f, 1.75f}) {
+    const auto hit = collider.first_hit(Segmentf{{x, 0.5f, -1}, {x, 0.5f, 1}});
+    ASSERT_TRUE(hit) << x;
+    EXPECT_EQ(hit->side, Side::front) << x;
+  }
+}
+
+TEST(ReadPly, ReadsSeveralStripsAndFacesBesideThem) {
+  EXPECT_EQ(read_ply<float>(ascii_strips("3 0 1 2\n4 2 3 4 5\n", 2)).triangles,
+            (Triangles{{0, 1, 2}, {2, 3, 4}, {4, 3, 5}}));
+  const std::string vertices = "0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n";
+  const std::string start = "ply\nformat ascii 1.0\nelement vertex 6\n" + vertex_lines;
+  const std::string faces = "element face 1\n" + face_line;
+  const std::string strips = "element tristrips 1\n" + strip_list;
+  const Mesh<float> faces_first =
+      read_ply<float>(start + faces + strips + "end_header\n" + vertices + "4 0 2 3 1\n4 2 3 4 5\n");
+  EXPECT_EQ(faces_first.triangles, (Triangles{{0, 2, 3}, {0, 3, 1}, {2, 3, 4}, {4, 3, 5}}));
+  EXPECT_EQ(faces_first.faces, (Faces{0, 0, 1, 2}));
+  EXPECT_EQ(faces_first.face_count(), 3u);
+  const Mesh<float> strips_first =
+      read_ply<float>(start + strips + faces + "end_header\n" + vertices + "4 2 3 4 5\n4 0 2 3 1\n");
+  EXPECT_EQ(strips_first.triangles, (Triangles{{2, 3, 4}, {4, 3, 5}, {0, 2, 3}, {0, 3, 1}}));
+  EXPECT_EQ(strips_first.faces, (Faces{0, 1, 2, 2}));
+  EXPECT_EQ(strips_first.face_of(1), 1u);
+  // An element of no faces needs no list beside strips.
+  EXPECT_EQ(
+      read_ply<float>(start + "element face 0\n" + strips + "end_header\n" + vertices + "3 0 1 2\n").triangles.size(),
+      1u);
+}
+
+TEST(ReadPly, NamesTheStripOfAnError) {
+  EXPECT_EQ(error_in(ascii_strips("4 0 1 2 6\n")),
+            "line 16: tristrips 0: vertex index 6 is out of range, there are 6 vertices");
+  EXPECT_EQ(error_in(ascii_strips("3 0 1 2\n4 -1 0 -2 1\n", 2)),
+            "line 17: tristrips 1: vertex index -2 is out of range, there are 6 vertices");
+  EXPECT_EQ(error_in(ascii_strips("4 0 1 2\n")), "line 16: tristrips 0: the line ends too early");
+  EXPECT_EQ(error_in(ascii_strips("3 0 1 2 3\n")), "line 16: tristrips 0: '3' is more than the header announces");
+  EXPECT_EQ(error_in(ascii_strips("")), "line 15: tristrips 0: the file ends too early");
+  EXPECT_EQ(error_in(binary_strips({0, 1, 6}, "binary_big_endian", big_endian)),
+            "tristrips 0: vertex index 6 is out of range, there are 6 vertices");
+  EXPECT_EQ(error_in(binary_strips({0, 1, 2, -1, -2}, "binary_little_endian", little_endian)),
+            "tristrips 0: vertex index -2 is out of range, there are 6 vertices");
+  const std::string cut = binary_strips({0, 1, 2}, "binary_little_endian", little_endian);
+  EXPECT_EQ(error_in(cut.substr(0, cut.size() - 1)), "tristrips 0: the file ends too early");
+  EXPECT_EQ(error_in("ply\nformat ascii 1.0\nelement vertex 0\n" + vertex_lines + "element tristrips 1\nend_header\n"),
+            "line 8: the element tristrips has no list 'vertex_indices' of integers");
+}
+
+TEST(ReadPly, ReadsAFileOfNoFaces) {
+  const std::string vertices = "ply\nformat ascii 1.0\nelement vertex 2\n" + vertex_lines;
+  for (const std::string faces :
+       {"", "element face 0\n", "element face 0\nproperty list uchar int vertex_indices\n",
+        "element face 0\nproperty int a\n", "element tristrips 0\n", "element face 0\nelement tristrips 0\n"}) {
+    const Mesh<float> mesh = read_ply<float>(vertices + faces + "end_header\n0 0 0\n1 2 3\n");
+    EXPECT_EQ(mesh.vertices, (Floats{{0, 0, 0}, {1, 2, 3}})) << faces;
+    EXPECT_EQ(mesh.face_count(), 0u) << faces;
+    EXPECT_EQ(mesh.warnings, Warnings{example::no_triangles}) << faces;
+  }
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex 1\n" + vertex_lines + "end_header\n";
+  for (const float coordinate : {1.0f, 2.0f, 3.0f}) append_little_endian(coordinate, bytes);
+  EXPECT_EQ(read_ply<float>(bytes).vertices, (Floats{{1, 2, 3}}));
+  EXPECT_EQ(read_ply<float>(bytes).warnings, Warnings{example::no_triangles});
+}
+
+TEST(ReadPly, SaysWhatIsWrongWithItsFirstLine) {
+  const std::string alone = "line 1: the first line of a PLY file is ply alone, but here it ";
+  for (const char* blank : {"ply \n", "ply\t\n", " ply\n", "ply  \r\n", "ply \r", "ply "}) {
+    EXPECT_EQ(error_in(blank + std::string("format ascii 1.0\n")).substr(0, alone.size()), alone) << blank;
+  }
+  EXPECT_EQ(error_in("ply \nformat ascii 1.0\n"), alone + "has a blank beside it");
+  EXPECT_EQ(error_in("ply"), "line 1: the file ends within the header");
+  EXPECT_EQ(error_in("ply x\nformat ascii 1.0\n"), alone + "goes on with 'x'");
+  EXPECT_EQ(error_in("ply format ascii 1.0\n"), alone + "goes on with 'format'");
+  EXPECT_EQ(error_in("PLY\nformat ascii 1.0\n"), "line 1: a PLY file begins with a line: ply");
+  EXPECT_EQ(error_in("plyx\nformat ascii 1.0\n"), "line 1: a PLY file begins with a line: ply");
+  EXPECT_EQ(error_in("\nply\n"), "line 1: a PLY file begins with a line: ply");
+  EXPECT_EQ(error_in(""), "a PLY file begins with a line: ply");
+}
+
+TEST(ReadPly, NamesLineAndValueOfANumberThatOldWindowsWrote) {
+  for (const std::string value : {"1.#QNAN", "-1.#IND00", "1.#INF", "1.#IND", "-1.#INF"}) {
+    const std::string vertices = header("ascii", 3, 1) + "0 0 0\n4 0 0\n";
+    EXPECT_EQ(error_in(vertices + "0 4 " + value + "\n3 0 1 2\n"),
+              "line 12: vertex 2: '" + value + "' is not a number");
+    EXPECT_EQ(error_in(vertices + value + " 4 0\n3 0 1 2\n"), "line 12: vertex 2: '" + value + "' is not a number");
+    EXPECT_EQ(error_in(vertices + "0 4 0\n3 0 1 " + value + "\n"),
+              "line 13: face 0: '" + value + "' is not an integer");
+  }
+}
+
+TEST(ReadPly, WarnsOfVerticesThatAreNotFiniteWhereNoFaceUsesThem) {
+  const std::string text = header("ascii", 5, 1) + "0 0 0\nnan 0 0\n4 0 0\n0 -inf inf\n0 4 0\n";
+  const Mesh<float> mesh = read_ply<float>(text + "3 0 2 4\n");
+  EXPECT_EQ(mesh.warnings,
+            Warnings{"2 vertices are not finite, the first of them vertex 1 of line 11; no face uses them"});
+  EXPECT_FALSE(find_invalid(mesh.view()));
+  EXPECT_EQ(error_in(text + "3 0 2 3\n"), "line 15: face 0 uses vertex 3 of line 13, of which y is infinite");
+  EXPECT_EQ(error_in(text + "3 1 2 3\n"), "line 15: face 0 uses vertex 1 of line 11, of which x is nan");
+
+  for (const float number : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    for (const std::int32_t third : {2, 3}) {
+      std::string bytes = header("binary_big_endian", 4, 1);
+      for (const float coordinate : {0.f, 0.f, 0.f, 4.f, 0.f, 0.f, 0.f, 4.f, 0.f, 0.f, 0.f, number}) {
+        append_big_endian(coordinate, bytes);
+      }
+      append_big_endian(std::uint8_t{3}, bytes);
+      for (const std::int32_t corner : {0, 1, third}) append_big_endian(corner, bytes);
+      if (third == 3) {
+        EXPECT_EQ(error_in(bytes),
+                  std::string("face 0 uses vertex 3, of which z is ") + (std::isnan(number) ? "nan" : "infinite"));
+      } else {
+        EXPECT_EQ(read_ply<double>(bytes).warnings,
+                  Warnings{"1 vertex is not finite, the first of them vertex 3; no face uses them"});
+      }
+    }
+  }
 }
 
 TEST(ReadPly, ReadsTextWithPropertiesAndElementsThatNobodyNeeds) {
@@ -142,13 +499,12 @@ TEST(ReadPly, NamesTheLineOfAnErrorInTheHeader) {
 TEST(ReadPly, NamesWhatTheHeaderLacks) {
   const std::string faces = "element face 0\n" + face_line;
   EXPECT_EQ(error_in_header(faces), "line 5: the header has no element 'vertex'");
-  EXPECT_EQ(error_in_header("element vertex 0\n" + vertex_lines), "line 7: the header has no element 'face'");
   EXPECT_EQ(error_in_header("element vertex 0\nproperty float x\nproperty float y\n" + faces),
             "line 8: the element vertex has no number 'z'");
   EXPECT_EQ(error_in_header("element vertex 0\nproperty list int float x\n" + faces),
             "line 7: the element vertex has no number 'x'");
   for (const std::string list : {"", "property int vertex_indices\n", "property list int float vertex_indices\n"}) {
-    const std::string error = error_in_header("element vertex 0\n" + vertex_lines + "element face 0\n" + list);
+    const std::string error = error_in_header("element vertex 0\n" + vertex_lines + "element face 1\n" + list);
     EXPECT_NE(error.find("the element face has no list 'vertex_indices' of integers"), std::string::npos) << error;
   }
 }
@@ -177,8 +533,6 @@ TEST(ReadPly, NamesTheElementOfAnErrorInBytes) {
   EXPECT_EQ(error_in(vertices + '\3' + std::string(8, '\0') + std::string(4, '\xff')),
             "face 0: vertex index -1 is out of range, there are 1 vertices");
   EXPECT_EQ(error_in(vertices + '\3' + std::string(12, '\0') + "left"), "4 bytes follow the last element");
-  EXPECT_EQ(error_in(header("binary_big_endian", 1, 0) + std::string("\x7f\x80\0\0\0\0\0\0\0\0\0\0", 12)),
-            "vertex 0: a coordinate is not finite, or beyond the largest number");
 }
 
 /// A message ends at a byte 0 for those who read it as C does; a fuzzer found one that was empty.
@@ -196,7 +550,7 @@ TEST(ReadPly, RejectsBinaryDoublesBeyondTheLargestFloat) {
       face_line + "end_header\n";
   append_little_endian(1e39, bytes);
   bytes.append(8, '\0');
-  EXPECT_EQ(error_in(bytes), "vertex 0: a coordinate is not finite, or beyond the largest number");
+  EXPECT_EQ(error_in(bytes), "vertex 0: a coordinate is beyond the largest number");
   EXPECT_EQ(read_ply<double>(bytes).vertices[0][0], 1e39);
 }
 
@@ -220,11 +574,18 @@ TEST(ReadPly, TakesNoMemoryOnTheWordOfAList) {
   EXPECT_EQ(error_in(start + rest + "\xff\xff\xff\xff"), "face 0: the file ends too early");
 }
 
-TEST(ReadPly, MakesAnErrorOrAMeshOfAnyText) { expect_error_or_sound_mesh(ascii_square, read_ply<float>); }
+TEST(ReadPly, MakesAnErrorOrAMeshOfAnyText) {
+  expect_error_or_sound_mesh(ascii_square, read_ply<float>);
+  expect_error_or_sound_mesh(with_line_ends(ascii_strips("8 0 1 2 -1 2 3 4 5\n\x1a"), "\r"), read_ply<double>);
+  expect_error_or_sound_mesh(ascii_text_of(placed(wall_plane, keyholed_wall)), read_ply<float>);
+}
 
 TEST(ReadPly, MakesAnErrorOrAMeshOfAnyBytes) {
   expect_error_or_sound_mesh(busy_binary_square("binary_little_endian", little_endian), read_ply<float>);
   expect_error_or_sound_mesh(busy_binary_square("binary_big_endian", big_endian), read_ply<double>);
+  expect_error_or_sound_mesh(binary_strips({0, 1, 2, 3, -1, 3, 4, 5}, "binary_big_endian", big_endian),
+                             read_ply<float>);
+  expect_error_or_sound_mesh(little_endian_bytes_of(placed(wall_plane, keyholed_wall)), read_ply<double>);
 }
 
 }  // namespace

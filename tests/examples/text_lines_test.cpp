@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "error_of.hpp"
+#include "with_line_ends.hpp"
 
 namespace surehit::test {
 namespace {
@@ -10,8 +13,21 @@ namespace {
 using example::TextLines;
 using Fields = std::vector<std::string_view>;
 
-TEST(TextLines, EndInEitherWayAndTheLastOneInNone) {
-  TextLines lines("one\r\n\ntwo\nthree");
+Fields lines_of(std::string_view text) {
+  Fields found;
+  for (TextLines lines(text); lines.next();) found.push_back(lines.line());
+  return found;
+}
+
+/// What ends each line.
+Fields ends_of(std::string_view text) {
+  Fields found;
+  for (TextLines lines(text); lines.next();) found.push_back(lines.line_end());
+  return found;
+}
+
+TEST(TextLines, EndInAnyWayAndTheLastOneInNone) {
+  TextLines lines("one\r\n\ntwo\rthree");
   for (const char* expected : {"one", "", "two", "three"}) {
     ASSERT_TRUE(lines.next());
     EXPECT_EQ(lines.line(), expected);
@@ -19,34 +35,89 @@ TEST(TextLines, EndInEitherWayAndTheLastOneInNone) {
   EXPECT_EQ(lines.number(), 4u);
   EXPECT_FALSE(lines.next());
   EXPECT_EQ(lines.number(), 4u);
+  EXPECT_EQ(lines.line(), "three");
+}
+
+TEST(TextLines, AreTheSameWithEachEnd) {
+  const Fields expected = {"one", "", "", "two", "three"};
+  for (const std::string_view end : line_ends) {
+    EXPECT_EQ(lines_of(with_line_ends("one\n\n\ntwo\nthree\n", end)), expected);
+    EXPECT_EQ(lines_of(with_line_ends("one\n\n\ntwo\nthree", end)), expected);
+  }
+  EXPECT_EQ(lines_of(with_mixed_line_ends("one\n\n\ntwo\nthree\n")), expected);
+}
+
+TEST(TextLines, TakeAReturnAndALineFeedForOneEndInThisOrderAlone) {
+  EXPECT_EQ(ends_of("a\r\nb\n\rc\r\r\nd"), (Fields{"\r\n", "\n", "\r", "\r", "\r\n", ""}));
+  EXPECT_EQ(lines_of("a\r\nb\n\rc\r\r\nd"), (Fields{"a", "b", "", "c", "", "d"}));
+  EXPECT_EQ(ends_of("\r"), Fields{"\r"});
+  EXPECT_EQ(lines_of("\r"), Fields{""});
 }
 
 TEST(TextLines, AreNotMadeUpByALastLineEnd) {
-  TextLines lines("one\n");
-  EXPECT_TRUE(lines.next());
-  EXPECT_FALSE(lines.next());
-  EXPECT_FALSE(TextLines("").next());
+  for (const std::string_view end : line_ends) EXPECT_EQ(lines_of("one" + std::string(end)), Fields{"one"});
+  EXPECT_EQ(lines_of(""), Fields{});
 }
 
 TEST(TextLines, PassOverAByteOrderMark) {
-  TextLines lines("\xef\xbb\xbfone");
-  EXPECT_TRUE(lines.next());
-  EXPECT_EQ(lines.line(), "one");
+  EXPECT_EQ(lines_of("\xef\xbb\xbfone"), Fields{"one"});
+  EXPECT_EQ(lines_of("\xef\xbb\xbf"), Fields{});
+  EXPECT_EQ(lines_of("one\xef\xbb\xbf"), Fields{"one\xef\xbb\xbf"});
+}
+
+TEST(TextLines, EndBeforeAClosingControlZ) {
+  for (const std::string_view closing : closing_control_z) {
+    const std::string text = "one\ntwo" + std::string(closing);
+    Fields fields;
+    std::size_t blank_lines = 0;
+    for (const std::string_view line : lines_of(text)) {
+      Fields of_line;
+      example::split(line, of_line);
+      fields.insert(fields.end(), of_line.begin(), of_line.end());
+      blank_lines += of_line.empty() ? 1 : 0;
+    }
+    EXPECT_EQ(fields, (Fields{"one", "two"})) << testing::PrintToString(closing);
+    EXPECT_EQ(blank_lines, 0u) << testing::PrintToString(closing);
+  }
+  EXPECT_EQ(lines_of("\x1a"), Fields{});
+  EXPECT_EQ(lines_of("\xef\xbb\xbf\x1a\n"), Fields{});
+}
+
+TEST(TextLines, KeepAControlZThatSomethingFollows) {
+  EXPECT_EQ(lines_of("one\x1a\ntwo"), (Fields{"one\x1a", "two"}));
+  EXPECT_EQ(lines_of("\x1aone\n\x1a"), Fields{"\x1aone"});
+  using namespace std::string_view_literals;
+  EXPECT_EQ(lines_of("one\n\x1a\0"sv), (Fields{"one", "\x1a\0"sv}));
 }
 
 TEST(TextLines, TellWhatFollowsTheLine) {
-  TextLines lines("header\nbytes\nand more");
+  TextLines lines("header\nbytes\nand more\x1a\n");
   EXPECT_TRUE(lines.next());
-  EXPECT_EQ(lines.rest(), "bytes\nand more");
+  EXPECT_EQ(lines.rest(), "bytes\nand more\x1a\n");
+  for (const std::string_view end : line_ends) {
+    const std::string text = "header" + std::string(end) + "\x1a\x1a";
+    TextLines before_bytes(text);
+    EXPECT_TRUE(before_bytes.next());
+    EXPECT_EQ(before_bytes.rest(), "\x1a\x1a");
+    EXPECT_FALSE(before_bytes.next());
+    EXPECT_EQ(before_bytes.line_end(), end);
+  }
 }
 
 TEST(TextLines, AreNamedInErrors) {
-  TextLines lines("one\ntwo");
-  const auto read_to_the_end = [&]() -> int {
+  const auto read_to_the_end = [](TextLines& lines) -> int {
     while (lines.next()) continue;
     throw example::InputError("something is wrong");
   };
-  EXPECT_EQ(error_of([&] { return naming_the_line(lines, read_to_the_end); }), "line 2: something is wrong");
+  const auto error_at_the_end = [&](const std::string& text) {
+    TextLines lines(text);
+    return error_of([&] { return naming_the_line(lines, [&] { return read_to_the_end(lines); }); });
+  };
+  for (const std::string_view end : line_ends) {
+    EXPECT_EQ(error_at_the_end(with_line_ends("one\n\ntwo", end)), "line 3: something is wrong");
+  }
+  EXPECT_EQ(error_at_the_end(with_mixed_line_ends("a\nb\nc\nd\ne\nf")), "line 6: something is wrong");
+  EXPECT_EQ(error_at_the_end(""), "something is wrong");
 }
 
 TEST(Split, TakesAnyWhiteSpace) {
@@ -57,10 +128,20 @@ TEST(Split, TakesAnyWhiteSpace) {
   EXPECT_EQ(fields, Fields{});
 }
 
-TEST(WithoutComment, CutsAtTheFirstHash) {
+TEST(WithoutComment, CutsAtTheFirstHashThatBeginsAWord) {
   EXPECT_EQ(example::without_comment("1 2 # 3 # 4"), "1 2 ");
+  EXPECT_EQ(example::without_comment("1 2\t#3"), "1 2\t");
+  EXPECT_EQ(example::without_comment("1 2 ##"), "1 2 ");
   EXPECT_EQ(example::without_comment("1 2"), "1 2");
   EXPECT_EQ(example::without_comment("#"), "");
+  EXPECT_EQ(example::without_comment("#1 2"), "");
+  EXPECT_EQ(example::without_comment(""), "");
+}
+
+TEST(WithoutComment, KeepsAHashInsideAWord) {
+  EXPECT_EQ(example::without_comment("1.#QNAN 2"), "1.#QNAN 2");
+  EXPECT_EQ(example::without_comment("-1.#IND00 2#3 # 1.#INF"), "-1.#IND00 2#3 ");
+  EXPECT_EQ(example::without_comment("a##b #"), "a##b ");
 }
 
 }  // namespace
