@@ -41,4 +41,8 @@ int run_program(const char* name, const char* description, int argc, char** argv
   }
 }
 
+void warn(const char* program, const std::string& warning) {
+  std::fprintf(stderr, "%s: warning: %s\n", program, warning.c_str());
+}
+
 }  // namespace surehit::example

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 
 namespace surehit::example {
 
@@ -16,5 +17,8 @@ using Work = std::function<ExitStatus()>;
 /// InputError, `failure` for any other exception, else what the work returns.
 int run_program(const char* name, const char* description, int argc, char** argv,
                 Work (*describe)(CLI::App& app)) noexcept;
+
+/// Says something on standard error that is no failure, in one line that begins with the program's name.
+void warn(const char* program, const std::string& warning);
 
 }  // namespace surehit::example

@@ -74,6 +74,7 @@ Vector3f parse_eye(const std::string& text) {
 
 Mesh<float> read_with_z_up(const Request& request) {
   Mesh<float> mesh = read_mesh<float>(request.mesh_path);
+  for (const std::string& warning : mesh.warnings) warn("line_of_sight", request.mesh_path + ": " + warning);
   if (request.up == "y") {
     for (auto& vertex : mesh.vertices) vertex = {vertex[0], -vertex[2], vertex[1]};
   }

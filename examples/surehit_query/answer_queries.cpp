@@ -1,6 +1,7 @@
 #include "surehit_query/answer_queries.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <future>
@@ -9,10 +10,14 @@
 #include <vector>
 
 #include "command_line/output_file.hpp"
+#include "command_line/program.hpp"
 #include "command_line/progress_bar.hpp"
 #include "mesh_io/input_error.hpp"
+#include "mesh_io/parse_number.hpp"
 #include "mesh_io/read_mesh.hpp"
+#include "surehit_query/exact_ties.hpp"
 #include "surehit_query/hit_text.hpp"
+#include "surehit_query/mask_list.hpp"
 #include "surehit_query/number_table.hpp"
 #include "surehit_query/statistics_text.hpp"
 
@@ -65,32 +70,75 @@ Shape shape_at(const Scalar* numbers) {
   return {point_at(numbers), point_at(numbers + 3)};
 }
 
-template <typename Shape, typename Scalar>
-void answer_pairs(const QueryRequest& request, const QueryOptions<Scalar>& options) {
-  const auto table = read_number_table<Scalar>(request.input_path, 15);
-  write_answers(request, "hit,t,u,v,side\n", table.rows(), [&](std::size_t begin, std::size_t end) {
-    AnsweredBlock answered;
-    std::string& lines = answered.lines;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Scalar* const row = table.row(i);
-      const Triangle<Scalar> triangle{point_at(row + 6), point_at(row + 9), point_at(row + 12)};
-      if (const auto hit = intersect(shape_at<Shape>(row), triangle, options)) {
-        lines += '1';
-        append_contact(*hit, lines);
-      } else {
-        lines += "0,,,,\n";
-      }
-    }
-    return answered;
-  });
+template <typename Scalar>
+Scalar parse_limit(const char* option, const std::string& text) {
+  try {
+    const auto limit = parse_number_or_non_finite<Scalar>(text);
+    if (std::isnan(limit)) throw InputError(example::quoted(text) + " is not a number");
+    return limit;
+  } catch (const InputError& error) {
+    throw error.at(option);
+  }
 }
 
 template <typename Scalar>
-Collider<Scalar> read_collider(const std::string& path) {
-  const Mesh<Scalar> mesh = read_mesh<Scalar>(path);
+QueryOptions<Scalar> options_of(const QueryRequest& request) {
+  QueryOptions<Scalar> options;
+  options.min_t = parse_limit<Scalar>("--min-t", request.min_t);
+  options.max_t = parse_limit<Scalar>("--max-t", request.max_t);
+  options.culling = request.culling;
+  options.mask = request.mask;
+  options.ignored_triangle = request.ignored_triangle.value_or(no_triangle);
+  options.ignore_start_contact = request.ignore_start_contact;
+  options.ignore_end_contact = request.ignore_end_contact;
+  return options;
+}
+
+MoreColumns columns_of(const QueryRequest& request) { return {request.wants_points, request.wants_normals}; }
+
+template <typename Shape, typename Scalar>
+void answer_pairs(const QueryRequest& request, const QueryOptions<Scalar>& options) {
+  const auto table = read_number_table<Scalar>(request.input_path, 15);
+  const MoreColumns columns = columns_of(request);
+  write_answers(request, "hit,t,u,v,side" + columns.names() + "\n", table.rows(),
+                [&](std::size_t begin, std::size_t end) {
+                  AnsweredBlock answered;
+                  std::string& lines = answered.lines;
+                  for (std::size_t i = begin; i < end; ++i) {
+                    const Scalar* const row = table.row(i);
+                    const Triangle<Scalar> triangle{point_at(row + 6), point_at(row + 9), point_at(row + 12)};
+                    const auto path = shape_at<Shape>(row);
+                    if (const auto hit = intersect(path, triangle, options)) {
+                      lines += '1';
+                      append_contact(*hit, lines);
+                      columns.append(path, *hit, triangle, lines);
+                    } else {
+                      lines += "0,,,,";
+                      columns.append_none(lines);
+                    }
+                    lines += '\n';
+                  }
+                  return answered;
+                });
+}
+
+/// A mesh file made ready to be asked.
+template <typename Scalar>
+struct ReadCollider {
   Collider<Scalar> collider;
-  if (const auto invalid = collider.try_build(mesh.view())) throw InputError(path + ": " + invalid->what());
-  return collider;
+  std::vector<std::uint32_t> faces;  ///< the face of each triangle; empty where each triangle is one
+};
+
+template <typename Scalar>
+ReadCollider<Scalar> read_collider(const QueryRequest& request) {
+  Mesh<Scalar> mesh = read_mesh<Scalar>(request.mesh_path);
+  for (const std::string& warning : mesh.warnings) warn("surehit-query", request.mesh_path + ": " + warning);
+  const std::vector<std::uint32_t> masks = masks_of(request, mesh.triangles.size(), mesh.faces);
+  Collider<Scalar> collider;
+  if (const auto invalid = collider.try_build(mesh.view(), {.masks = masks})) {
+    throw InputError(request.mesh_path + ": " + invalid->what());
+  }
+  return {std::move(collider), std::move(mesh.faces)};
 }
 
 template <typename Shape, typename Scalar>
@@ -99,16 +147,19 @@ class MeshQueries {
   MeshQueries(const QueryRequest& request, const QueryOptions<Scalar>& options)
       : request_(request),
         options_(options),
-        collider_(read_collider<Scalar>(request.mesh_path)),
+        columns_(columns_of(request)),
+        mesh_(read_collider<Scalar>(request)),
         table_(read_number_table<Scalar>(request.input_path, 6)) {}
 
   void answer() const {
+    const std::string id = request_.ids == IdKind::face ? "face" : "triangle";
     if (request_.question == Question::first) {
-      write("triangle,t,u,v,side\n", &MeshQueries::first_hits);
+      write(id + ",t,u,v,side" + columns_.names() + (request_.wants_free_points ? ",free_x,free_y,free_z\n" : "\n"),
+            &MeshQueries::first_hits);
     } else if (request_.question == Question::any) {
       write("hit\n", &MeshQueries::any_hits);
     } else {
-      write("path,triangle,t,u,v,side\n", &MeshQueries::all_hits);
+      write("path," + id + ",t,u,v,side,tie" + columns_.names() + "\n", &MeshQueries::all_hits);
     }
   }
 
@@ -126,41 +177,69 @@ class MeshQueries {
     return paths;
   }
 
+  /// Appends the id, the contact and then whatever `append_between` does, before the columns that may be asked for.
+  template <typename AppendBetween>
+  void append_hit(const Shape& path, const Hit<Scalar>& hit, AppendBetween append_between, std::string& lines) const {
+    const bool by_face = request_.ids == IdKind::face && !mesh_.faces.empty();
+    append_number(by_face ? mesh_.faces[hit.triangle] : hit.triangle, lines);
+    append_contact(hit, lines);
+    append_between();
+    columns_.append(path, hit, mesh_.collider.triangle(hit.triangle), lines);
+  }
+
   [[nodiscard]] AnsweredBlock first_hits(std::size_t begin, std::size_t end) const {
     std::vector<Hit<Scalar>> hits(end - begin);
+    const std::vector<Shape> asked = paths(begin, end);
     AnsweredBlock answered;
     std::string& lines = answered.lines;
-    collider_.first_hits(paths(begin, end), hits, options_, &answered.statistics);
-    for (const auto& hit : hits) {
-      if (hit.triangle == no_triangle) {
-        lines += "-1,,,,\n";
+    mesh_.collider.first_hits(asked, hits, options_, &answered.statistics);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      if (hits[i].triangle == no_triangle) {
+        lines += "-1,,,,";
+        columns_.append_none(lines);
       } else {
-        append_number(hit.triangle, lines);
-        append_contact(hit, lines);
+        append_hit(
+            asked[i], hits[i], [] {}, lines);
       }
+      append_free_point(asked[i], hits[i], lines);
+      lines += '\n';
     }
     return answered;
   }
 
+  /// A step that meets nothing may end where it would.
+  void append_free_point(const Segment<Scalar>& segment, const Hit<Scalar>& hit, std::string& lines) const {
+    if (!request_.wants_free_points) return;
+    const bool is_free = hit.triangle == no_triangle;
+    append_vector(is_free ? segment.end : mesh_.collider.last_free_point(segment, hit, options_), lines);
+  }
+  /// Only a segment is a step.
+  template <typename Other>
+  void append_free_point(const Other&, const Hit<Scalar>&, std::string&) const {}
+
   [[nodiscard]] AnsweredBlock any_hits(std::size_t begin, std::size_t end) const {
     std::vector<std::uint8_t> blocked(end - begin);
     AnsweredBlock answered;
-    collider_.any_hits(paths(begin, end), blocked, options_, &answered.statistics);
+    mesh_.collider.any_hits(paths(begin, end), blocked, options_, &answered.statistics);
     for (const std::uint8_t hit : blocked) answered.lines += hit != 0 ? "1\n" : "0\n";
     return answered;
   }
 
   [[nodiscard]] AnsweredBlock all_hits(std::size_t begin, std::size_t end) const {
+    const ExactTies<Scalar> exact_ties(mesh_.collider, options_);
     std::vector<Hit<Scalar>> hits;
     AnsweredBlock answered;
     std::string& lines = answered.lines;
     for (std::size_t i = begin; i < end; ++i) {
-      collider_.all_hits(shape_at<Shape>(table_.row(i)), hits, options_, &answered.statistics);
-      for (const auto& hit : hits) {
+      const auto path = shape_at<Shape>(table_.row(i));
+      mesh_.collider.all_hits(path, hits, options_, &answered.statistics);
+      const std::vector<std::uint8_t> ties = exact_ties.find(path, hits);
+      for (std::size_t j = 0; j < hits.size(); ++j) {
         append_number(i, lines);
         lines += ',';
-        append_number(hit.triangle, lines);
-        append_contact(hit, lines);
+        append_hit(
+            path, hits[j], [&] { lines += ties[j] != 0 ? ",1" : ",0"; }, lines);
+        lines += '\n';
       }
     }
     return answered;
@@ -168,14 +247,14 @@ class MeshQueries {
 
   const QueryRequest& request_;
   QueryOptions<Scalar> options_;
-  Collider<Scalar> collider_;
+  MoreColumns columns_;
+  ReadCollider<Scalar> mesh_;
   NumberTable<Scalar> table_;
 };
 
 template <typename Shape, typename Scalar>
 void answer_shapes(const QueryRequest& request) {
-  QueryOptions<Scalar> options;
-  options.culling = request.culling;
+  const auto options = options_of<Scalar>(request);
   if (request.question == Question::pair) {
     answer_pairs<Shape>(request, options);
   } else {

@@ -2,8 +2,11 @@
 
 #include <array>
 #include <charconv>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <surehit/hit.hpp>
+#include <surehit/triangle.hpp>
 
 namespace surehit::example {
 
@@ -27,7 +30,7 @@ void append_number(Number number, std::string& text) {
   return "edge_on";
 }
 
-/// Appends `,t,u,v,side` and ends the line.
+/// Appends `,t,u,v,side`.
 template <typename Scalar>
 void append_contact(const Hit<Scalar>& hit, std::string& text) {
   for (const Scalar number : {hit.t, hit.u, hit.v}) {
@@ -36,7 +39,48 @@ void append_contact(const Hit<Scalar>& hit, std::string& text) {
   }
   text += ',';
   text += name_of(hit.side);
-  text += '\n';
 }
+
+/// Appends `,x,y,z`.
+template <typename Scalar>
+void append_vector(const Vector3<Scalar>& vector, std::string& text) {
+  for (const Scalar number : vector) {
+    text += ',';
+    append_number(number, text);
+  }
+}
+
+/// The unit normal of a triangle that is in no mesh.
+template <typename Scalar>
+[[nodiscard]] Vector3<Scalar> normal_of(const Triangle<Scalar>& triangle) {
+  std::array<Scalar, 9> corners;
+  auto* next = corners.data();
+  for (const auto* corner : {&triangle.a, &triangle.b, &triangle.c})
+    next = std::copy(corner->begin(), corner->end(), next);
+  constexpr std::array<std::uint32_t, 3> ids = {0, 1, 2};
+  return normal(TriangleMeshView<Scalar>(corners.data(), 3, ids.data(), 1), 0);
+}
+
+/// The columns that a user may ask for behind those of every hit: the point, and the normal of the triangle.
+class MoreColumns {
+ public:
+  MoreColumns(bool has_points, bool has_normals) : has_points_(has_points), has_normals_(has_normals) {}
+
+  [[nodiscard]] std::string names() const {
+    return std::string(has_points_ ? ",x,y,z" : "") + (has_normals_ ? ",nx,ny,nz" : "");
+  }
+
+  template <typename Shape, typename Scalar>
+  void append(const Shape& path, const Hit<Scalar>& hit, const Triangle<Scalar>& triangle, std::string& text) const {
+    if (has_points_) append_vector(point(path, hit), text);
+    if (has_normals_) append_vector(normal_of(triangle), text);
+  }
+
+  void append_none(std::string& text) const { text.append((has_points_ ? 3 : 0) + (has_normals_ ? 3 : 0), ','); }
+
+ private:
+  bool has_points_;
+  bool has_normals_;
+};
 
 }  // namespace surehit::example

@@ -39,9 +39,6 @@ CLI::App& add_command(CLI::App& app, QueryRequest& request, Question question, c
   command.callback([&request, question] { request.question = question; });
   if (question != Question::pair) {
     command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off")->required()->type_name("");
-    command.add_flag("--statistics", request.wants_statistics,
-                     "Then say on standard error, as CSV, what the queries did: cells walked, candidate triangles, how "
-                     "many of them the filter left undecided, and how often it took exact arithmetic");
   }
   command.add_option("FILE", request.input_path, "The paths, one a line; - is standard input")
       ->required()
@@ -52,9 +49,6 @@ CLI::App& add_command(CLI::App& app, QueryRequest& request, Question question, c
   add_choice<PathKind>(command, "--path", request.path,
                        {{"segment", PathKind::segment}, {"ray", PathKind::ray}, {"line", PathKind::line}},
                        "What a path is: from p to q, from p along a direction, or both ways along it");
-  add_choice<Culling>(command, "--cull", request.culling,
-                      {{"none", Culling::none}, {"back", Culling::back}, {"front", Culling::front}},
-                      "Leave out the hits on this side of a triangle");
   command.add_option("-o", request.output_path, "Where the answers go; - is standard output")
       ->type_name("OUT")
       ->capture_default_str();
@@ -65,6 +59,62 @@ CLI::App& add_command(CLI::App& app, QueryRequest& request, Question question, c
       ->capture_default_str();
   return command;
 }
+
+/// What narrows any query.
+void add_limits(CLI::App& command, QueryRequest& request) {
+  command.add_option("--min-t", request.min_t, "Cut paths to t of this or more, compared exactly")
+      ->type_name("T")
+      ->capture_default_str();
+  command.add_option("--max-t", request.max_t, "Cut paths to t of this or less, compared exactly")
+      ->type_name("T")
+      ->capture_default_str();
+  add_choice<Culling>(command, "--cull", request.culling,
+                      {{"none", Culling::none}, {"back", Culling::back}, {"front", Culling::front}},
+                      "Leave out the hits on this side of a triangle; back and front also leave out those in its "
+                      "plane, which are edge_on");
+  command.add_flag("--ignore-start-contact", request.ignore_start_contact,
+                   "Leave out the triangles that hold the path's start");
+  command.add_flag("--ignore-end-contact", request.ignore_end_contact,
+                   "Leave out the triangles that hold the end of the segment");
+}
+
+/// What leaves out parts of a mesh.
+void add_mesh_filters(CLI::App& command, QueryRequest& request) {
+  command
+      .add_option("--masks", request.masks_path,
+                  "A file with a mask a line, for each triangle or for each face; without it all bits are set")
+      ->type_name("FILE");
+  command.add_option("--mask", request.mask, "Ask only the triangles whose mask shares a bit with this one")
+      ->type_name("BITS")
+      ->default_str("0xffffffff");
+  command.add_option("--ignore-triangle", request.ignored_triangle, "Leave out this triangle")->type_name("ID");
+  command.add_option("--ignore-face", request.ignored_face, "Leave out all triangles of this face")->type_name("ID");
+  command.add_flag("--statistics", request.wants_statistics,
+                   "Then say on standard error, as CSV, what the queries did: cells walked, candidate triangles, how "
+                   "many of them the filter left undecided, and how often it took exact arithmetic");
+}
+
+void add_ids(CLI::App& command, QueryRequest& request) {
+  add_choice<IdKind>(command, "--ids", request.ids, {{"triangle", IdKind::triangle}, {"face", IdKind::face}},
+                     "What ids in the output are of: the triangles, or the file's faces that they were cut from");
+}
+
+void add_more_columns(CLI::App& command, QueryRequest& request) {
+  command.add_flag("--points", request.wants_points, "More columns x,y,z: the point of the path at the rounded t");
+  command.add_flag("--normals", request.wants_normals, "More columns nx,ny,nz: the unit normal of the triangle");
+}
+
+constexpr const char* paths_of_a_mesh = "FILE: 6 numbers a line: p, then q or the direction.\n";
+
+constexpr const char* meshes =
+    "MESH: OBJ, PLY, STL or OFF, told apart by the ending of its name; PLY and STL may be binary. Lines end in\n"
+    "\\n, \\r\\n or \\r. Colors, normals and texture coordinates are passed over. Refused, with the line or the\n"
+    "element: words that are no numbers, indices out of range, faces of less than 3 corners, coordinates that\n"
+    "are not finite where a face uses them, and whatever else is not wholly understood.\n"
+    "Polygons are cut into triangles by exact decisions: convex ones as fans of their first corner, others by\n"
+    "cutting ears off; one whose outline crosses itself is refused. Ids count from 0 in the order of the file.\n"
+    "Warnings are lines on standard error: no triangles, float too coarse for the file, unused vertices that\n"
+    "are not finite. examples/mesh_io/README.md has a table of formats and dialects.";
 
 void describe(CLI::App& app, QueryRequest& request) {
   request.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u);
@@ -77,29 +127,58 @@ void describe(CLI::App& app, QueryRequest& request) {
       "back to the same bits. COMMAND --help tells the options and the output of a command.\n"
       "Exit status: 0, 2 for bad input or usage, 1 for any other failure.");
 
-  add_command(app, request, Question::pair, "pair", "Does each path meet the triangle beside it?")
-      .footer(
-          "FILE: 15 numbers a line: p, then q or the direction, then the corners a, b and c.\n"
-          "Output: hit,t,u,v,side, one line a pair; a miss is 0,,,, and side is front, back or edge_on.");
-  add_command(app, request, Question::first, "first", "Where does each path first meet the mesh?")
-      .footer(
-          "FILE: 6 numbers a line: p, then q or the direction.\n"
-          "Output: triangle,t,u,v,side, one line a path; a miss is -1,,,, and triangles count from 0.");
-  add_command(app, request, Question::any, "any", "Does each path meet the mesh at all?")
-      .footer(
-          "FILE: 6 numbers a line: p, then q or the direction.\n"
-          "Output: hit, one line a path: 1 or 0.");
-  add_command(app, request, Question::all, "all", "Where does each path meet the mesh, every triangle?")
-      .footer(
-          "FILE: 6 numbers a line: p, then q or the direction.\n"
-          "Output: path,triangle,t,u,v,side, one line a hit, in order along the path; paths and triangles count from "
-          "0.");
+  CLI::App& pair = add_command(app, request, Question::pair, "pair", "Does each path meet the triangle beside it?");
+  add_limits(pair, request);
+  add_more_columns(pair, request);
+  pair.footer(
+      "FILE: 15 numbers a line: p, then q or the direction, then the corners a, b and c.\n"
+      "Output: hit,t,u,v,side, one line a pair; a miss is 0,,,, and side is front, back or edge_on.");
+
+  CLI::App& first = add_command(app, request, Question::first, "first", "Where does each path first meet the mesh?");
+  add_limits(first, request);
+  add_mesh_filters(first, request);
+  add_ids(first, request);
+  add_more_columns(first, request);
+  first.add_flag("--free-points", request.wants_free_points,
+                 "More columns free_x,free_y,free_z: where a point that moves along the segment may stop so that it "
+                 "has touched nothing");
+  first.footer(std::string(paths_of_a_mesh) +
+               "Output: triangle,t,u,v,side, one line a path; a miss is -1,,,,. Of equal exact t the least triangle "
+               "wins.\n" +
+               meshes);
+
+  CLI::App& any = add_command(app, request, Question::any, "any", "Does each path meet the mesh at all?");
+  add_limits(any, request);
+  add_mesh_filters(any, request);
+  any.footer(std::string(paths_of_a_mesh) + "Output: hit, one line a path: 1 or 0.\n" + meshes);
+
+  CLI::App& all =
+      add_command(app, request, Question::all, "all", "Where does each path meet the mesh, every triangle?");
+  add_limits(all, request);
+  add_mesh_filters(all, request);
+  add_ids(all, request);
+  add_more_columns(all, request);
+  all.footer(std::string(paths_of_a_mesh) +
+             "Output: path,triangle,t,u,v,side,tie, one line a hit, in order along the path; paths count from 0. tie "
+             "is 1\nwhere another hit of the path has the very same exact t, else 0.\n" +
+             meshes);
+}
+
+/// What no single option can know.
+void check(const QueryRequest& request) {
+  if (request.wants_free_points && request.path != PathKind::segment) {
+    throw CLI::ValidationError("--free-points", "only a segment has them");
+  }
+  if (request.masks_path == "-" && request.input_path == "-") {
+    throw CLI::ValidationError("--masks", "standard input cannot be FILE too");
+  }
 }
 
 Work describe_program(CLI::App& app) {
   const auto request = std::make_shared<QueryRequest>();
   describe(app, *request);
   return [request] {
+    check(*request);
     answer_queries(*request);
     return success;
   };

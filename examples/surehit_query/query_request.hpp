@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <surehit/path.hpp>
 #include <surehit/query_options.hpp>
@@ -12,7 +13,10 @@ enum class Question : std::uint8_t { pair, first, any, all };
 
 enum class ScalarKind : std::uint8_t { single_precision, double_precision };
 
-/// What the command line asks for.
+/// What the ids in the output count: the triangles, or the faces that the file's triangles were cut from.
+enum class IdKind : std::uint8_t { triangle, face };
+
+/// What the command line asks for. Limits of t stay texts until it is known what they are rounded to.
 struct QueryRequest {
   Question question = Question::pair;
   std::string mesh_path;  ///< none for `pair`
@@ -20,9 +24,23 @@ struct QueryRequest {
   std::string output_path = "-";
   ScalarKind scalar = ScalarKind::single_precision;
   PathKind path = PathKind::segment;
-  Culling culling = Culling::none;
   std::size_t threads = 1;
-  bool wants_statistics = false;  ///< none of `pair`
+
+  std::string min_t = "-inf";
+  std::string max_t = "inf";
+  Culling culling = Culling::none;
+  bool ignore_start_contact = false;
+  bool ignore_end_contact = false;
+  std::uint32_t mask = ~std::uint32_t{0};  ///< not for `pair`, as all below but the columns
+  std::string masks_path;                  ///< none where empty
+  std::optional<std::uint32_t> ignored_triangle;
+  std::optional<std::uint32_t> ignored_face;
+
+  IdKind ids = IdKind::triangle;
+  bool wants_points = false;
+  bool wants_normals = false;
+  bool wants_free_points = false;  ///< of `first` alone
+  bool wants_statistics = false;
 };
 
 }  // namespace surehit::example
