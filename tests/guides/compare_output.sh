@@ -1,0 +1,6 @@
+#!/usr/bin/env bash
+# Runs a program and compares what it prints with a file.
+set -euo pipefail
+
+[[ $# -eq 2 ]] || { echo "usage: $0 EXPECTED PROGRAM" >&2 && exit 2; }
+diff --unified "$1" <("$2")
