@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "vertex_lanes.hpp"
+#include "build/vertex_lanes.hpp"
 
 namespace surehit {
 

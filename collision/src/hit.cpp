@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "exact_contact.hpp"
-#include "path_range.hpp"
-#include "surehit/floating_point_environment.hpp"
+#include "exact/exact_contact.hpp"
+#include "query/path_range.hpp"
+#include "support/floating_point_environment.hpp"
 
 namespace surehit {
 namespace {

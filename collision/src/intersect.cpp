@@ -1,7 +1,7 @@
 #include "surehit/intersect.hpp"
 
 #include "narrowphase.hpp"
-#include "surehit/floating_point_environment.hpp"
+#include "support/floating_point_environment.hpp"
 
 namespace surehit {
 

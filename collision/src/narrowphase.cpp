@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "bounded_contact.hpp"
-#include "exact_contact.hpp"
+#include "exact/exact_contact.hpp"
+#include "filter/bounded_contact.hpp"
 
 namespace surehit::detail {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "exact_contact.hpp"
+#include "exact/exact_contact.hpp"
 #include "narrowphase.hpp"
 #include "round_series.hpp"
 

@@ -3,9 +3,10 @@
 #include <bit>
 #include <limits>
 #include <surehit/collider.hpp>
-#include <surehit/floating_point_environment.hpp>
 
+#include "collider_state.hpp"
 #include "entrants.hpp"
+#include "support/floating_point_environment.hpp"
 
 #ifndef SUREHIT_INEXACTNESS
 #define SUREHIT_INEXACTNESS
@@ -25,7 +26,7 @@ enum class Inexactness : std::uint8_t {
 #define HWY_TARGET_INCLUDE "inexact_entrants.cpp"
 #include <hwy/foreach_target.h>
 // Behind foreach_target.h.
-#include "batch-inl.hpp"
+#include "query/batch-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
@@ -236,12 +237,10 @@ class InexactBatch : public Contender {
 
   void build(const TriangleMeshViewf& mesh) override {
     collider_ = Colliderf(mesh);
-    blocks_ = MeshBlocks<float>(mesh, collider_.grid());
+    blocks_ = MeshBlocks<float>(mesh, grid());
   }
 
-  [[nodiscard]] std::size_t memory_bytes() const override {
-    return collider_.grid().memory_bytes() + blocks_.memory_bytes();
-  }
+  [[nodiscard]] std::size_t memory_bytes() const override { return grid().memory_bytes() + blocks_.memory_bytes(); }
 
   void first(const PathBatch& paths, std::span<Hitf> hits) const override {
     answer([&](const detail::Query<float>& query) {
@@ -256,12 +255,14 @@ class InexactBatch : public Contender {
   }
 
  private:
+  [[nodiscard]] const Grid& grid() const { return detail::ColliderState<float>::of(collider_).grid; }
+
   template <typename Answer>
   void answer(const Answer& answer) const {
     const FloatingPointEnvironment environment;
     const QueryOptions<float> options;
     QueryStatistics unread;
-    answer({collider_.grid(), blocks_, {}, options, nullptr, unread});
+    answer({grid(), blocks_, {}, options, nullptr, unread});
   }
 
   detail::Inexactness inexactness_;

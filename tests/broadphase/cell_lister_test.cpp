@@ -1,4 +1,4 @@
-#include "cell_lister.hpp"
+#include "build/cell_lister.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "build/triangle_overlap.hpp"
+#include "grid/grid.hpp"
 #include "support/neighbour.hpp"
 #include "support/random.hpp"
-#include "surehit/grid.hpp"
-#include "triangle_overlap.hpp"
 
 namespace surehit::test {
 

@@ -1,4 +1,4 @@
-#include "surehit/default_init_allocator.hpp"
+#include "support/default_init_allocator.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "empty_space.hpp"
+#include "build/empty_space.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "surehit/float4.hpp"
+#include "support/float4.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "surehit/floating_point_environment.hpp"
+#include "support/floating_point_environment.hpp"
 
 #include <gtest/gtest.h>
 

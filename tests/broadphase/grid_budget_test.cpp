@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "grid/grid.hpp"
 #include "support/grid_breaking_meshes.hpp"
-#include "surehit/grid.hpp"
 
 namespace surehit::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "surehit/grid_cover.hpp"
+#include "grid/grid_cover.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "grid/grid.hpp"
 #include "support/empty_cubes.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/scalars.hpp"
-#include "surehit/grid.hpp"
 
 namespace surehit::test {
 namespace {

@@ -9,10 +9,10 @@
 #include <type_traits>
 #include <vector>
 
+#include "grid/grid.hpp"
 #include "support/exact_cells.hpp"
 #include "support/random.hpp"
 #include "support/scalars.hpp"
-#include "surehit/grid.hpp"
 
 namespace surehit::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <set>
 #include <span>
 
+#include "grid/grid.hpp"
 #include "support/exact_cells.hpp"
 #include "support/grid_breaking_meshes.hpp"
-#include "surehit/grid.hpp"
 
 namespace surehit::test {
 namespace {

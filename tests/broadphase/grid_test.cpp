@@ -1,4 +1,4 @@
-#include "surehit/grid.hpp"
+#include "grid/grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "surehit/grid_traversal.hpp"
+#include "walk/grid_traversal.hpp"
 
 #include <gtest/gtest.h>
 

@@ -18,7 +18,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/pair_text.hpp"
 #include "support/path_drawer.hpp"
-#include "surehit/grid_traversal.hpp"
+#include "walk/grid_traversal.hpp"
 
 namespace surehit::test {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "build/overlap_lanes.hpp"
 #include "cell_point_draws.hpp"
-#include "overlap_lanes.hpp"
 #include "support/case_count.hpp"
 #include "support/exact_cells.hpp"
 #include "support/neighbour.hpp"

@@ -1,4 +1,4 @@
-#include "overlap_lanes.hpp"
+#include "build/overlap_lanes.hpp"
 
 #include <gtest/gtest.h>
 

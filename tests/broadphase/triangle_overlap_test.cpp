@@ -1,4 +1,4 @@
-#include "triangle_overlap.hpp"
+#include "build/triangle_overlap.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "vertex_lanes.hpp"
+#include "build/vertex_lanes.hpp"
 
 #include <gtest/gtest.h>
 

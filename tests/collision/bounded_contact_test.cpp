@@ -1,4 +1,4 @@
-#include "bounded_contact.hpp"
+#include "filter/bounded_contact.hpp"
 
 #include <gtest/gtest.h>
 

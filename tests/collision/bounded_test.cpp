@@ -1,4 +1,4 @@
-#include "bounded.hpp"
+#include "filter/bounded.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -77,7 +77,7 @@ TYPED_TEST(ColliderMesh, of_one_triangle_is_hit_by_what_meets_it) {
   EXPECT_EQ(collider.triangle_count(), 1u);
   EXPECT_EQ(collider.box().low, (Vector3<TypeParam>{0, 0, 0}));
   EXPECT_EQ(collider.box().high, (Vector3<TypeParam>{1, 1, 0}));
-  EXPECT_GE(collider.grid().cell_count(), 1u);
+  EXPECT_GE(collider.grid_summary().cells, 1u);
   EXPECT_TRUE(collider.any_hit(this->downwards));
   EXPECT_TRUE(collider.any_hit(Segment<TypeParam>{{0, 0, 0}, {0, 0, 0}}));
   EXPECT_FALSE(collider.any_hit(Segment<TypeParam>{{1, 1, 1}, {1, 1, -1}}));

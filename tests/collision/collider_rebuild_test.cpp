@@ -39,10 +39,10 @@ void expect_same_mesh(const Collider<Scalar>& left, const Collider<Scalar>& righ
     EXPECT_EQ(left.triangle(id).b, right.triangle(id).b);
     EXPECT_EQ(left.triangle(id).c, right.triangle(id).c);
   }
-  EXPECT_EQ(left.grid().resolution(), right.grid().resolution());
-  EXPECT_EQ(left.grid().levels(), right.grid().levels());
-  EXPECT_EQ(left.grid().cell_count(), right.grid().cell_count());
-  EXPECT_EQ(left.grid().entry_count(), right.grid().entry_count());
+  EXPECT_EQ(left.grid_summary().resolution, right.grid_summary().resolution);
+  EXPECT_EQ(left.grid_summary().levels, right.grid_summary().levels);
+  EXPECT_EQ(left.grid_summary().cells, right.grid_summary().cells);
+  EXPECT_EQ(left.grid_summary().entries, right.grid_summary().entries);
 }
 
 /// A collider whose vertices move, beside new ones of the meshes that it becomes.
@@ -101,7 +101,7 @@ TYPED_TEST(ColliderRebuild, answers_as_new_of_a_lattice) { this->expect_deforms(
 TYPED_TEST(ColliderRebuild, answers_as_new_in_nested_grids) {
   const GridOptions divided{.resolution = {2, 2, 2}, .crowded = 3};
   const auto mesh = this->scattered(200, TypeParam{0.25});
-  ASSERT_GT(Collider<TypeParam>(mesh.view(), BuildOptions{divided, {}}).grid().levels(), 0U);
+  ASSERT_GT(Collider<TypeParam>(mesh.view(), BuildOptions{divided, {}}).grid_summary().levels, 0U);
   this->expect_deforms(mesh, divided);
 }
 

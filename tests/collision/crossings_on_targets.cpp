@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #if HWY_TARGET != HWY_SCALAR
-#include "lane_walk-inl.hpp"
+#include "query/lane_walk-inl.hpp"
 #endif
 
 HWY_BEFORE_NAMESPACE();

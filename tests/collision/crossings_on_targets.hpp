@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "surehit/grid_traversal.hpp"
+#include "walk/grid_traversal.hpp"
 
 namespace surehit::test {
 

@@ -7,8 +7,8 @@
 // Behind foreach_target.h.
 #include <algorithm>
 
-#include "double_kernel-inl.hpp"
-#include "hit_rounding-inl.hpp"
+#include "filter/double_kernel-inl.hpp"
+#include "filter/hit_rounding-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "bounded.hpp"
+#include "filter/bounded.hpp"
 #include "surehit/path.hpp"
 #include "surehit/triangle.hpp"
 

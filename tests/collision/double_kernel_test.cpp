@@ -12,7 +12,7 @@
 #include "coordinate_changes.hpp"
 #include "double_kernel_on_targets.hpp"
 #include "error_share.hpp"
-#include "kernel_bound.hpp"
+#include "filter/kernel_bound.hpp"
 #include "on_every_instruction_set.hpp"
 #include "rational_determinants.hpp"
 #include "support/case_count.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bounded.hpp"
+#include "filter/bounded.hpp"
 
 namespace surehit::test {
 

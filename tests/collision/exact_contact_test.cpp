@@ -1,4 +1,4 @@
-#include "exact_contact.hpp"
+#include "exact/exact_contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "collider_state.hpp"
 #include "executor_answers.hpp"
 #include "support/case_count.hpp"
 #include "support/floating_point_mode.hpp"
@@ -255,6 +256,11 @@ TYPED_TEST(BatchOnExecutor, never_throws) {
   SUCCEED();
 }
 
+template <typename Scalar>
+const Grid& grid_of(const Collider<Scalar>& collider) {
+  return detail::ColliderState<Scalar>::of(collider).grid;
+}
+
 /// Colliders of meshes in more than one part.
 template <typename Scalar>
 class BuildOnExecutor : public testing::Test {
@@ -266,13 +272,15 @@ class BuildOnExecutor : public testing::Test {
       for (const CellWord word : words) all.push_back(word.bits());
       return all;
     };
-    EXPECT_EQ(bits(built.grid().top()), bits(expected.grid().top()));
-    EXPECT_EQ(bits(built.grid().bricks()), bits(expected.grid().bricks()));
-    EXPECT_TRUE(std::ranges::equal(built.grid().entries(), expected.grid().entries()));
+    const Grid& grid = grid_of(built);
+    const Grid& expected_grid = grid_of(expected);
+    EXPECT_EQ(bits(grid.top()), bits(expected_grid.top()));
+    EXPECT_EQ(bits(grid.bricks()), bits(expected_grid.bricks()));
+    EXPECT_TRUE(std::ranges::equal(grid.entries(), expected_grid.entries()));
     const auto is_same = [](const CellList& a, const CellList& b) {
       return a.box.bits() == b.box.bits() && a.first_entry == b.first_entry;
     };
-    EXPECT_TRUE(std::ranges::equal(built.grid().lists(), expected.grid().lists(), is_same));
+    EXPECT_TRUE(std::ranges::equal(grid.lists(), expected_grid.lists(), is_same));
     if (mesh.triangles.empty()) return;  // nothing to aim at
     std::vector<Path<Scalar>> paths;
     PathDrawer<Scalar> drawer(mesh.view(), 97);
@@ -316,7 +324,7 @@ TYPED_TEST(BuildOnExecutor, is_the_same_where_cells_are_divided) {
 TYPED_TEST(BuildOnExecutor, is_the_same_of_a_smooth_mesh) {
   const auto mesh = smooth_bowl<TypeParam>(100);
   const BuildOptions options{GridOptions{.resolution = {70, 70, 70}}, {}};
-  ASSERT_GT(Collider<TypeParam>(mesh.view(), options).grid().lists().size(), 1U << 13);
+  ASSERT_GT(grid_of(Collider<TypeParam>(mesh.view(), options)).lists().size(), 1U << 13);
   this->expect_same_with(&forwards, mesh, options);
   this->expect_same_with(NewThreads(3), mesh, options);
 }
@@ -328,7 +336,7 @@ TYPED_TEST(BuildOnExecutor, is_the_same_where_a_part_has_no_room) {
   for (std::size_t i = 0; i < small.triangles.size(); ++i) mesh.add(small.view().triangle(i));
   const Collider<TypeParam> collider(mesh.view());
   std::size_t of_first_part = 0;
-  for (const std::uint32_t id : collider.grid().entries()) of_first_part += id < 8192 ? 1 : 0;
+  for (const std::uint32_t id : grid_of(collider).entries()) of_first_part += id < 8192 ? 1 : 0;
   ASSERT_GT(of_first_part, 8U * 8192U);
   this->expect_same_with(NewThreads(2), mesh);
 }

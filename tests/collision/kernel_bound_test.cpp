@@ -1,4 +1,4 @@
-#include "kernel_bound.hpp"
+#include "filter/kernel_bound.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "grid/grid.hpp"
 #include "kernel_on_targets.hpp"
+#include "mesh/mesh_blocks.hpp"
 #include "support/grid_breaking_meshes.hpp"
-#include "surehit/grid.hpp"
-#include "surehit/mesh_blocks.hpp"
 #include "verdict.hpp"
 
 namespace surehit::test {

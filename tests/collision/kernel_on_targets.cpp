@@ -5,7 +5,7 @@
 #define HWY_TARGET_INCLUDE "kernel_on_targets.cpp"
 #include <hwy/foreach_target.h>
 // Behind foreach_target.h.
-#include "block_kernel-inl.hpp"
+#include "filter/block_kernel-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {

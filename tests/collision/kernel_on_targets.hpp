@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel_path.hpp"
+#include "filter/kernel_path.hpp"
 
 namespace surehit::test {
 

@@ -1,4 +1,4 @@
-#include "kernel_path.hpp"
+#include "filter/kernel_path.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/mesh_blocks.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/instruction_sets.hpp"
@@ -18,7 +19,7 @@
 #include "support/path_drawer.hpp"
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
-#include "surehit/grid_traversal.hpp"
+#include "walk/grid_traversal.hpp"
 
 namespace surehit::test {
 namespace {

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "mesh/mesh_blocks.hpp"
 #include "support/box_sides.hpp"
 #include "support/case_count.hpp"
 #include "support/exact_cells.hpp"
@@ -16,7 +17,6 @@
 #include "support/path_drawer.hpp"
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
-#include "surehit/mesh_blocks.hpp"
 
 namespace surehit::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "surehit/mesh_blocks.hpp"
+#include "mesh/mesh_blocks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "path_range.hpp"
+#include "query/path_range.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "rounded_to_nearest.hpp"
+#include "exact/rounded_to_nearest.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

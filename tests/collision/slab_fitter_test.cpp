@@ -1,4 +1,4 @@
-#include "slab_fitter.hpp"
+#include "mesh/slab_fitter.hpp"
 
 #include <gtest/gtest.h>
 

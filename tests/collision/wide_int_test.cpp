@@ -1,4 +1,4 @@
-#include "wide_int.hpp"
+#include "exact/wide_int.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

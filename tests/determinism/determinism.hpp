@@ -43,11 +43,11 @@ class Determinism {
   /// Returns the cells of the grid, in which the first `count` questions are asked.
   std::size_t expect_same_in(const GridOptions& options, std::size_t count) const {
     const Collider<Scalar> collider = built(options);
-    SCOPED_TRACE(std::to_string(collider.grid().cell_count()) + " cells");
+    SCOPED_TRACE(std::to_string(collider.grid_summary().cells) + " cells");
     Questions<Scalar> some = questions_;
     some.all.erase(some.all.begin() + static_cast<std::ptrdiff_t>(count), some.all.end());
     expect_same(Answers<Scalar>(collider, some));
-    return collider.grid().cell_count();
+    return collider.grid_summary().cells;
   }
   std::size_t expect_same_in(const GridOptions& options) const {
     return expect_same_in(options, questions_.all.size());

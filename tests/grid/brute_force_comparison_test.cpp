@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "collider_state.hpp"
 #include "grid_comparison.hpp"
 #include "support/case_count.hpp"
 #include "support/floating_point_mode.hpp"
@@ -101,7 +102,7 @@ TYPED_TEST(BruteForceComparison, SmoothSurface) {
 TYPED_TEST(BruteForceComparison, SpotsCrowdedWithSmallTriangles) {
   const auto ground = rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_);
   const auto uneven = with_small_copy(ground, {TypeParam{0.3F}, TypeParam{-0.2F}, TypeParam{0.1F}});
-  EXPECT_EQ(Collider<TypeParam>(uneven.view(), BuildOptions{compared_grids().back(), {}}).grid().levels(),
+  EXPECT_EQ(Collider<TypeParam>(uneven.view(), BuildOptions{compared_grids().back(), {}}).grid_summary().levels,
             Grid::most_levels);
   this->compare(uneven, 250);
 }
@@ -194,7 +195,7 @@ TYPED_TEST(BruteForceComparison, PointsExactlyOnCellPlanes) {
   for (int i = 0; i < 60; ++i) mesh.add({crossing(), crossing(), crossing()});
 
   GridComparison<TypeParam> comparison(mesh.view(), {}, grids);
-  ASSERT_EQ(comparison.colliders().front().grid().frame().scale, frame.scale);
+  ASSERT_EQ(detail::ColliderState<TypeParam>::of(comparison.colliders().front()).grid.frame().scale, frame.scale);
   PathDrawer<TypeParam> drawer(mesh.view(), 1);
   for (std::size_t i = 0; i < case_count(1250); ++i) {
     Segment<TypeParam> segment = {crossing(), crossing()};
@@ -349,7 +350,7 @@ TYPED_TEST(BruteForceComparison, OtherFloatingPointEnvironments) {
     return Collider<TypeParam>(mesh.view());
   };
   const Collider<TypeParam> collider = build();
-  EXPECT_EQ(collider.grid().resolution(), Collider<TypeParam>(mesh.view()).grid().resolution());
+  EXPECT_EQ(collider.grid_summary().resolution, Collider<TypeParam>(mesh.view()).grid_summary().resolution);
   std::size_t hit_count = 0;
   for (std::size_t i = 0; i < case_count(500); ++i) {
     const Path<TypeParam> path = drawer.draw();

@@ -48,7 +48,7 @@ class GridComparison {
     if (!expected.empty()) ++hit_count_;
     for (const Collider<Scalar>& collider : colliders_) {
       const auto description = [&] {
-        const auto& [x, y, z] = collider.grid().resolution();
+        const auto& [x, y, z] = collider.grid_summary().resolution;
         return hex_text(path) + " under " + hex_text(options) + " in " + std::to_string(x) + " × " + std::to_string(y) +
                " × " + std::to_string(z) + " cells";
       };

@@ -26,7 +26,7 @@ class LargeMeshComparison : public testing::Test {
                       const std::vector<GridOptions>& grids = {{}, {.resolution = {64, 64, 64}}}) {
     GridComparison<Scalar> comparison(mesh.view(), {}, grids);
     for (const Collider<Scalar>& collider : comparison.colliders()) {
-      EXPECT_LE(collider.grid().entry_count(), entry_budget(mesh.triangles.size()));
+      EXPECT_LE(collider.grid_summary().entries, entry_budget(mesh.triangles.size()));
     }
     PathDrawer<Scalar> drawer(mesh.view(), 1);
     for (std::size_t i = 0; i < paths; ++i) {

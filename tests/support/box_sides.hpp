@@ -2,10 +2,10 @@
 
 #include <cstddef>
 
+#include "grid/grid.hpp"
 #include "support/exact_cells.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "surehit/box.hpp"
-#include "surehit/grid.hpp"
 
 namespace surehit::test {
 

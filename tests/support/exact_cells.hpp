@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "grid/grid.hpp"
 #include "support/random.hpp"
-#include "surehit/grid.hpp"
 #include "surehit/path.hpp"
 #include "surehit/triangle.hpp"
 

@@ -1,16 +1,17 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "surehit/box.hpp"
 #include "surehit/executor.hpp"
-#include "surehit/grid.hpp"
+#include "surehit/grid_options.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/hit_filter.hpp"
-#include "surehit/mesh_blocks.hpp"
 #include "surehit/path.hpp"
 #include "surehit/query_options.hpp"
 #include "surehit/query_statistics.hpp"
@@ -21,9 +22,11 @@ namespace surehit {
 
 namespace detail {
 template <typename Scalar>
-struct Query;
+struct ColliderState;
 template <typename Scalar>
-class PathSpan;
+struct DeleteColliderState {
+  void operator()(ColliderState<Scalar>* state) const noexcept;
+};
 }  // namespace detail
 
 /// How a collider is built. No setting changes an answer.
@@ -49,7 +52,14 @@ template <typename Scalar>
 class Collider {
  public:
   /// A mesh of no triangles: every query misses.
-  Collider() = default;
+  Collider() noexcept = default;
+  ~Collider() = default;
+  /// May throw std::bad_alloc.
+  Collider(const Collider& other);
+  Collider& operator=(const Collider& other);
+  /// What is moved from has no triangles.
+  Collider(Collider&& other) noexcept = default;
+  Collider& operator=(Collider&& other) noexcept = default;
 
 #if defined(__cpp_exceptions)
   /// Throws InvalidMesh, which names the first offending element, and std::bad_alloc.
@@ -165,50 +175,26 @@ class Collider {
                                                 HitFilter<Scalar> filter,
                                                 const QueryOptions<Scalar>& options = {}) const noexcept;
 
-  [[nodiscard]] std::size_t triangle_count() const noexcept { return mesh_.triangle_count(); }
+  [[nodiscard]] std::size_t triangle_count() const noexcept;
   /// The corners as they were given.
-  [[nodiscard]] Triangle<Scalar> triangle(std::uint32_t id) const noexcept { return mesh_.triangle(id); }
-  [[nodiscard]] const Box<Scalar>& box() const noexcept { return box_; }
-  [[nodiscard]] const Grid& grid() const noexcept { return grid_; }
+  [[nodiscard]] Triangle<Scalar> triangle(std::uint32_t id) const noexcept;
+  /// Around all triangles.
+  [[nodiscard]] const Box<Scalar>& box() const noexcept;
+  /// What the grid came to.
+  [[nodiscard]] GridSummary grid_summary() const noexcept;
   /// Of the grid, the copied mesh and the masks, as they were allocated; once rebuilt, also of what the next rebuild
   /// uses.
-  [[nodiscard]] std::size_t memory_bytes() const noexcept {
-    return grid_.memory_bytes() + mesh_.memory_bytes() + masks_.capacity() * sizeof(std::uint32_t) +
-           spare_.grid.memory_bytes() + spare_.mesh.memory_bytes() + spare_.scratch.memory_bytes();
-  }
+  [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
  private:
-  using Filter = const HitFilter<Scalar>*;  ///< none if null
+  friend struct detail::ColliderState<Scalar>;
 
+  [[nodiscard]] const detail::ColliderState<Scalar>& state() const noexcept;
   std::optional<InvalidMesh> build(const TriangleMeshView<Scalar>&, const Executor*, const BuildOptions&);
   std::optional<InvalidMesh> move_vertices(const VertexView<Scalar>&, const Executor*);
-  detail::Query<Scalar> query(Filter, const QueryOptions<Scalar>&, QueryStatistics*,
-                              QueryStatistics& unread) const noexcept;
-  std::optional<Hit<Scalar>> find_first(const Path<Scalar>&, Filter, const QueryOptions<Scalar>&,
-                                        QueryStatistics*) const noexcept;
-  bool find_any(const Path<Scalar>&, Filter, const QueryOptions<Scalar>&, QueryStatistics*) const noexcept;
-  void find_all(const Path<Scalar>&, std::vector<Hit<Scalar>>&, Filter, const QueryOptions<Scalar>&,
-                QueryStatistics*) const;
-  Vector3<Scalar> find_free_point(const Segment<Scalar>&, const Hit<Scalar>&, Filter,
-                                  const QueryOptions<Scalar>&) const noexcept;
-  void find_each_first(const detail::PathSpan<Scalar>&, std::span<Hit<Scalar>>, const Executor*,
-                       const QueryOptions<Scalar>&, QueryStatistics*) const noexcept;
-  void find_each_any(const detail::PathSpan<Scalar>&, std::span<std::uint8_t>, const Executor*,
-                     const QueryOptions<Scalar>&, QueryStatistics*) const noexcept;
 
-  /// What a rebuild is made in; then it takes the place of what was.
-  struct Spare {
-    MeshBlocks<Scalar> mesh;
-    Grid grid;
-    GridScratch scratch;
-  };
-
-  MeshBlocks<Scalar> mesh_;
-  std::vector<std::uint32_t> masks_;  ///< one a triangle, or none if all bits are set for all
-  Box<Scalar> box_;
-  Grid grid_;
-  GridOptions grid_options_;
-  Spare spare_;
+  using StatePointer = std::unique_ptr<detail::ColliderState<Scalar>, detail::DeleteColliderState<Scalar>>;
+  StatePointer state_;  ///< none where there are no triangles
 };
 
 using Colliderf = Collider<float>;

@@ -1,0 +1,432 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "build/cell_lister.hpp"
+#include "build/empty_space.hpp"
+#include "build/triangle_overlap.hpp"
+#include "build/vertex_lanes.hpp"
+#include "grid/grid.hpp"
+#include "support/floating_point_environment.hpp"
+#include "support/in_parts.hpp"
+
+namespace surehit {
+namespace {
+
+/// The lists may hold this many entries a triangle: triangles of the size of a cell take about 3.
+constexpr std::size_t entries_per_triangle = 8;
+/// Small meshes may be divided as finely as one likes up to here.
+constexpr std::size_t free_entries = std::size_t{1} << 18;
+/// Most meshes take fewer than the one and more than the other. Room that is not used is not touched.
+constexpr std::size_t usual_entries = 4;
+constexpr std::size_t least_entries = 2;
+/// Vertices or triangles in an executor's task.
+constexpr std::size_t triangles_in_a_part = std::size_t{1} << 13;
+constexpr double cells_per_triangle_limit = 8;
+constexpr double free_cells = 0x1p20;
+/// Cells are counted in float, exactly up to here.
+constexpr double most_cells = 0x1p24;
+constexpr double most_cells_on_an_axis = 0x1p11;
+/// Cells are cubes where the triangles' mean box is no longer on one axis than on another by more than this: the mean
+/// of a sample is no more exact.
+constexpr double least_stretch = 1.5;
+/// Of a cell's edge, over and under the mean of its edges.
+constexpr double most_stretch = 2;
+/// Cells that are less wide, counted in the triangles' mean boxes, are made fewer in proportion. More would be faster
+/// to walk: this is for memory.
+constexpr double wide_cell = 2.55;
+/// Triangles that are looked at to know what they are like.
+constexpr std::size_t samples = 256;
+
+/// The edges of the triangles' boxes in the scaled frame: the mean of some triangles, taken from all over the mesh
+/// without a period, which the mesh may well have.
+template <typename Scalar>
+std::array<double, 3> mean_extent(const GridFrame& frame, const TriangleMeshView<Scalar>& mesh) {
+  const std::size_t triangles = mesh.triangle_count();
+  const std::size_t count = std::min(triangles, samples);
+  constexpr std::uint32_t golden_ratio = 0x9e3779b9;
+  std::array<double, 3> mean = {0, 0, 0};
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t fraction = static_cast<std::uint32_t>(k) * golden_ratio;
+    const std::size_t i = triangles == count ? k : static_cast<std::size_t>(std::uint64_t{fraction} * triangles >> 32);
+    const Vector3<Scalar> a = mesh.vertex(mesh.corner(i, 0));
+    const Vector3<Scalar> b = mesh.vertex(mesh.corner(i, 1));
+    const Vector3<Scalar> c = mesh.vertex(mesh.corner(i, 2));
+    const Vector3<Scalar> low = a.cwiseMin(b).cwiseMin(c);
+    const Vector3<Scalar> high = a.cwiseMax(b).cwiseMax(c);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<Eigen::Index>(axis);
+      mean[axis] += (frame.scaled(high[at]) - frame.scaled(low[at])) / static_cast<double>(count);
+    }
+  }
+  return mean;
+}
+
+/// Cubic cells, `cells` of them or fewer, where an axis that is thinner than a cell has just one.
+std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, double cells) {
+  std::array<double, 3> resolution = {1, 1, 1};
+  std::array<bool, 3> divided = {true, true, true};
+  for (int pass = 0; pass < 3; ++pass) {
+    double volume = 1;
+    int dimensions = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!divided[axis]) continue;
+      volume *= width[axis];
+      ++dimensions;
+    }
+    if (dimensions == 0) break;
+    const double size = std::pow(volume / cells, 1.0 / dimensions);
+    bool settled = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!divided[axis]) continue;
+      resolution[axis] = width[axis] / size;
+      if (!(resolution[axis] >= 1)) {  // NaN for a box of no width at all
+        resolution[axis] = 1;
+        divided[axis] = false;
+        settled = false;
+      }
+    }
+    if (settled) break;
+  }
+  return resolution;
+}
+
+/// As many cells as are wished a triangle, in the shape of the triangles' mean box: of all cells of a volume these are
+/// the ones that triangles cross least often (the sum of extent / edge over the axes is least, for a given product of
+/// the edges, where all quotients are equal). Where they are narrow for the triangles, so that each is listed again and
+/// again, there are fewer.
+template <typename Scalar>
+std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar>& box,
+                                        const TriangleMeshView<Scalar>& mesh, const GridOptions& options) {
+  const std::array<double, 3> extent = mean_extent(frame, mesh);
+  const auto [least, greatest] = std::minmax({extent[0], extent[1], extent[2]});
+  const double mean = (extent[0] + extent[1] + extent[2]) / 3;
+  const bool are_stretched = mean > 0 && greatest > least_stretch * least;
+  std::array<double, 3> width = {};  // stretched so that cells are cubes
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    width[axis] = frame.scaled(box.high[static_cast<Eigen::Index>(axis)]) - frame.origin[axis];
+    if (are_stretched) width[axis] /= std::clamp(extent[axis] / mean, 1 / most_stretch, most_stretch);
+  }
+  const auto count = static_cast<double>(mesh.triangle_count());
+  const double usual_cells = std::max(1.0, GridOptions().cells_per_triangle * count);
+  const std::array<double, 3> usual = cubic_resolution(width, usual_cells);
+  const double usual_edge = *std::max_element(width.begin(), width.end()) /  // that of an axis that is divided
+                            *std::max_element(usual.begin(), usual.end());
+  const double share = mean > 0 ? std::min(1.0, usual_edge / (wide_cell * mean)) : 1;
+  std::array<double, 3> wished = cubic_resolution(width, std::max(1.0, share * options.cells_per_triangle * count));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (options.resolution[axis] != 0) wished[axis] = options.resolution[axis];
+    wished[axis] = std::clamp(std::floor(wished[axis]), 1.0, most_cells_on_an_axis);
+  }
+  const double limit = std::min(std::max(free_cells, cells_per_triangle_limit * count), most_cells);
+  while (wished[0] * wished[1] * wished[2] > limit) {
+    double& finest = *std::max_element(wished.begin(), wished.end());
+    finest = std::floor(finest / 2);
+  }
+  return wished;
+}
+
+}  // namespace
+
+/// Lists the triangles in top cells by counting, prefix sum and scatter; then emits the lists cell by cell, and divides
+/// the crowded ones on the way.
+template <typename Scalar>
+class GridBuild {
+ public:
+  GridBuild(Grid& grid, GridScratch& scratch, const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
+            const GridOptions& options, const Executor* executor)
+      : grid_(grid),
+        scratch_(scratch),
+        mesh_(mesh),
+        executor_(executor),
+        crowded_(options.crowded == 0 ? std::numeric_limits<std::size_t>::max() : options.crowded) {
+    scratch.boxes_.resize(mesh.triangle_count());
+    const std::size_t budget =
+        std::min<std::size_t>(std::max(free_entries, entries_per_triangle * mesh.triangle_count()),
+                              std::numeric_limits<std::uint32_t>::max());
+    std::array<double, 3> wished = wished_resolution(GridFrame::around(box, {1, 1, 1}, division), box, mesh, options);
+    for (;;) {
+      grid.frame_ = GridFrame::around(box, wished, division);
+      place_vertices();
+      if (try_list_all(budget)) break;
+      for (double& cells : wished) cells = std::max(1.0, std::floor(cells / 2));
+    }
+    emit_all();
+    shrink_division();
+    grid.cover_ = GridCover(grid);
+  }
+
+ private:
+  static constexpr std::uint32_t division = Grid::brick_edge * Grid::brick_edge;
+  static_assert(Grid::most_levels == 2);
+  /// A cell is left whole if its bricks' lists would be longer than this many times its own.
+  static constexpr std::size_t most_growth = 3;
+  /// With so many, all cells together have no more lists than a word can number.
+  static constexpr std::size_t most_brick_cells = CellWord::most_numbers - static_cast<std::size_t>(most_cells);
+  /// What a vector load may read beyond the last top cell.
+  static constexpr std::size_t top_slack = 64;
+
+  void place_vertices() {
+    const GridFrame& frame = grid_.frame_;
+    auto& points = scratch_.points_;
+    points.resize(mesh_.vertex_count());
+    const detail::VertexLanes<Scalar> vertices(mesh_);
+    detail::Float4 margin = frame.float_margin;
+    margin[3] = 0;
+    const auto place = [&](std::size_t i) -> detail::PaddedPoint {
+      if constexpr (std::is_same_v<Scalar, float>) {
+        if (frame.has_floats) {
+          detail::Float4 vertex;
+          vertices.load(i, vertex);
+          return (vertex - frame.float_low) * frame.float_scale + margin;
+        }
+      }
+      const Vector3<Scalar> vertex = mesh_.vertex(i);
+      const auto coordinate = [&](std::size_t axis) {
+        return static_cast<float>(frame.place(axis, frame.scaled(vertex[static_cast<Eigen::Index>(axis)])));
+      };
+      return detail::PaddedPoint{coordinate(0), coordinate(1), coordinate(2), 0};
+    };
+    detail::in_parts(executor_, points.size(), triangles_in_a_part, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) points[i] = place(i);
+    });
+    for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame.padding(axis);
+  }
+
+  /// Finds which cells the triangles meet, `id(i)` for each i from `first` to below `last`, unless these are more than
+  /// so many entries. Among the top cells, where each triangle comes once, it writes down their boxes.
+  template <bool is_top, typename Id>
+  bool try_find(std::size_t first, std::size_t last, const Id& id, const detail::CellRange& cells, std::uint32_t size,
+                std::size_t most_entries, detail::CellEntries& entries, bool may_grow) const {
+    detail::CellLister lister(entries, may_grow, cells, size, padding_);
+    const auto& points = scratch_.points_;
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint32_t triangle = id(i);
+      const auto point = [&](std::size_t corner) { return points[mesh_.corner(triangle, corner)]; };
+      const detail::CellLister::Corners corners = {point(0), point(1), point(2)};
+      detail::PaddedBox& box = scratch_.boxes_[triangle];
+      if constexpr (is_top) {
+        const auto& [a, b, c] = corners;
+        box = {detail::least(detail::least(a, b), c), detail::greatest(detail::greatest(a, b), c)};
+      }
+      lister.add(triangle, corners, box);
+      if (entries.count > most_entries) return false;
+    }
+    lister.finish();
+    return entries.count <= most_entries;
+  }
+
+  /// Lists all triangles in top cells, unless that takes more entries than the budget. One cell always fits.
+  bool try_list_all(std::size_t budget) {
+    const std::array<std::uint32_t, 3>& cells = grid_.frame_.cells;
+    const std::size_t cell_count = std::size_t{cells[0]} * cells[1] * cells[2];
+    if (cell_count == 1) budget = detail::CellEntries::too_many - 1;
+    detail::CellLists& lists = scratch_.lists_[0];
+    if (executor_ != nullptr && try_find_in_parts(budget)) {
+      sort_entries(scratch_.parts_, cell_count, lists);
+      return true;
+    }
+    if (!try_find_top(0, mesh_.triangle_count(), budget, lists.entries, true)) return false;
+    sort_entries({&lists.entries, 1}, cell_count, lists);
+    return true;
+  }
+
+  bool try_find_top(std::size_t first, std::size_t last, std::size_t most_entries, detail::CellEntries& entries,
+                    bool may_grow) const {
+    entries.make_room(usual_entries * (last - first), least_entries * (last - first));
+    const auto id = [](std::size_t i) { return static_cast<std::uint32_t>(i); };
+    return try_find<true>(first, last, id, {{0, 0, 0}, grid_.frame_.cells}, division, most_entries, entries, may_grow);
+  }
+
+  /// The same by the executor's tasks. False as well if some part takes more room than most: tasks cannot ask for it.
+  bool try_find_in_parts(std::size_t most_entries) {
+    constexpr std::size_t size = triangles_in_a_part;
+    auto& parts = scratch_.parts_;
+    parts.resize((mesh_.triangle_count() + size - 1) / size);
+    for (detail::CellEntries& part : parts) part.make_room(entries_per_triangle * size, least_entries * size);
+    detail::in_parts(executor_, mesh_.triangle_count(), size, [&](std::size_t first, std::size_t last) {
+      static_cast<void>(try_find_top(first, last, most_entries, parts[first / size], false));
+    });
+    std::size_t entries = 0;
+    for (const detail::CellEntries& part : parts) {
+      if (part.count > most_entries - entries) return false;
+      entries += part.count;
+    }
+    return true;
+  }
+
+  /// Makes the words, bricks, lists and entries.
+  void emit_all() {
+    const auto& cells = grid_.frame_.cells;
+    const auto& offsets = scratch_.lists_[0].offsets;
+    const auto& listed = scratch_.lists_[0].triangles;
+    auto& words = scratch_.words_;
+    grid_.levels_ = 0;
+    grid_.top_count_ = offsets.size() - 1;
+    // Room for bricks that are as long as may be, in half of their cells; those of the second level may need more.
+    std::size_t entries = listed.size();
+    std::size_t lists = 1;
+    for (std::size_t cell = 0; cell < grid_.top_count_; ++cell) {
+      const std::size_t count = offsets[cell + 1] - offsets[cell];
+      const bool is_crowded = count > crowded_;
+      entries += is_crowded ? (most_growth - 1) * count : 0;
+      lists += is_crowded ? Grid::brick_size / 2 : count != 0 ? 1 : 0;
+    }
+    grid_.entries_.clear();
+    grid_.entries_.reserve(entries);
+    grid_.lists_.clear();
+    grid_.lists_.reserve(lists);
+    grid_.bricks_.clear();
+    spare_entries_ = std::numeric_limits<std::uint32_t>::max() - listed.size();
+    words.assign(grid_.top_count_, 0);
+    std::size_t cell = 0;
+    for (std::uint32_t z = 0; z < cells[2]; ++z) {
+      for (std::uint32_t y = 0; y < cells[1]; ++y) {
+        for (std::uint32_t x = 0; x < cells[0]; ++x, ++cell) {
+          const std::span<const std::uint32_t> ids(listed.data() + offsets[cell], offsets[cell + 1] - offsets[cell]);
+          if (!ids.empty()) words[cell] = emit(ids, {x, y, z}, division, 0);
+        }
+      }
+    }
+    grid_.lists_.push_back({CellBox(), static_cast<std::uint32_t>(grid_.entries_.size())});
+    detail::measure_empty_space(words, cells, scratch_.distances_);
+    grid_.top_.assign(grid_.top_count_ + top_slack, CellWord());
+    std::transform(words.begin(), words.end(), grid_.top_.begin(), [](std::uint32_t bits) { return CellWord(bits); });
+  }
+
+  /// The word of a cell that is not empty, at `place` in cells of its `size`.
+  std::uint32_t emit(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& place, std::uint32_t size,
+                     std::uint32_t level) {
+    if (ids.size() > crowded_ && level < Grid::most_levels) {
+      if (const std::uint32_t word = divide(ids, place, size / Grid::brick_edge, level + 1); word != 0) return word;
+    }
+    const auto list = static_cast<std::uint32_t>(grid_.lists_.size());
+    grid_.lists_.push_back({box_of(ids, place, size), static_cast<std::uint32_t>(grid_.entries_.size())});
+    grid_.entries_.insert(grid_.entries_.end(), ids.begin(), ids.end());
+    return CellWord::listing(list).bits();
+  }
+
+  /// Of the triangles' boxes and the cell. They are padded as when they were listed, and so each meets the cell.
+  [[nodiscard]] CellBox box_of(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& place,
+                               std::uint32_t size) const {
+    using namespace detail;
+    auto [low, high] = scratch_.boxes_[ids.front()];
+    for (const std::uint32_t id : ids.subspan(1)) {
+      low = least(low, scratch_.boxes_[id].low);
+      high = greatest(high, scratch_.boxes_[id].high);
+    }
+    constexpr float parts = CellBox::parts;
+    const auto edge = static_cast<float>(size);
+    const float per_part = parts / edge;  // a power of two
+    const Float4 corner = to_float(Int4{static_cast<std::int32_t>(place[0]), static_cast<std::int32_t>(place[1]),
+                                        static_cast<std::int32_t>(place[2]), 0}) *
+                          edge;
+    const Float4 padding = {padding_[0], padding_[1], padding_[2], 0};
+    const Float4 from = (low - padding - corner) * per_part;
+    const Float4 to = (high + padding - corner) * per_part;
+    const Int4 first_part = to_int(least(greatest(from, all_lanes(0.0F)), all_lanes(parts - 1)));
+    const Float4 last = least(greatest(to, all_lanes(1.0F)), all_lanes(parts));
+    const Int4 whole = to_int(last);
+    const Int4 end_part = whole - (to_float(whole) < last);
+    std::array<std::uint32_t, 3> first;
+    std::array<std::uint32_t, 3> end;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      first[axis] = static_cast<std::uint32_t>(first_part[axis]);
+      end[axis] = static_cast<std::uint32_t>(end_part[axis]);
+    }
+    return CellBox::around(first, end);
+  }
+
+  /// The word of a cell that is divided into a brick of cells of `size`; 0 if that would not part its triangles.
+  std::uint32_t divide(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& place,
+                       std::uint32_t size, std::uint32_t level) {
+    constexpr std::uint32_t edge = Grid::brick_edge;
+    detail::CellRange cells;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      cells.low[axis] = place[axis] * edge;
+      cells.high[axis] = cells.low[axis] + edge;
+    }
+    detail::CellLists& lists = scratch_.lists_[level];
+    const auto id = [&](std::size_t i) { return ids[i]; };
+    // The brick of no number is no one's: a word of zeros would be that of an empty cell not yet measured.
+    const std::size_t first = std::max<std::size_t>(grid_.bricks_.size(), Grid::brick_size);
+    const std::size_t most_entries = std::min(most_growth * ids.size(), ids.size() + spare_entries_);
+    if (first >= most_brick_cells ||
+        !try_find<false>(0, ids.size(), id, cells, size, most_entries, lists.entries, true)) {
+      return 0;
+    }
+    sort_entries({&lists.entries, 1}, Grid::brick_size, lists);
+    spare_entries_ = spare_entries_ + ids.size() - lists.triangles.size();
+    grid_.bricks_.resize(first + Grid::brick_size);
+    grid_.levels_ = std::max(grid_.levels_, level);
+
+    std::array<std::uint32_t, Grid::brick_size> words = {};
+    for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) {
+      const std::uint32_t begin = lists.offsets[cell];
+      const std::uint32_t end = lists.offsets[cell + 1];
+      if (begin == end) continue;
+      words[cell] =
+          emit({lists.triangles.data() + begin, end - begin},
+               {cells.low[0] + cell % edge, cells.low[1] + cell / edge % edge, cells.low[2] + cell / edge / edge}, size,
+               level);
+    }
+    detail::measure_empty_space(words);
+    for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) grid_.bricks_[first + cell] = CellWord(words[cell]);
+    return CellWord::divided(static_cast<std::uint32_t>(first / Grid::brick_size)).bits();
+  }
+
+  /// Counts in the finest cells that there are.
+  void shrink_division() {
+    for (std::uint32_t level = grid_.levels_; level < Grid::most_levels; ++level) {
+      grid_.frame_.coarsen(Grid::brick_edge);
+    }
+  }
+
+  Grid& grid_;
+  GridScratch& scratch_;
+  const TriangleMeshView<Scalar>& mesh_;
+  const Executor* executor_;
+  std::size_t crowded_;
+  std::size_t spare_entries_ = 0;  ///< that dividing may add before there are more than 32 bits can number
+  detail::CellPoint padding_ = {};
+};
+
+std::size_t GridScratch::memory_bytes() const noexcept {
+  const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector.front()); };
+  std::size_t sum = bytes(points_) + bytes(boxes_) + bytes(words_) + bytes(distances_);
+  const auto add = [&](const detail::CellEntries& entries) { sum += bytes(entries.cells) + bytes(entries.triangles); };
+  for (const detail::CellLists& lists : lists_) {
+    add(lists.entries);
+    sum += bytes(lists.offsets) + bytes(lists.triangles);
+  }
+  for (const detail::CellEntries& part : parts_) add(part);
+  return sum;
+}
+
+template <typename Scalar>
+Grid::Grid(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
+           const Executor* executor) {
+  GridScratch scratch;
+  rebuild(mesh, box, options, scratch, executor);
+}
+
+template <typename Scalar>
+void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
+                   GridScratch& scratch, const Executor* executor) {
+  const FloatingPointEnvironment environment;
+  if (mesh.triangle_count() != 0) {
+    GridBuild<Scalar>(*this, scratch, mesh, box, options, executor);
+  } else {
+    *this = Grid();
+  }
+}
+
+template Grid::Grid(const TriangleMeshView<float>&, const Box<float>&, const GridOptions&, const Executor*);
+template Grid::Grid(const TriangleMeshView<double>&, const Box<double>&, const GridOptions&, const Executor*);
+template void Grid::rebuild(const TriangleMeshView<float>&, const Box<float>&, const GridOptions&, GridScratch&,
+                            const Executor*);
+template void Grid::rebuild(const TriangleMeshView<double>&, const Box<double>&, const GridOptions&, GridScratch&,
+                            const Executor*);
+
+}  // namespace surehit

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+#include "support/float4.hpp"
+#include "surehit/triangle_mesh_view.hpp"
+
+namespace surehit::detail {
+
+using Double4 = double __attribute__((vector_size(32)));
+
+/// Vertices of a mesh, which outlives this, as vectors, whose fourth number is one of the mesh's too: most vertices are
+/// loaded with what lies behind them.
+template <typename Scalar>
+class VertexLanes {
+ public:
+  using Point = std::conditional_t<std::is_same_v<Scalar, float>, Float4, Double4>;
+
+  explicit VertexLanes(const TriangleMeshView<Scalar>& mesh)
+      : mesh_(mesh), vertices_(reinterpret_cast<const std::byte*>(mesh.vertices().data)) {
+    const bool are_dense = mesh.vertices().stride == 3 * sizeof(Scalar);
+    followed_ = are_dense && mesh.vertex_count() > 0 ? mesh.vertex_count() - 1 : 0;
+  }
+
+  [[gnu::always_inline]] void load(std::size_t vertex, Point& point) const {
+    if (vertex < followed_) {
+      load_whole(vertex, point);
+    } else {
+      gather(vertex, point);
+    }
+  }
+  /// Of a triangle a, b and c.
+  [[gnu::always_inline]] void load_corners(std::size_t triangle, Point (&corners)[3]) const {
+    const std::size_t vertices[3] = {mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2)};
+    if (std::max({vertices[0], vertices[1], vertices[2]}) < followed_) {
+      for (std::size_t i = 0; i < 3; ++i) load_whole(vertices[i], corners[i]);
+    } else {
+      for (std::size_t i = 0; i < 3; ++i) gather(vertices[i], corners[i]);
+    }
+  }
+
+ private:
+  [[gnu::always_inline]] void load_whole(std::size_t vertex, Point& point) const {
+    std::memcpy(&point, vertices_ + vertex * (3 * sizeof(Scalar)), sizeof point);
+  }
+  void gather(std::size_t index, Point& point) const {
+    const Vector3<Scalar> vertex = mesh_.vertex(index);
+    point = Point{vertex[0], vertex[1], vertex[2], vertex[2]};
+  }
+
+  const TriangleMeshView<Scalar>& mesh_;
+  const std::byte* vertices_;
+  std::size_t followed_;  ///< so many vertices have another one behind them, where their fourth coordinate is from
+};
+
+}  // namespace surehit::detail

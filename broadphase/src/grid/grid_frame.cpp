@@ -1,0 +1,140 @@
+#include "grid/grid_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace surehit {
+
+// The padding. R is the resolution of an axis in finest cells, u = 2^-24: all that is counted in cells is rounded to
+// float. A point of a triangle and the place where a path is taken to be may each be off:
+//  - a vertex by 3 u R: its difference to the origin, the scaling and the margin are rounded, and none of them exceeds
+//  R
+//    (in double, for other meshes, by u R when it is rounded at last);
+//  - the tests of `TriangleOverlap` and `find_overlaps` by less than 8 u R;
+//  - a path by less than 16 u R, or 19 u R where it stands in all of its cells at once, see grid_traversal.cpp.
+// Together they are below 32 u R = 2^-19 R = `padding`: a cell grown by it lists every triangle that a path, walking
+// through that cell by rounded numbers, truly meets there.
+
+namespace {
+
+/// So that a path that touches the box walks inside the grid by rounded numbers too.
+constexpr double margin_share = 2 * double{GridFrame::padding_share};
+
+/// Of the box's greatest extent: an axis less wide is not divided, so that a scaled coordinate that is off by 2^-43
+/// (grid_traversal.cpp) is off by less than 2^-22 of the grid's width.
+constexpr double least_width = 0x1p-20;
+
+/// Rounded down to a float: what is multiplied by it in float is multiplied by the same number as in double.
+double float_below(double x) {
+  const auto rounded = static_cast<float>(x);
+  return rounded > x ? std::nextafter(rounded, 0.0F) : rounded;
+}
+
+float nearest_float(double x) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -largest, largest));
+}
+
+}  // namespace
+
+template <typename Scalar>
+GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>& wished_cells, std::uint32_t division) {
+  GridFrame frame;
+  frame.division = division;
+  // Exponent of the greatest extent; of the greatest coordinate if the box is a point.
+  int largest = std::numeric_limits<int>::min();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double low = box.low[axis];
+    const double high = box.high[axis];
+    const double half_extent = high / 2 - low / 2;  // the whole one may overflow
+    if (half_extent > 0) largest = std::max(largest, std::ilogb(half_extent) + 2);
+  }
+  const double coordinate = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
+  if (largest == std::numeric_limits<int>::min()) largest = coordinate > 0 ? std::ilogb(coordinate) + 1 : 0;
+  frame.exponent = -largest;
+  // A mesh that is thin beyond measure for where it stands is left small in its frame, in one cell, so that nothing
+  // overflows.
+  if (coordinate > 0) frame.exponent = std::min(frame.exponent, 1000 - std::ilogb(coordinate));
+
+  frame.unit = {std::ldexp(1.0, frame.exponent / 2), std::ldexp(1.0, frame.exponent - frame.exponent / 2)};
+
+  const auto most_cells = static_cast<double>(std::uint32_t{most_finest_cells / division});
+  double finest = 0;
+  std::array<double, 3> width = {};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    frame.origin[axis] = frame.scaled(box.low[i]);
+    width[axis] = frame.scaled(box.high[i]) - frame.origin[axis];
+    frame.cells[axis] = static_cast<std::uint32_t>(std::clamp(std::floor(wished_cells[axis]), 1.0, most_cells));
+    const double resolution = frame.resolution(axis);
+    frame.margin[axis] = static_cast<float>(margin_share * resolution);
+    const double scale = (resolution - 2 * double{frame.margin[axis]}) / width[axis];
+    frame.scale[axis] = scale;
+    if (width[axis] >= least_width) finest = std::max(finest, scale);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (width[axis] >= least_width) continue;
+    frame.cells[axis] = 1;
+    const double resolution = division;
+    frame.margin[axis] = static_cast<float>(margin_share * resolution);
+    frame.scale[axis] = std::min(finest > 0 ? finest : 1.0, resolution / 2);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    frame.scale[axis] = float_below(frame.scale[axis]);
+    frame.low[axis] = box.low[i];
+    frame.high[axis] = box.high[i];
+    // Four paddings are a quarter of a finest cell or less.
+    frame.cell_size[axis] = 1.25 * division / frame.scale[axis] / frame.unit[0] / frame.unit[1];
+    frame.float_box_low[axis] = nearest_float(frame.low[axis]);
+    frame.float_box_high[axis] = nearest_float(frame.high[axis]);
+    frame.float_cell_size[axis] = nearest_float(frame.cell_size[axis]);
+  }
+  frame.coarsen(1);
+  return frame;
+}
+
+double GridFrame::place(std::size_t axis, double scaled_coordinate) const noexcept {
+  return (scaled_coordinate - origin[axis]) * scale[axis] + double{margin[axis]};
+}
+
+void GridFrame::coarsen(std::uint32_t factor) noexcept {
+  division /= factor;
+  for (std::uint32_t octant = 0; octant < 8; ++octant) {
+    TopOrder& order = top_orders[octant];
+    order = {};
+    std::uint32_t pitch = 1;
+    std::uint32_t first = 0;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      const bool falls = (octant >> axis & 1) != 0;
+      order.pitch[axis] = static_cast<std::int32_t>(falls ? -pitch : pitch);
+      if (falls) first += pitch * (cells[axis] - 1);
+      pitch *= cells[axis];
+    }
+    order.first = static_cast<std::int32_t>(first);
+    for (std::uint32_t axes = 0; axes < 8; ++axes) {
+      for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        if ((axes >> axis & 1) != 0) order.step[axes] += order.pitch[axis];
+      }
+    }
+  }
+  has_floats = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    scale[axis] /= factor;
+    margin[axis] /= static_cast<float>(factor);
+    float_margin[axis] = margin[axis];
+    float_stop[axis] = static_cast<float>(resolution(axis));
+    const double unit_scale = scale[axis] * unit[0] * unit[1];
+    const double low = origin[axis] / unit[0] / unit[1];
+    float_scale[axis] = static_cast<float>(unit_scale);
+    float_low[axis] = static_cast<float>(low);
+    has_floats &= double{float_scale[axis]} == unit_scale && double{float_low[axis]} == low &&
+                  scaled(low) == origin[axis] && unit_scale > 0x1p-60 && unit_scale < 0x1p60;
+  }
+}
+
+template GridFrame GridFrame::around(const Box<float>&, const std::array<double, 3>&, std::uint32_t);
+template GridFrame GridFrame::around(const Box<double>&, const std::array<double, 3>&, std::uint32_t);
+
+}  // namespace surehit

@@ -1,0 +1,63 @@
+#include "support/floating_point_environment.hpp"
+
+#if defined(__SSE2__) || defined(_M_X64)
+#include <xmmintrin.h>
+#elif !defined(__aarch64__)
+#include <cfenv>
+#endif
+
+#if defined(__FAST_MATH__)
+#error "surehit's proofs do not hold under -ffast-math: compile the library without it (its users may have it)"
+#endif
+
+namespace surehit {
+
+// The compiler does not know that arithmetic depends on the control word. It is kept from moving any across by what
+// sets and restores it being functions it cannot see into from where the arithmetic is.
+
+#if defined(__SSE2__) || defined(_M_X64)
+
+namespace {
+constexpr unsigned sticky_flags = 0x003f;
+constexpr unsigned default_control =
+    0x1f80;  // all exceptions masked, to nearest, no flush-to-zero, no denormals-are-zero
+}  // namespace
+
+FloatingPointEnvironment::FloatingPointEnvironment() noexcept {
+  const unsigned control = _mm_getcsr();
+  if ((control & ~sticky_flags) == default_control) return;
+  caller_ = control;
+  restore_ = true;
+  _mm_setcsr(default_control);
+}
+
+void FloatingPointEnvironment::restore() noexcept { _mm_setcsr(static_cast<unsigned>(caller_)); }
+
+#elif defined(__aarch64__)
+
+FloatingPointEnvironment::FloatingPointEnvironment() noexcept {
+  std::uint64_t control = 0;
+  __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+  if (control == 0) return;  // zero: to nearest, no flush, no traps
+  caller_ = control;
+  restore_ = true;
+  __asm__ volatile("msr fpcr, %0" : : "r"(std::uint64_t{0}));
+}
+
+void FloatingPointEnvironment::restore() noexcept { __asm__ volatile("msr fpcr, %0" : : "r"(caller_)); }
+
+#else
+
+FloatingPointEnvironment::FloatingPointEnvironment() noexcept {
+  const int rounding = std::fegetround();
+  if (rounding == FE_TONEAREST) return;
+  caller_ = static_cast<std::uint64_t>(rounding);
+  restore_ = true;
+  std::fesetround(FE_TONEAREST);
+}
+
+void FloatingPointEnvironment::restore() noexcept { std::fesetround(static_cast<int>(caller_)); }
+
+#endif
+
+}  // namespace surehit

@@ -1,0 +1,113 @@
+#include "exact/exact_contact.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "exact/exact_pair.hpp"
+
+namespace surehit::detail {
+namespace {
+
+template <typename Scalar>
+[[gnu::noinline]] void find_parameter(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                      const Scale<Scalar>& scale, const PathRange<Scalar>& range,
+                                      Ratio<Bits<Scalar>::parameter>& t) {
+  static_cast<void>(ExactPair<Scalar>(path, triangle, scale).find(range, t, nullptr));
+}
+
+}  // namespace
+
+template <typename Scalar>
+std::optional<Contact> exact_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                     const PathRange<Scalar>& range) {
+  const Scale<Scalar> scale(path, triangle);
+  Ratio<Bits<Scalar>::parameter> t;
+  std::optional<Contact> contact = ExactPair<Scalar>(path, triangle, scale).find(range, t, nullptr);
+  if (contact) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double nearest = rounded_quotient<double>(t.num, t.den, scale.t_exponent);
+    contact->t_lower = std::nextafter(nearest, -infinity);
+    contact->t_upper = std::nextafter(nearest, infinity);
+  }
+  return contact;
+}
+
+template <typename Scalar>
+void exact_rounding(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const PathRange<Scalar>& range,
+                    Hit<Scalar>& hit) {
+  const Scale<Scalar> scale(path, triangle);
+  Ratio<Bits<Scalar>::parameter> t;
+  Weights<Scalar> weights;
+  if (!ExactPair<Scalar>(path, triangle, scale).find(range, t, &weights)) return;
+  hit.t = rounded_quotient<Scalar>(t.num, t.den, scale.t_exponent);
+  hit.u = weights.u;
+  hit.v = weights.v;
+}
+
+template <typename Scalar>
+std::strong_ordering exact_order(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                 const Triangle<Scalar>& other, const PathRange<Scalar>& range) {
+  const Scale<Scalar> scale(path, triangle, other);
+  Ratio<Bits<Scalar>::parameter> t;
+  Ratio<Bits<Scalar>::parameter> other_t;
+  find_parameter(path, triangle, scale, range, t);
+  find_parameter(path, other, scale, range, other_t);
+  return compare(t, other_t) <=> 0;
+}
+
+template <typename Scalar>
+Vector3<Scalar> exact_point(const Path<Scalar>& path, Scalar t) {
+  using B = Bits<Scalar>;
+  Vector3<Scalar> result;
+  const Decomposed<Scalar> parts(t);
+  for (int i = 0; i < 3; ++i) {
+    // start + t d = (start 2^k + significand d) / 2^k, in units of the place, where t = significand / 2^k.
+    Place place;
+    place.include(path.start);
+    place.include(path.toward);
+    if (place.exponent == std::numeric_limits<int>::max()) place.exponent = 0;
+    WideInt<B::difference> start;
+    WideInt<B::difference> d;
+    set_integer(start, path.start[i], place);
+    set_integer(d, path.toward[i], place);
+    if (path.kind == PathKind::segment) d.add(start, true);
+    WideInt<2 * B::difference + 64> sum =
+        d * WideInt<B::coordinate>::shifted(parts.significand, std::max(parts.exponent, 0), parts.negative);
+    const auto scale = WideInt<B::coordinate>::power_of_two(std::max(-parts.exponent, 0));
+    sum.add(start * scale);
+    result[i] = rounded_quotient<Scalar>(sum, scale, place.exponent);
+  }
+  return result;
+}
+
+template <typename Scalar>
+Vector3<double> exact_cross(const Triangle<Scalar>& triangle) {
+  using B = Bits<Scalar>;
+  Place place;
+  place.include(triangle);
+  if (place.exponent == std::numeric_limits<int>::max()) place.exponent = 0;
+  Differences<Scalar> e1;
+  Differences<Scalar> e2;
+  set_difference(e1, triangle.b, triangle.a, place);
+  set_difference(e2, triangle.c, triangle.a, place);
+  WideVector<B::cross> cross;
+  set_cross(cross, e1, e2);
+  const int exponent = -std::max({cross[0].bit_length(), cross[1].bit_length(), cross[2].bit_length()});
+  const auto one = WideInt<1>::power_of_two(0);
+  return {rounded_quotient<double>(cross[0], one, exponent), rounded_quotient<double>(cross[1], one, exponent),
+          rounded_quotient<double>(cross[2], one, exponent)};
+}
+
+#define SUREHIT_INSTANTIATE(Scalar)                                                                                   \
+  template std::optional<Contact> exact_contact(const Path<Scalar>&, const Triangle<Scalar>&,                         \
+                                                const PathRange<Scalar>&);                                            \
+  template void exact_rounding(const Path<Scalar>&, const Triangle<Scalar>&, const PathRange<Scalar>&, Hit<Scalar>&); \
+  template std::strong_ordering exact_order(const Path<Scalar>&, const Triangle<Scalar>&, const Triangle<Scalar>&,    \
+                                            const PathRange<Scalar>&);                                                \
+  template Vector3<Scalar> exact_point(const Path<Scalar>&, Scalar);                                                  \
+  template Vector3<double> exact_cross(const Triangle<Scalar>&);
+SUREHIT_INSTANTIATE(float)
+SUREHIT_INSTANTIATE(double)
+#undef SUREHIT_INSTANTIATE
+
+}  // namespace surehit::detail

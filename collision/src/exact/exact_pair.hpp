@@ -1,0 +1,457 @@
+#pragma once
+
+#include <optional>
+
+#include "contact.hpp"
+#include "exact/exact_scale.hpp"
+#include "query/path_range.hpp"
+
+namespace surehit::detail {
+
+/// Weights of b and c at the contact, rounded.
+template <typename Scalar>
+struct Weights {
+  Scalar u = 0;
+  Scalar v = 0;
+};
+
+/// One path against one triangle, in integers. The steps are kept from being inlined into each other, so that their
+/// frames come and go: with the numbers sized for the whole range of double, one frame of all would break the 16 KiB
+/// that a query may use.
+///
+/// Whatever the shapes, the path's whole line meets the triangle in a closed interval of parameters: one parameter if
+/// it crosses the plane or touches a degenerate triangle, more if it runs in it. The path, cut to its range, meets the
+/// triangle where that interval and the range overlap, and first at the greater of the two lower ends.
+template <typename Scalar>
+class ExactPair {
+ public:
+  using B = Bits<Scalar>;
+  using Parameter = Ratio<B::parameter>;
+  using PlaneParameter = Ratio<B::cross + 3>;  // n - (u + v) is the widest of its parts
+
+  ExactPair(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const Scale<Scalar>& scale)
+      : path_(path), triangle_(triangle), scale_(scale) {
+    set_difference(s_, path.start, triangle.a, scale.points);
+    set_difference(e1_, triangle.b, triangle.a, scale.points);
+    set_difference(e2_, triangle.c, triangle.a, scale.points);
+    if (path.kind == PathKind::segment) {
+      set_difference(d_, path.toward, path.start, scale.points);
+    } else {
+      for (std::size_t i = 0; i < 3; ++i)
+        set_integer(d_[i], path.toward[static_cast<Eigen::Index>(i)], scale.direction);
+    }
+  }
+
+  /// The contact, its exact t in `t`, and on demand its weights.
+  [[nodiscard]] std::optional<Contact> find(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights) {
+    if (is_zero(d_)) return standing_point(range, t, weights);
+    if (std::optional<Contact> contact; crosses_plane(range, t, weights, contact)) return contact;
+    if (std::optional<Contact> contact; is_parallel_to_plane(range, t, weights, contact)) return contact;
+    return along_degenerate(range, t, weights);
+  }
+
+ private:
+  /// The triangle's plane, seen along an axis on which the normal does not vanish.
+  struct Plane {
+    bool is_degenerate = true;  ///< no plane: the corners lie on a line
+    bool contains_start = false;
+    std::size_t axis = 0;
+    WideInt<B::cross> normal;  ///< its component on the axis
+  };
+
+  [[gnu::noinline]] Plane find_plane() const {
+    Plane plane;
+    WideVector<B::cross> normal;
+    set_cross(normal, e1_, e2_);
+    if (is_zero(normal)) return plane;
+    WideInt<B::det> height;
+    set_dot(height, s_, normal);
+    plane.is_degenerate = false;
+    plane.contains_start = height.is_zero();
+    plane.axis = nonzero_axis(normal);
+    plane.normal = normal[plane.axis];
+    return plane;
+  }
+
+  /// Cuts the interval [first, last] to the range; t, which may be first itself, becomes where the rest begins.
+  template <int F, int L, int P>
+  [[gnu::noinline]] std::optional<Contact> cut(const Ratio<F>& first, const Ratio<L>& last,
+                                               const PathRange<Scalar>& range, Ratio<P>& t) {
+    Contact contact = {};
+    contact.at_start = path_.has_start() && first.num.sign() <= 0 && last.num.sign() >= 0;
+    if (path_.has_end()) {
+      const Limit<Scalar> end(1, scale_.t_exponent);
+      contact.at_end = end.compare(first) <= 0 && end.compare(last) >= 0;
+    }
+    if (range.last < PathRange<Scalar>::infinity && Limit<Scalar>(range.last, scale_.t_exponent).compare(first) > 0) {
+      return std::nullopt;
+    }
+    if (range.first == -PathRange<Scalar>::infinity) {
+      t.set(first.num, first.den);
+      return contact;
+    }
+    const Limit<Scalar> begin(range.first, scale_.t_exponent);
+    if (begin.compare(last) < 0) return std::nullopt;
+    if (begin.compare(first) < 0) {
+      begin.store(t);
+    } else {
+      t.set(first.num, first.den);
+    }
+    return contact;
+  }
+
+  /// det ≠ 0: one parameter T / det, weights U / det and V / det. False if det = 0 and nothing is decided.
+  [[gnu::noinline]] bool crosses_plane(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights,
+                                       std::optional<Contact>& contact) {
+    const Crossing crossing = cross_plane(t);
+    if (crossing == Crossing::none) return false;
+    if (crossing == Crossing::beside) return true;
+    contact = cut(t, t, range, t);
+    if (!contact) return true;
+    contact->side = crossing == Crossing::from_front ? Side::front : Side::back;
+    if (weights != nullptr) *weights = crossing_weights();
+    return true;
+  }
+
+  /// How the path's whole line meets the triangle's plane.
+  enum class Crossing { none, beside, from_front, from_back };
+
+  [[gnu::noinline]] Crossing cross_plane(Parameter& t) const {
+    WideInt<B::det> det;
+    WideInt<B::det> u;
+    WideInt<B::det> v;
+    set_determinants(det, u, v, t);
+    if (det.is_zero()) return Crossing::none;
+    const int side = det.sign();
+    if (u.sign() * side < 0 || v.sign() * side < 0) return Crossing::beside;
+    WideInt<B::weight> w = det;
+    w.add(u, true);
+    w.add(v, true);
+    if (w.sign() * side < 0) return Crossing::beside;
+    return side > 0 ? Crossing::from_front : Crossing::from_back;
+  }
+
+  /// Worked out once more than need be, so that the determinants are off the stack while t is cut to the range.
+  [[gnu::noinline]] Weights<Scalar> crossing_weights() const {
+    WideInt<B::det> det;
+    WideInt<B::det> u;
+    WideInt<B::det> v;
+    Parameter t;
+    set_determinants(det, u, v, t);
+    return {rounded_quotient<Scalar>(u, det), rounded_quotient<Scalar>(v, det)};
+  }
+
+  [[gnu::noinline]] void set_determinants(WideInt<B::det>& det, WideInt<B::det>& u, WideInt<B::det>& v,
+                                          Parameter& t) const {
+    WideVector<B::cross> cross;
+    set_cross(cross, d_, e2_);
+    set_dot(det, e1_, cross);
+    set_dot(u, s_, cross);
+    set_cross(cross, s_, e1_);
+    set_dot(v, d_, cross);
+    set_dot(t.num, e2_, cross);
+    t.set(t.num, det);
+  }
+
+  /// det = 0. False if the triangle spans no plane, and nothing is decided.
+  [[gnu::noinline]] bool is_parallel_to_plane(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights,
+                                              std::optional<Contact>& contact) {
+    const Plane plane = find_plane();
+    if (plane.is_degenerate) return false;
+    if (plane.contains_start) contact = along_plane(plane, range, t, weights);
+    return true;
+  }
+
+  /// A path in the plane of a triangle that spans it. The line's weights run linearly, u (t) = (su + t du) / n and so
+  /// on, when all is seen along an axis on which the normal does not vanish; each weight that must not be negative
+  /// bounds t.
+  [[gnu::noinline]] std::optional<Contact> along_plane(const Plane& plane, const PathRange<Scalar>& range, Parameter& t,
+                                                       Weights<Scalar>* weights) {
+    const std::size_t axis = plane.axis;
+    const WideInt<B::cross>& n = plane.normal;
+    PlaneParameter at;
+    const std::optional<Contact> contact = cut_to_weights(axis, n, range, at);
+    if (!contact) return std::nullopt;
+    t.set(at.num, at.den);
+    if (weights != nullptr) *weights = {weight_at(PlaneWeight::u, axis, n, at), weight_at(PlaneWeight::v, axis, n, at)};
+    return contact;
+  }
+
+  enum class PlaneWeight { u, v, w };
+  using PlaneTerm = WideInt<B::cross + 3>;
+
+  /// s and d of a weight (s + t d) / n of the line, where n is the normal's component on the axis.
+  [[gnu::noinline]] void set_weight(PlaneWeight which, std::size_t axis, const WideInt<B::cross>& n, PlaneTerm& s,
+                                    PlaneTerm& d) const {
+    switch (which) {
+      case PlaneWeight::u:
+        s = cross_component(s_, e2_, axis);
+        d = cross_component(d_, e2_, axis);
+        break;
+      case PlaneWeight::v:
+        s = cross_component(e1_, s_, axis);
+        d = cross_component(e1_, d_, axis);
+        break;
+      case PlaneWeight::w:
+        s = n;
+        s.add(cross_component(s_, e2_, axis), true);
+        s.add(cross_component(e1_, s_, axis), true);
+        d = WideInt<1>();
+        d.add(cross_component(d_, e2_, axis), true);
+        d.add(cross_component(e1_, d_, axis), true);
+        break;
+    }
+  }
+
+  [[gnu::noinline]] Scalar weight_at(PlaneWeight which, std::size_t axis, const WideInt<B::cross>& n,
+                                     const PlaneParameter& t) const {
+    WideInt<2 * B::cross + 7> num;
+    {
+      PlaneTerm s;
+      PlaneTerm d;
+      set_weight(which, axis, n, s, d);
+      num.set_product(s, t.den);
+      num.add(t.num * d);
+    }
+    return rounded_quotient<Scalar>(num, t.den * n);
+  }
+
+  [[gnu::noinline]] std::optional<Contact> cut_to_weights(std::size_t axis, const WideInt<B::cross>& n,
+                                                          const PathRange<Scalar>& range, PlaneParameter& t) {
+    Interval interval;
+    for (const PlaneWeight which : {PlaneWeight::u, PlaneWeight::v, PlaneWeight::w}) {
+      if (!bound_by(which, axis, n, interval)) return std::nullopt;
+    }
+    if (compare(interval.first, interval.last) > 0) return std::nullopt;
+    return cut(interval.first, interval.last, range, t);
+  }
+
+  /// The parameters t at which every s + t d seen so far is at least zero.
+  struct Interval {
+    PlaneParameter first;
+    PlaneParameter last;
+    bool has_first = false;
+    bool has_last = false;
+
+    /// False if s + t d is negative everywhere. A line in the plane crosses two edges of the triangle at least, one
+    /// going in and one going out, so that both ends are set once all three weights are seen.
+    bool bound(PlaneTerm& s, PlaneTerm& d) {
+      if (d.is_zero()) return s.sign() >= 0;
+      const bool enters = d.sign() > 0;
+      (enters ? s : d).negate();  // the zero is at -s / d
+      PlaneParameter& end = enters ? first : last;
+      bool& has_end = enters ? has_first : has_last;
+      if (!has_end || (compare(s, d, end.num, end.den) > 0) == enters) end.set(s, d);
+      has_end = true;
+      return true;
+    }
+  };
+
+  [[gnu::noinline]] bool bound_by(PlaneWeight which, std::size_t axis, const WideInt<B::cross>& n,
+                                  Interval& interval) const {
+    PlaneTerm s;
+    PlaneTerm d;
+    set_weight(which, axis, n, s, d);
+    if (n.sign() < 0) {
+      s.negate();
+      d.negate();
+    }
+    return interval.bound(s, d);
+  }
+
+  template <int X, int Y>
+  static WideInt<X + Y + 1> cross_component(const WideVector<X>& x, const WideVector<Y>& y, std::size_t axis) {
+    const std::size_t j = (axis + 1) % 3;
+    const std::size_t k = (axis + 2) % 3;
+    WideInt<X + Y + 1> result;
+    set_minor(result, x[j], y[k], x[k], y[j]);
+    return result;
+  }
+
+  /// The two corners that a degenerate triangle spans: indices into a, b, c.
+  struct Span {
+    int least = 0;
+    int greatest = 0;
+  };
+
+  Span span() const {
+    const Vector3<Scalar>* corners[] = {&triangle_.a, &triangle_.b, &triangle_.c};
+    const auto before = [](const Vector3<Scalar>& x, const Vector3<Scalar>& y) {
+      return x[0] != y[0] ? x[0] < y[0] : x[1] != y[1] ? x[1] < y[1] : x[2] < y[2];
+    };
+    Span span;
+    for (int i = 1; i < 3; ++i) {
+      if (before(*corners[i], *corners[span.least])) span.least = i;
+      if (before(*corners[span.greatest], *corners[i])) span.greatest = i;
+    }
+    return span;
+  }
+
+  const Differences<Scalar>& e(int corner) const { return corner == 1 ? e1_ : e2_; }
+
+  /// From the least corner of a degenerate triangle to the start (r) and to the greatest corner (g).
+  void set_span_differences(const Span& span, Differences<Scalar>& r, Differences<Scalar>& g) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      r[i] = s_[i];
+      if (span.greatest != 0) g[i] = e(span.greatest)[i];
+      if (span.least == 0) continue;
+      r[i].add(e(span.least)[i], true);
+      g[i].add(e(span.least)[i], true);
+    }
+  }
+
+  /// Weights of b and c for the point least + (num / den) (greatest - least).
+  template <int N, int D>
+  [[gnu::noinline]] static Weights<Scalar> span_weights(const Span& span, const WideInt<N>& num,
+                                                        const WideInt<D>& den) {
+    return span_weights(span, rounded_quotient<Scalar>(num, den), rounded_quotient<Scalar>(den - num, den));
+  }
+
+  static Weights<Scalar> span_weights(const Span& span, Scalar greatest, Scalar least) {
+    const auto of = [&](int corner) {
+      return corner == span.greatest ? greatest : corner == span.least ? least : Scalar{0};
+    };
+    return {of(1), of(2)};
+  }
+
+  /// A path of some length against the segment or the point that the corners span.
+  [[gnu::noinline]] std::optional<Contact> along_degenerate(const PathRange<Scalar>& range, Parameter& t,
+                                                            Weights<Scalar>* weights) {
+    const Span ends = span();
+    Differences<Scalar> r;
+    Differences<Scalar> g;
+    set_span_differences(ends, r, g);
+    if (!are_parallel(d_, g)) {
+      const std::optional<std::size_t> axis = crossing_axis(r, g);
+      return axis ? across_span(*axis, ends, r, g, range, t, weights) : std::nullopt;
+    }
+    // Parallel, or the triangle is a point: they meet on the path's own line or not at all.
+    return are_parallel(d_, r) ? along_span(ends, r, g, range, t, weights) : std::nullopt;
+  }
+
+  [[gnu::noinline]] static bool are_parallel(const Differences<Scalar>& x, const Differences<Scalar>& y) {
+    WideVector<B::cross> cross;
+    set_cross(cross, x, y);
+    return is_zero(cross);
+  }
+
+  /// A path on the line of the corners: seen along an axis on which it moves.
+  [[gnu::noinline]] std::optional<Contact> along_span(const Span& ends, const Differences<Scalar>& r,
+                                                      const Differences<Scalar>& g, const PathRange<Scalar>& range,
+                                                      Parameter& t, Weights<Scalar>* weights) {
+    const std::size_t axis = nonzero_axis(d_);
+    PlaneParameter at;
+    const std::optional<Contact> contact = cut_to_span(r[axis], g[axis], d_[axis], range, at);
+    if (!contact) return std::nullopt;
+    t.set(at.num, at.den);
+    if (weights != nullptr && !is_zero(g)) *weights = weights_along_span(ends, r[axis], g[axis], d_[axis], at);
+    return contact;
+  }
+
+  [[gnu::noinline]] std::optional<Contact> cut_to_span(const WideInt<B::difference>& r, const WideInt<B::difference>& g,
+                                                       const WideInt<B::difference>& d, const PathRange<Scalar>& range,
+                                                       PlaneParameter& t) {
+    Ratio<B::difference> first;
+    Ratio<B::difference> last;
+    WideInt<B::difference> ahead = r;  // from the start to the least corner, then to the greatest
+    ahead.negate();
+    first.set(ahead, d);
+    ahead.add(g);
+    last.set(ahead, d);
+    return compare(first, last) <= 0 ? cut(first, last, range, t) : cut(last, first, range, t);
+  }
+
+  /// w = (r + t d) / g
+  [[gnu::noinline]] static Weights<Scalar> weights_along_span(const Span& ends, const WideInt<B::difference>& r,
+                                                              const WideInt<B::difference>& g,
+                                                              const WideInt<B::difference>& d,
+                                                              const PlaneParameter& t) {
+    WideInt<B::difference + B::cross + 5> w = r * t.den;
+    w.add(d * t.num);
+    const auto den = g * t.den;
+    const Scalar greatest = rounded_quotient<Scalar>(w, den);
+    w.negate();  // and den - w in the same place: the stack is short here
+    w.add(den);
+    return span_weights(ends, greatest, rounded_quotient<Scalar>(w, den));
+  }
+
+  /// Two lines that cross, if they are in one plane: r + t d = w g, so that t = (r × g)·axis / (g × d)·axis and
+  /// w = (d × r)·axis / (d × g)·axis.
+  [[gnu::noinline]] std::optional<Contact> across_span(std::size_t axis, const Span& ends, const Differences<Scalar>& r,
+                                                       const Differences<Scalar>& g, const PathRange<Scalar>& range,
+                                                       Parameter& t, Weights<Scalar>* weights) {
+    const auto across = cross_component(d_, g, axis);
+    const auto w = cross_component(d_, r, axis);
+    const auto from_end = across - w;
+    const int side = across.sign();
+    if (w.sign() * side < 0 || from_end.sign() * side < 0) return std::nullopt;
+    t.set(cross_component(g, r, axis), across);
+    const std::optional<Contact> contact = cut(t, t, range, t);
+    if (contact && weights != nullptr) *weights = span_weights(ends, w, across);
+    return contact;
+  }
+
+  /// An axis along which the path and the span are seen to cross; none if they pass each other.
+  [[gnu::noinline]] std::optional<std::size_t> crossing_axis(const Differences<Scalar>& r,
+                                                             const Differences<Scalar>& g) const {
+    WideVector<B::cross> cross;
+    set_cross(cross, d_, g);
+    WideInt<B::det> height;
+    set_dot(height, r, cross);
+    return height.is_zero() ? std::optional(nonzero_axis(cross)) : std::nullopt;
+  }
+
+  /// A path of no length: it is at t = 0, and touches what contains its start.
+  [[gnu::noinline]] std::optional<Contact> standing_point(const PathRange<Scalar>& range, Parameter& t,
+                                                          Weights<Scalar>* weights) {
+    if (!(range.first <= 0 && range.last >= 0)) return std::nullopt;
+    t.set(WideInt<1>(), WideInt<1>::power_of_two(0));
+    Contact contact = {};
+    contact.at_start = path_.has_start();
+    contact.at_end = path_.has_end();
+    return contains_start(weights) ? std::optional(contact) : std::nullopt;
+  }
+
+  bool contains_start(Weights<Scalar>* weights) const {
+    const Plane plane = find_plane();
+    if (plane.is_degenerate) return on_span(weights);
+    return plane.contains_start && on_plane(plane, weights);
+  }
+
+  /// Whether the start, which is in the triangle's plane, lies on the triangle.
+  [[gnu::noinline]] bool on_plane(const Plane& plane, Weights<Scalar>* weights) const {
+    const WideInt<B::cross>& n = plane.normal;
+    const auto u = cross_component(s_, e2_, plane.axis);
+    const auto v = cross_component(e1_, s_, plane.axis);
+    const auto w = n - (u + v);
+    const int side = n.sign();
+    if (u.sign() * side < 0 || v.sign() * side < 0 || w.sign() * side < 0) return false;
+    if (weights != nullptr) *weights = {rounded_quotient<Scalar>(u, n), rounded_quotient<Scalar>(v, n)};
+    return true;
+  }
+
+  /// Whether the start lies on the segment or the point that the corners span.
+  [[gnu::noinline]] bool on_span(Weights<Scalar>* weights) const {
+    const Span ends = span();
+    Differences<Scalar> r;
+    Differences<Scalar> g;
+    set_span_differences(ends, r, g);
+    if (is_zero(g)) return is_zero(r);
+    if (!are_parallel(r, g)) return false;
+    const std::size_t axis = nonzero_axis(g);
+    const auto from_end = g[axis] - r[axis];
+    if (r[axis].sign() * g[axis].sign() < 0 || from_end.sign() * g[axis].sign() < 0) return false;
+    if (weights != nullptr) *weights = span_weights(ends, r[axis], g[axis]);
+    return true;
+  }
+
+  const Path<Scalar>& path_;
+  const Triangle<Scalar>& triangle_;
+  const Scale<Scalar>& scale_;
+  Differences<Scalar> d_;
+  Differences<Scalar> e1_;
+  Differences<Scalar> e2_;
+  Differences<Scalar> s_;
+};
+
+}  // namespace surehit::detail

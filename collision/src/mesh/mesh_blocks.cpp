@@ -1,0 +1,224 @@
+#include "mesh/mesh_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <type_traits>
+
+#include "filter/kernel_bound.hpp"
+#include "mesh/slab_fitter.hpp"
+#include "query/list_cells.hpp"
+#include "support/in_parts.hpp"
+
+namespace surehit {
+namespace {
+
+/// What the widest vector load may read beyond the last triangle.
+constexpr std::size_t slack = 64;
+/// In an executor's task.
+constexpr std::size_t lists_in_a_part = std::size_t{1} << 12;
+constexpr std::size_t top_cells_in_a_part = std::size_t{1} << 14;
+
+template <typename Fill>
+void fill_all(const Grid& grid, const Executor* executor, const Fill& fill) {
+  detail::in_parts(executor, grid.lists().size() - 1, lists_in_a_part, [&](std::size_t first, std::size_t last) {
+    for (std::size_t list = first; list < last; ++list) fill(CellWord::listing(static_cast<std::uint32_t>(list)));
+  });
+}
+
+/// Whether a slab is half as thick as the box around the same triangles, or thinner.
+bool is_thin(CellSlab slab, CellBox box) {
+  float of_box = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto normal = static_cast<float>(std::abs(slab.normal(axis)));
+    of_box += normal * static_cast<float>(box.high(axis) - box.low(axis)) / CellBox::parts;
+  }
+  return static_cast<float>(slab.high() + 1 - slab.low()) * CellSlab::step <= of_box / 2;
+}
+
+/// Whether of some lists no more than one in four has a slab that is not thin; of few lists none is asked for. `fit`
+/// gives the slab of a cell's list.
+template <typename Fit>
+bool is_smooth(const Grid& grid, const Fit& fit) {
+  constexpr std::size_t samples = 32;
+  constexpr std::size_t few = 8;
+  const std::size_t tops = grid.top().size();
+  std::size_t thin = 0;
+  std::size_t thick = 0;
+  for (std::size_t sample = 0; sample < samples && 4 * thick <= samples; ++sample) {
+    // The first list from some cell on.
+    std::size_t top = tops * sample / samples;
+    const std::size_t end = tops * (sample + 1) / samples;
+    const auto is_list = [](CellWord word) { return !word.is_empty() && !word.is_divided(); };
+    while (top < end && !is_list(grid.top()[top])) ++top;
+    if (top == end) continue;
+    detail::visit_list_cells(grid, top, top + 1, [&](const detail::ListCell& cell) {
+      (is_thin(fit(cell), grid.box(cell.word)) ? thin : thick) += 1;
+    });
+  }
+  return 3 * thick <= thin && thin + thick > few;
+}
+
+}  // namespace
+
+template <typename Scalar>
+MeshBlocks<Scalar>::MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor) {
+  copy_vertices(mesh);
+  constexpr std::size_t most_short_indices = std::size_t{1} << 16;
+  if (mesh.vertex_count() <= most_short_indices) {
+    copy_corners<std::uint16_t>(mesh);
+  } else {
+    copy_corners<std::uint32_t>(mesh);
+  }
+  fill_blocks(*this, grid, executor, Slabs::where_smooth);
+}
+
+template <typename Scalar>
+void MeshBlocks<Scalar>::rebuild(MeshBlocks& old, const VertexView<Scalar>& vertices, const Grid& grid,
+                                 const Executor* executor) {
+  copy_vertices(old.view_with(vertices));
+  fill_blocks(old, grid, executor, Slabs::none);
+  corners_.swap(old.corners_);
+}
+
+template <typename Scalar>
+void MeshBlocks<Scalar>::copy_vertices(const TriangleMeshView<Scalar>& mesh) {
+  vertices_.resize(mesh.vertex_count() + 1);
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) vertices_[i] = mesh.vertex(i);
+  vertices_.back().setZero();
+}
+
+template <typename Scalar>
+template <typename Index>
+void MeshBlocks<Scalar>::copy_corners(const TriangleMeshView<Scalar>& mesh) {
+  auto& triangles = corners_.template emplace<Corners<Index>>(mesh.triangle_count());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) triangles[i][k] = static_cast<Index>(mesh.corner(i, k));
+  }
+}
+
+/// With the triangles of `indexed`.
+template <typename Scalar>
+void MeshBlocks<Scalar>::fill_blocks(const MeshBlocks& indexed, const Grid& grid, const Executor* executor,
+                                     Slabs wanted) {
+  indexed.with_corners([&](const auto& triangles) { fill_blocks(triangles, grid, executor, wanted); });
+}
+
+template <typename Scalar>
+template <typename Index>
+void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor,
+                                     [[maybe_unused]] Slabs wanted) {
+  blocks_.resize(offset(grid.lists().size(), grid.entries().size()) + slack);
+  Scalar largest = 0;
+  for (const Vector3<Scalar>& vertex : vertices_) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  const bool too_large = !(largest <= detail::KernelBound<Scalar>::largest_size / 2);
+  using Four = Eigen::Matrix<Scalar, 4, 1>;
+  using FourPoints = Eigen::Matrix<Scalar, 4, 4>;
+  const auto fill_four = [&](const std::uint32_t* ids, Scalar* list, std::size_t count, Four& longest) {
+    std::array<FourPoints, 3> corners;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::array<Index, 3>& triangle = triangles[ids[k]];
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const Vector3<Scalar>& vertex = vertices_[triangle[corner]];
+        corners[corner].col(static_cast<Eigen::Index>(k)) = Eigen::Map<const Four>(vertex.data());
+      }
+    }
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      corners[corner].transposeInPlace();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        Eigen::Map<Four>(list + (3 * corner + axis) * count) = corners[corner].col(static_cast<Eigen::Index>(axis));
+      }
+    }
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      for (const std::size_t corner : {1U, 2U}) {
+        longest = longest.cwiseMax((corners[corner].col(axis) - corners[0].col(axis)).cwiseAbs());
+      }
+    }
+  };
+  const auto fill = [&](CellWord word) {
+    const std::span<const std::uint32_t> ids = grid.triangles(word);
+    Scalar* edge_size = blocks_.data() + offset(word.number(), grid.first_entry(word));
+    Scalar* list = edge_size + 1;
+    Four longest = Four::Zero();
+    if (ids.size() >= 4) {
+      for (std::size_t i = 0; i + 4 < ids.size(); i += 4) fill_four(ids.data() + i, list + i, ids.size(), longest);
+      // The last four, some of them for the second time.
+      fill_four(&ids.back() - 3, list + ids.size() - 4, ids.size(), longest);
+    } else {
+      std::array<std::uint32_t, 4> four;
+      four.fill(ids.back());
+      std::copy(ids.begin(), ids.end(), four.begin());
+      std::array<Scalar, coordinates * 4> of_four;
+      fill_four(four.data(), of_four.data(), 4, longest);
+      for (std::size_t k = 0; k < coordinates; ++k) {
+        std::copy_n(of_four.data() + 4 * k, ids.size(), list + k * ids.size());
+      }
+    }
+    *edge_size = too_large ? std::numeric_limits<Scalar>::infinity() : longest.maxCoeff();
+  };
+  slabs_.clear();
+  if (grid.lists().empty()) return;
+  if constexpr (std::is_same_v<Scalar, float>) {
+    if (wanted == Slabs::where_smooth && grid.frame().has_floats && try_fill_with_slabs(grid, executor, fill)) return;
+  }
+  fill_all(grid, executor, fill);
+}
+
+/// If the mesh is smooth.
+template <typename Scalar>
+template <typename Fill>
+bool MeshBlocks<Scalar>::try_fill_with_slabs(const Grid& grid, const Executor* executor, const Fill& fill) {
+  const detail::SlabFitter fitter(grid.frame());
+  const auto fit = [&](const detail::ListCell& cell) {
+    const std::size_t first_entry = grid.first_entry(cell.word);
+    return fitter.fit(cell, corners(block(cell.word.number(), first_entry)), grid.entry_count(cell.word));
+  };
+  const auto fill_and_fit = [&](const detail::ListCell& cell) {
+    fill(cell.word);
+    return fit(cell);
+  };
+  if (!is_smooth(grid, fill_and_fit)) return false;
+  slabs_.resize(grid.lists().size() - 1);
+  const auto keep_fitted = [&](const detail::ListCell& cell) { slabs_[cell.word.number()] = fit(cell); };
+  if (executor == nullptr) {
+    // Each one while its triangles are in the cache.
+    detail::visit_list_cells(grid, 0, grid.top().size(), [&](const detail::ListCell& cell) {
+      fill(cell.word);
+      keep_fitted(cell);
+    });
+    return true;
+  }
+  // What is read beyond a list's end may be another task's to fill.
+  fill_all(grid, executor, fill);
+  detail::in_parts(executor, grid.top().size(), top_cells_in_a_part, [&](std::size_t first, std::size_t last) {
+    detail::visit_list_cells(grid, first, last, keep_fitted);
+  });
+  return true;
+}
+
+template <typename Scalar>
+TriangleMeshView<Scalar> MeshBlocks<Scalar>::view() const noexcept {
+  return view_with(std::span<const Vector3<Scalar>>(vertices_.data(), vertices_.empty() ? 0 : vertices_.size() - 1));
+}
+
+template <typename Scalar>
+TriangleMeshView<Scalar> MeshBlocks<Scalar>::view_with(const VertexView<Scalar>& vertices) const noexcept {
+  return with_corners([&](const auto& triangles) -> TriangleMeshView<Scalar> {
+    return {vertices.data, vertices.count, triangles.empty() ? nullptr : triangles.front().data(), triangles.size(),
+            vertices.stride};
+  });
+}
+
+template <typename Scalar>
+std::size_t MeshBlocks<Scalar>::memory_bytes() const noexcept {
+  const std::size_t corner_bytes =
+      with_corners([](const auto& triangles) { return triangles.capacity() * sizeof(triangles.front()); });
+  return vertices_.capacity() * sizeof(Vector3<Scalar>) + corner_bytes + blocks_.capacity() * sizeof(Scalar) +
+         slabs_.capacity() * sizeof(CellSlab);
+}
+
+template class MeshBlocks<float>;
+template class MeshBlocks<double>;
+
+}  // namespace surehit

@@ -1,0 +1,489 @@
+// Many paths side by side in a grid, for the instruction set that Highway compiles this for.
+
+#if defined(SUREHIT_LANE_WALK_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SUREHIT_LANE_WALK_INL
+#undef SUREHIT_LANE_WALK_INL
+#else
+#define SUREHIT_LANE_WALK_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "filter/kernel_path.hpp"
+#include "query/lane_bits-inl.hpp"
+#include "walk/grid_traversal.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace surehit::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Up to the widest vector of today.
+using FloatTag = hn::CappedTag<float, 16>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using BitsTag = hn::RebindToUnsigned<FloatTag>;
+using Floats = hn::Vec<FloatTag>;
+using Ints = hn::Vec<IntTag>;
+using Words = hn::Vec<BitsTag>;
+
+/// As many as the vectors have, or more where only the machine knows.
+constexpr std::size_t most_lanes = hn::MaxLanes(FloatTag());
+
+/// Toward zero, of numbers that an integer holds: for any other one Highway's conversion spends four operations on x86.
+HWY_INLINE Ints to_ints(Floats x) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
+  using FloatLanes = float __attribute__((vector_size(sizeof(x.raw))));
+  using IntLanes = std::int32_t __attribute__((vector_size(sizeof(x.raw))));
+  const auto lanes = __builtin_convertvector(reinterpret_cast<FloatLanes>(x.raw), IntLanes);
+  return Ints{reinterpret_cast<decltype(Ints::raw)>(lanes)};
+#else
+  return hn::ConvertTo(IntTag(), x);
+#endif
+}
+
+/// A number for each lane. In memory: a step loads what it needs. Lanes are filled by stores of all of them: a load of
+/// all has to wait for a store of one.
+using LaneFloats = std::array<float, most_lanes>;
+using LaneIndices = std::array<std::int32_t, most_lanes>;
+
+/// Paths as `GridTraversal` walks them, one in each lane; what that says of a single one holds for each.
+struct alignas(most_lanes * sizeof(float)) WalkingPaths {
+  std::array<LaneFloats, 3> start;
+  std::array<LaneFloats, 3> rate;
+  std::array<LaneFloats, 3> inverse_rate;
+  std::array<LaneFloats, 3> finest;  ///< the cell in which the walk stands
+  std::array<LaneFloats, 3> pitch;   ///< of top cells, as the path is mirrored
+  LaneFloats first_cell;             ///< index of the top cell at the origin, as the path is mirrored
+  LaneFloats enters;                 ///< t at which the walk begins, where tau is 0
+  LaneFloats end;
+  std::array<std::uint32_t, most_lanes> octant;
+
+  /// What the path meets beyond parameter t is of no interest any more.
+  void shorten(std::size_t lane, double t) { end[lane] = std::min(end[lane], PlacedPath::beyond(t, enters[lane])); }
+
+  /// Lane i, where bit i is set, becomes lane `from_lane[i]` of other paths.
+  HWY_INLINE void take(std::uint32_t lanes, const WalkingPaths& from, const LaneIndices& from_lane) {
+    const auto indices = hn::Load(IntTag(), from_lane.data());
+    const auto take_all = [&](auto d, auto& to, const auto& of) {
+      const auto taken = hn::TableLookupLanes(hn::Load(d, of.data()), hn::IndicesFromVec(d, indices));
+      hn::Store(hn::IfThenElse(mask_of(d, lanes), taken, hn::Load(d, to.data())), d, to.data());
+    };
+    const FloatTag d;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      take_all(d, start[axis], from.start[axis]);
+      take_all(d, rate[axis], from.rate[axis]);
+      take_all(d, inverse_rate[axis], from.inverse_rate[axis]);
+      take_all(d, finest[axis], from.finest[axis]);
+      take_all(d, pitch[axis], from.pitch[axis]);
+    }
+    take_all(d, first_cell, from.first_cell);
+    take_all(d, enters, from.enters);
+    take_all(d, end, from.end);
+    take_all(BitsTag(), octant, from.octant);
+  }
+};
+
+/// The same paths as the kernel takes them.
+struct alignas(most_lanes * sizeof(float)) KernelLanes {
+  std::array<LaneFloats, 3> start;
+  std::array<LaneFloats, 3> d;
+  LaneFloats d_size;
+  LaneFloats reach;
+
+  [[nodiscard]] KernelPath<float> at(std::size_t lane) const {
+    KernelPath<float> path;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      path.start[axis] = start[axis][lane];
+      path.d[axis] = d[axis][lane];
+    }
+    path.d_size = d_size[lane];
+    path.reach = reach[lane];
+    return path;
+  }
+};
+
+/// What places and walks the lanes of one grid, whose frame must be one of floats.
+class LaneWalk {
+ public:
+  /// `slabs` may be null.
+  LaneWalk(const Grid& grid, const CellSlab* slabs) : grid_(grid), frame_(grid.frame()), slabs_(slabs) {}
+
+  /// Lanes that take part, a bit for each.
+  struct Placed {
+    std::uint32_t inside;  ///< they walk
+    std::uint32_t apart;   ///< their paths must be placed by `PlacedPath`
+  };
+
+  /// Places paths of six floats each, start and end or direction, of which all lanes' can be read and `count` are
+  /// there. The bound is derived in grid_traversal.cpp: starts within one width of the grid, in float.
+  HWY_INLINE Placed place(const float* paths, bool is_segment, float first_t, float last_t, std::size_t count,
+                          WalkingPaths& placed, KernelLanes& kernel_paths) const {
+    const FloatTag d;
+    const BitsTag du;
+    // Each half holds starts and ends by turns.
+    Floats near_half[3];
+    Floats far_half[3];
+    hn::LoadInterleaved3(d, paths, near_half[0], near_half[1], near_half[2]);
+    hn::LoadInterleaved3(d, paths + 3 * hn::Lanes(d), far_half[0], far_half[1], far_half[2]);
+    const Floats zero = hn::Zero(d);
+    Floats enters = hn::Set(d, first_t);
+    Floats leaves = hn::Set(d, last_t);
+    Floats fastest = zero;
+    Floats start_size = zero;
+    Floats way_size = zero;
+    Floats reach = zero;
+    Floats first_cell = zero;
+    Words octant = hn::Zero(du);
+    Floats from[3];
+    Floats by[3];
+    auto is_near = hn::Eq(zero, zero);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Floats scale = hn::Set(d, frame_.float_scale[k]);
+      const Floats stop = hn::Set(d, frame_.float_stop[k]);
+      const Floats start = hn::ConcatEven(d, far_half[k], near_half[k]);
+      const Floats toward = hn::ConcatOdd(d, far_half[k], near_half[k]);
+      const Floats way = is_segment ? hn::Sub(toward, start) : toward;
+      const Floats move = hn::Mul(way, scale);
+      const Floats place =
+          hn::MulAdd(hn::Sub(start, hn::Set(d, frame_.float_low[k])), scale, hn::Set(d, frame_.margin[k]));
+      is_near = hn::And(is_near, hn::And(hn::Ge(place, hn::Neg(stop)), hn::Le(place, hn::Add(stop, stop))));
+      hn::Store(start, d, kernel_paths.start[k].data());
+      hn::Store(way, d, kernel_paths.d[k].data());
+      start_size = hn::Max(start_size, hn::Abs(start));
+      way_size = hn::Max(way_size, hn::Abs(way));
+      const Floats from_low = hn::Sub(start, hn::Set(d, frame_.float_box_low[k]));
+      const Floats from_high = hn::Sub(start, hn::Set(d, frame_.float_box_high[k]));
+      Floats reach_here = hn::Max(hn::Abs(from_low), hn::Abs(from_high));
+      if (is_segment) reach_here = hn::Min(reach_here, hn::Add(hn::Abs(way), hn::Set(d, frame_.float_cell_size[k])));
+      reach = hn::Max(reach, reach_here);
+      const auto falls = hn::Lt(move, zero);
+      from[k] = hn::IfThenElse(falls, hn::Sub(stop, place), place);
+      const Floats speed = hn::Abs(move);
+      is_near = hn::And(is_near, hn::Le(speed, hn::Set(d, PlacedPath::fast)));
+      fastest = hn::Max(fastest, speed);
+      // A path that stands still on the axis never crosses a plane.
+      const auto stands = hn::Lt(speed, hn::Set(d, PlacedPath::least_rate));
+      by[k] = hn::IfThenElse(stands, zero, speed);
+      const Floats inverse =
+          hn::IfThenElse(stands, hn::Set(d, PlacedPath::greatest_inverse), hn::Div(hn::Set(d, 1.0F), speed));
+      enters = hn::Max(enters, hn::Mul(hn::Neg(from[k]), inverse));
+      leaves = hn::Min(leaves, hn::Mul(hn::Sub(stop, from[k]), inverse));
+      const Floats pitch = hn::Set(d, static_cast<float>(frame_.top_orders[0].pitch[k]));
+      const Floats turned = hn::Set(d, static_cast<float>(frame_.top_orders[std::size_t{1} << k].first));
+      hn::Store(hn::IfThenElse(falls, hn::Neg(pitch), pitch), d, placed.pitch[k].data());
+      hn::Store(inverse, d, placed.inverse_rate[k].data());
+      hn::Store(by[k], d, placed.rate[k].data());
+      first_cell = hn::IfThenElse(falls, hn::Add(first_cell, turned), first_cell);
+      octant = hn::Or(octant, hn::IfThenElseZero(hn::RebindMask(du, falls), hn::Set(du, 1U << k)));
+    }
+    const auto fits = hn::And(hn::Le(start_size, hn::Set(d, KernelBound<float>::largest_size / 2)),
+                              hn::Le(way_size, hn::Set(d, KernelBound<float>::largest_size)));
+    hn::Store(hn::IfThenElse(fits, way_size, hn::Set(d, std::numeric_limits<float>::infinity())), d,
+              kernel_paths.d_size.data());
+    hn::Store(reach, d, kernel_paths.reach.data());
+    auto is_plain = is_near;
+    if (!is_segment) is_plain = hn::And(is_plain, hn::Ge(fastest, hn::Set(d, PlacedPath::slow)));
+    const auto taken = hn::FirstN(d, count);
+    const auto inside = hn::And(hn::And(is_plain, taken), hn::Le(enters, leaves));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats last = hn::Set(d, frame_.float_stop[axis] * (1 - 0x1p-24F));
+      // In the grid for every lane: x86 takes the second operand, zero, where a path that is not placed makes it NaN.
+      const Floats entered = hn::Min(hn::Max(hn::MulAdd(enters, by[axis], from[axis]), zero), last);
+      hn::Store(entered, d, placed.start[axis].data());
+      hn::Store(hn::Floor(entered), d, placed.finest[axis].data());
+    }
+    const Floats last = hn::Set(d, last_t);
+    const Floats rounding = hn::MulAdd(hn::Add(hn::Abs(last), hn::Abs(enters)), hn::Set(d, 0x1p-22F),
+                                       hn::Set(d, std::numeric_limits<float>::min()));
+    hn::Store(hn::Add(hn::Sub(last, enters), rounding), d, placed.end.data());
+    hn::Store(enters, d, placed.enters.data());
+    hn::Store(first_cell, d, placed.first_cell.data());
+    hn::Store(octant, du, placed.octant.data());
+    return {static_cast<std::uint32_t>(bits_of(d, inside)),
+            static_cast<std::uint32_t>(bits_of(d, hn::AndNot(is_plain, taken)))};
+  }
+
+  /// Cuts a path, from some tau on, into pieces, one after the other, one for each lane. To begin a walk at some tau is
+  /// to go on with it there: the place is rounded as in any step.
+  HWY_INLINE void cut(const PlacedPath& path, float enters, WalkingPaths& pieces) const {
+    const FloatTag d;
+    const std::size_t last_lane = hn::Lanes(d) - 1;
+    const Floats from = hn::Set(d, enters);
+    const Floats length = hn::Set(d, (std::min(path.end, path.exit) - enters) / static_cast<float>(last_lane + 1));
+    const Floats whole = hn::Set(d, path.end);
+    const Floats begin = hn::MulAdd(hn::Iota(d, 0.0F), length, from);
+    const Floats end = hn::MulAdd(hn::Iota(d, 1.0F), length, from);  // where the next one begins
+    hn::Store(hn::IfThenElse(hn::FirstN(d, last_lane), hn::Min(end, whole), whole), d, pieces.end.data());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats last = hn::Set(d, frame_.float_stop[axis] * (1 - 0x1p-24F));
+      const Floats place = hn::MulAdd(begin, hn::Set(d, path.rate[axis]), hn::Set(d, path.start[axis]));
+      hn::Store(hn::Floor(hn::Min(place, last)), d, pieces.finest[axis].data());
+    }
+    repeat(path, pieces);
+  }
+
+  /// Whether a path can be spread: in fewer lanes it is walked as fast, and the bound on `Crossings::rate` presupposes
+  /// that the place is rounded once.
+  static constexpr bool can_spread = HWY_NATIVE_FMA != 0 && most_lanes >= 8;
+
+  /// The planes that a path crosses from some tau on, numbered from 1: those on x, then those on y and on z. Number 0
+  /// is where it begins.
+  struct Crossings {
+    HWY_INLINE Crossings(const PlacedPath& any_path, float begins) : path(any_path), enters(begins) {
+      const Float4 first = to_float(to_int(path.start + enters * path.rate));
+      const Float4 end = to_float(to_int(path.start + std::min(path.end, path.exit) * path.rate));
+      const Float4 planes = end - first;
+      last_on_x = planes[0];
+      last_on_y = planes[0] + planes[1];
+      last = last_on_y + planes[2];
+      number_zero = first - Float4{0, last_on_x, last_on_y, 0};
+      rate = path.rate * (1 + 0x1p-22F);
+    }
+    const PlacedPath& path;
+    float enters;
+    Float4 rate;         ///< so much greater that no plane crossed by some tau is beyond the place then
+    Float4 number_zero;  ///< the plane that would have it if the axis were the first
+    float last_on_x;     ///< number
+    float last_on_y;
+    float last;
+  };
+
+  /// Makes lanes ready to `stand`.
+  HWY_INLINE void spread(const PlacedPath& path, WalkingPaths& cells) const {
+    const FloatTag d;
+    hn::Store(hn::Set(d, path.end), d, cells.end.data());
+    repeat(path, cells);
+  }
+
+  /// Stands in the cells behind as many crossings as there are lanes, from a number on, in a grid without levels.
+  /// Returns the lanes that it takes. Over all numbers no cell is left out, as is argued in grid_traversal.cpp.
+  HWY_INLINE std::uint32_t stand(const Crossings& crossings, float from, WalkingPaths& cells) const {
+    const FloatTag d;
+    const PlacedPath& path = crossings.path;
+    const Floats number = hn::Add(hn::Iota(d, 0.0F), hn::Set(d, from));
+    Floats crossed[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats plane = hn::Add(number, hn::Set(d, crossings.number_zero[axis]));
+      crossed[axis] = hn::Mul(hn::Sub(plane, hn::Set(d, path.start[axis])), hn::Set(d, path.inverse_rate[axis]));
+    }
+    const auto is_beyond_x = hn::Gt(number, hn::Set(d, crossings.last_on_x));
+    const auto is_beyond_y = hn::Gt(number, hn::Set(d, crossings.last_on_y));
+    const Floats crossing =
+        hn::IfThenElse(is_beyond_y, crossed[2], hn::IfThenElse(is_beyond_x, crossed[1], crossed[0]));
+    const Floats tau = hn::IfThenElse(hn::Eq(number, hn::Zero(d)), hn::Set(d, crossings.enters), crossing);
+    auto inside = hn::Le(number, hn::Set(d, crossings.last));
+    Floats cell[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      cell[axis] = hn::Floor(hn::MulAdd(tau, hn::Set(d, crossings.rate[axis]), hn::Set(d, path.start[axis])));
+      inside = hn::And(inside, hn::Lt(cell[axis], hn::Set(d, frame_.float_stop[axis])));
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      hn::Store(hn::IfThenElseZero(inside, cell[axis]), d, cells.finest[axis].data());
+    }
+    return static_cast<std::uint32_t>(bits_of(d, inside));
+  }
+
+  /// What the cells hold in which the walking lanes stand, undivided ones, and these cells' low corners and edges.
+  struct Cells {
+    Words word;
+    Floats low[3];
+    Floats size;
+  };
+  template <bool has_levels>
+  HWY_INLINE Cells look(const WalkingPaths& paths, std::uint32_t walking) const {
+    const FloatTag d;
+    const IntTag di;
+    const BitsTag du;
+    Cells cells;
+    const std::uint32_t levels = grid_.levels();
+    Ints finest[3];
+    Floats index = hn::Load(d, paths.first_cell.data());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      cells.low[axis] = hn::Load(d, paths.finest[axis].data());
+      Floats top = cells.low[axis];
+      if constexpr (has_levels) {
+        finest[axis] = to_ints(cells.low[axis]);
+        top = hn::ConvertTo(d, hn::ShiftRightSame(finest[axis], static_cast<int>(2 * levels)));
+      }
+      index = hn::MulAdd(top, hn::Load(d, paths.pitch[axis].data()), index);
+    }
+    // Idle lanes stand where they ended, or at the origin: in the grid.
+    const auto* top = reinterpret_cast<const std::uint32_t*>(grid_.top().data());
+    cells.word = hn::GatherIndex(du, top, to_ints(index));
+    cells.size = hn::Set(d, static_cast<float>(frame_.division));
+    if constexpr (has_levels) {
+      const auto walks = mask_of(du, walking);
+      const Words octant = hn::Load(du, paths.octant.data());
+      for (std::uint32_t level = levels; level-- > 0;) {
+        const auto divided =
+            hn::And(walks, hn::Eq(hn::And(cells.word, hn::Set(du, CellWord::divided_bits)), hn::Zero(du)));
+        if (hn::AllFalse(du, divided)) break;
+        Words cell = hn::ShiftLeft<6>(hn::ShiftRight<5>(cells.word));
+        for (int axis = 0; axis < 3; ++axis) {
+          const Words place = hn::BitCast(du, hn::ShiftRightSame(finest[axis], static_cast<int>(2 * level)));
+          const Words turned = hn::Sub(hn::Zero(du), hn::And(hn::ShiftRightSame(octant, axis), hn::Set(du, 1U)));
+          cell = hn::Add(cell, hn::ShiftLeftSame(hn::And(hn::Xor(place, turned), hn::Set(du, 3U)), 2 * axis));
+        }
+        const auto* bricks = reinterpret_cast<const std::uint32_t*>(grid_.bricks().data());
+        const Words inner = hn::GatherIndex(du, bricks, hn::BitCast(di, hn::IfThenElseZero(divided, cell)));
+        cells.word = hn::IfThenElse(divided, inner, cells.word);
+        cells.size =
+            hn::IfThenElse(hn::RebindMask(d, divided), hn::Set(d, static_cast<float>(1U << 2 * level)), cells.size);
+      }
+      const Ints within = hn::Sub(to_ints(cells.size), hn::Set(di, 1));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        cells.low[axis] = hn::ConvertTo(d, hn::AndNot(within, finest[axis]));
+      }
+    }
+    return cells;
+  }
+
+  /// Of lanes, those that stand in cells with lists.
+  HWY_INLINE static std::uint32_t in_lists(const Cells& cells, std::uint32_t standing) {
+    const BitsTag du;
+    const auto lists = hn::Eq(hn::And(cells.word, hn::Set(du, 15U)), hn::Zero(du));
+    return static_cast<std::uint32_t>(bits_of(du, lists)) & standing;
+  }
+
+  /// Of lanes that stand in cells with lists, those whose path may meet a triangle of the list: as
+  /// `GridTraversal::meets_box` and, where there are slabs, `GridTraversal::meets`.
+  HWY_INLINE std::uint32_t meet_lists(const Cells& cells, std::uint32_t standing, const WalkingPaths& paths) const {
+    const FloatTag d;
+    const IntTag di;
+    const BitsTag du;
+    const auto stands = mask_of(du, standing);
+    static_assert(sizeof(CellList) == 2 * sizeof(std::uint32_t));  // of which the box is the first half
+    const auto* lists = reinterpret_cast<const std::uint32_t*>(grid_.lists().data());
+    const Words list = hn::IfThenElseZero(stands, hn::ShiftRight<5>(cells.word));
+    const Words box = hn::GatherIndex(du, lists, hn::BitCast(di, hn::ShiftLeft<1>(list)));
+    const Words octant = hn::Load(du, paths.octant.data());
+    const Words last_part = hn::Set(du, CellBox::parts - 1);
+    const Floats part = hn::Mul(cells.size, hn::Set(d, 1.0F / CellBox::parts));
+    Floats enters = hn::Zero(d);
+    Floats leaves = hn::Load(d, paths.end.data());
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<std::size_t>(axis);
+      const auto falls = hn::Ne(hn::And(octant, hn::Set(du, 1U << axis)), hn::Zero(du));
+      const Words low = hn::And(hn::ShiftRightSame(box, 10 * axis), last_part);
+      const Words high = hn::And(hn::ShiftRightSame(box, 10 * axis + 5), last_part);
+      const Words first = hn::IfThenElse(falls, hn::Xor(high, last_part), low);
+      const Words last = hn::IfThenElse(falls, hn::Xor(low, last_part), high);
+      const auto place = [&](Words sides, Floats from) {
+        return hn::MulAdd(hn::ConvertTo(d, hn::BitCast(di, sides)), part, from);
+      };
+      const Floats padding = hn::Set(d, GridFrame::padding_share * frame_.float_stop[k]);
+      const Floats start = hn::Load(d, paths.start[k].data());
+      const Floats inverse = hn::Load(d, paths.inverse_rate[k].data());
+      const Floats near = place(first, hn::Sub(cells.low[k], padding));
+      const Floats far = place(last, hn::Add(cells.low[k], hn::Add(part, padding)));
+      enters = hn::Max(enters, hn::Mul(hn::Sub(near, start), inverse));
+      leaves = hn::Min(leaves, hn::Mul(hn::Sub(far, start), inverse));
+    }
+    const std::uint32_t meeting = static_cast<std::uint32_t>(bits_of(d, hn::Le(enters, leaves))) & standing;
+    if (slabs_ == nullptr || meeting == 0) return meeting;
+    return meeting & ~miss_slabs(cells, list, enters, leaves, paths);
+  }
+
+  /// Steps the walking lanes beyond their cells, or beyond the cubes of empty cells that begin with them. Returns those
+  /// that still walk.
+  HWY_INLINE std::uint32_t advance(const Cells& cells, std::uint32_t walking, WalkingPaths& paths) const {
+    const FloatTag d;
+    const BitsTag du;
+    const Words nibble = hn::Set(du, 15U);
+    const Words shift = hn::ShiftLeft<2>(hn::Load(du, paths.octant.data()));
+    const auto is_empty = hn::Ne(hn::And(cells.word, nibble), hn::Zero(du));
+    const Words distance = hn::IfThenElse(is_empty, hn::And(hn::Shr(cells.word, shift), nibble), hn::Set(du, 1U));
+    const Floats leap = hn::Mul(hn::ConvertTo(d, hn::BitCast(IntTag(), distance)), cells.size);
+    Floats plane[3];
+    Floats crossing[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      plane[axis] = hn::Add(cells.low[axis], leap);
+      crossing[axis] = hn::Mul(hn::Sub(plane[axis], hn::Load(d, paths.start[axis].data())),
+                               hn::Load(d, paths.inverse_rate[axis].data()));
+    }
+    const Floats tau = hn::Min(hn::Min(crossing[0], crossing[1]), crossing[2]);
+    auto inside = hn::Lt(tau, hn::Load(d, paths.end.data()));
+    const auto walks = mask_of(d, walking);
+    Floats finest[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats place =
+          hn::Floor(hn::MulAdd(tau, hn::Load(d, paths.rate[axis].data()), hn::Load(d, paths.start[axis].data())));
+      const Floats least = hn::Load(d, paths.finest[axis].data());
+      finest[axis] = hn::IfThenElse(hn::Eq(crossing[axis], tau), plane[axis], hn::Max(place, least));
+      inside = hn::And(inside, hn::Lt(finest[axis], hn::Set(d, frame_.float_stop[axis])));
+    }
+    inside = hn::And(inside, walks);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats least = hn::Load(d, paths.finest[axis].data());
+      hn::Store(hn::IfThenElse(inside, finest[axis], least), d, paths.finest[axis].data());
+    }
+    return static_cast<std::uint32_t>(bits_of(d, inside));
+  }
+
+ private:
+  /// Lanes whose path passes by the slab of their list, in the box of which it is between these taus.
+  HWY_INLINE std::uint32_t miss_slabs(const Cells& cells, Words list, Floats enters, Floats leaves,
+                                      const WalkingPaths& paths) const {
+    const FloatTag d;
+    const IntTag di;
+    const BitsTag du;
+    const auto* slabs = reinterpret_cast<const std::int32_t*>(slabs_);
+    const Ints slab = hn::GatherIndex(di, slabs, hn::BitCast(di, list));
+    const Words octant = hn::Load(du, paths.octant.data());
+    const Floats half = hn::Mul(cells.size, hn::Set(d, 0.5F));
+    Floats at_entry = hn::Zero(d);
+    Floats at_exit = hn::Zero(d);
+    Floats slack = hn::Zero(d);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<std::size_t>(axis);
+      const Floats component = hn::ConvertTo(d, hn::ShiftRight<27>(hn::ShiftLeftSame(slab, 27 - 5 * axis)));
+      // Its sign is turned where the path falls.
+      const Floats turned = hn::BitCast(d, hn::ShiftLeftSame(hn::And(octant, hn::Set(du, 1U << axis)), 31 - axis));
+      const Floats normal = hn::Xor(component, turned);
+      const Floats to_start = hn::Sub(hn::Load(d, paths.start[k].data()), hn::Add(cells.low[k], half));
+      const Floats rate = hn::Load(d, paths.rate[k].data());
+      at_entry = hn::MulAdd(hn::MulAdd(enters, rate, to_start), normal, at_entry);
+      at_exit = hn::MulAdd(hn::MulAdd(leaves, rate, to_start), normal, at_exit);
+      slack = hn::MulAdd(hn::Abs(component), hn::Set(d, GridFrame::padding_share * frame_.float_stop[k]), slack);
+    }
+    const Floats step = hn::Mul(cells.size, hn::Set(d, CellSlab::step));
+    const Floats first = hn::ConvertTo(d, hn::ShiftRight<24>(hn::ShiftLeft<8>(slab)));
+    const Floats last = hn::ConvertTo(d, hn::Add(hn::ShiftRight<24>(slab), hn::Set(di, 1)));
+    const Floats low = hn::Sub(hn::Mul(first, step), slack);
+    const Floats high = hn::MulAdd(last, step, slack);
+    const auto below = hn::Lt(hn::Max(at_entry, at_exit), low);
+    const auto above = hn::Gt(hn::Min(at_entry, at_exit), high);
+    return static_cast<std::uint32_t>(bits_of(d, hn::Or(below, above)));
+  }
+
+  /// Puts one path into all lanes, but for where each stands and ends.
+  HWY_INLINE void repeat(const PlacedPath& path, WalkingPaths& paths) const {
+    const FloatTag d;
+    const GridFrame::TopOrder& order = frame_.top_orders[path.octant];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      hn::Store(hn::Set(d, path.start[axis]), d, paths.start[axis].data());
+      hn::Store(hn::Set(d, path.rate[axis]), d, paths.rate[axis].data());
+      hn::Store(hn::Set(d, path.inverse_rate[axis]), d, paths.inverse_rate[axis].data());
+      hn::Store(hn::Set(d, static_cast<float>(order.pitch[axis])), d, paths.pitch[axis].data());
+    }
+    hn::Store(hn::Set(d, static_cast<float>(order.first)), d, paths.first_cell.data());
+    hn::Store(hn::Set(BitsTag(), path.octant), BitsTag(), paths.octant.data());
+  }
+
+  const Grid& grid_;
+  const GridFrame& frame_;
+  const CellSlab* slabs_;
+};
+
+}  // namespace surehit::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
