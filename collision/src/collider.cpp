@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include "collider_state.hpp"
@@ -142,8 +144,11 @@ Collider<Scalar>& Collider<Scalar>::operator=(const Collider& other) {
 
 template <typename Scalar>
 const State<Scalar>& Collider<Scalar>::state() const noexcept {
-  static const State<Scalar> empty;
-  return state_ ? *state_ : empty;
+  if (state_) return *state_;
+  // Never destroyed: a collider may be asked until the program ends.
+  alignas(State<Scalar>) static std::byte memory[sizeof(State<Scalar>)];
+  static const State<Scalar>& empty = *new (memory) State<Scalar>;
+  return empty;
 }
 
 template <typename Scalar>
@@ -178,7 +183,7 @@ std::optional<InvalidMesh> Collider<Scalar>::move_vertices(const VertexView<Scal
   }
   const TriangleMeshView<Scalar> mesh = state().mesh.view_with(vertices);
   if (std::optional<InvalidMesh> invalid = find_invalid(mesh)) return invalid;
-  if (!state_) return std::nullopt;  // no vertices, as before
+  if (!state_) return std::nullopt;  // there were no vertices, and there are none
   const Box<Scalar> box = box_of(mesh);
   auto& spare = state_->spare;
   spare.grid.rebuild(mesh, box, state_->grid_options, spare.scratch, executor);

@@ -178,5 +178,21 @@ TYPED_TEST(ColliderMesh, moves_along_with_its_collider) {
   EXPECT_EQ(assigned.first_hit(this->downwards, {.mask = 1})->triangle, 0u);
 }
 
+TYPED_TEST(ColliderMesh, is_of_no_triangles_where_it_was_moved_from) {
+  Collider<TypeParam> original(stack_of_triangles<TypeParam>(3).view());
+  const Collider<TypeParam> moved = std::move(original);
+  EXPECT_EQ(original.triangle_count(), 0u);  // NOLINT(bugprone-use-after-move): it says what is left
+  EXPECT_TRUE(original.box().is_empty());
+  EXPECT_EQ(original.grid_summary().cells, 0u);
+  EXPECT_EQ(original.memory_bytes(), 0u);
+  EXPECT_FALSE(original.any_hit(this->downwards));
+  EXPECT_FALSE(original.try_rebuild(VertexView<TypeParam>(nullptr, 0)));
+  const Collider<TypeParam> copy = original;
+  EXPECT_FALSE(copy.first_hit(this->downwards));
+  ASSERT_FALSE(original.try_build(stack_of_triangles<TypeParam>(2).view()));
+  EXPECT_EQ(original.first_hit(this->downwards)->triangle, 1u);
+  EXPECT_EQ(moved.first_hit(this->downwards)->triangle, 2u);
+}
+
 }  // namespace
 }  // namespace surehit::test

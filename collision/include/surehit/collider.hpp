@@ -194,7 +194,7 @@ class Collider {
   std::optional<InvalidMesh> move_vertices(const VertexView<Scalar>&, const Executor*);
 
   using StatePointer = std::unique_ptr<detail::ColliderState<Scalar>, detail::DeleteColliderState<Scalar>>;
-  StatePointer state_;  ///< none where there are no triangles
+  StatePointer state_;  ///< none before a build, and where it was moved from
 };
 
 using Colliderf = Collider<float>;
