@@ -53,19 +53,18 @@ typename EarClipper<Scalar>::Kind EarClipper<Scalar>::kind_of(std::uint32_t c) c
 }
 
 /// Looks at all other corners that are not outside the triangle p c n, which is closed. What comes into it otherwise
-/// would cross the outline.
+/// would cross the outline. An edge that comes in at p or n crosses it too, or is seen at its other corner.
 template <typename Scalar>
 typename EarClipper<Scalar>::Kind EarClipper<Scalar>::kind_of_ear(std::uint32_t p, std::uint32_t c,
                                                                   std::uint32_t n) const {
   const std::array<Corners, 3> edges = {{{p, c, 0}, {c, n, 0}, {n, p, 0}}};
 
-  // An edge from w, on the triangle's own edges, to x comes into the triangle if x is inside of each edge that w is on.
+  // An edge from w, which is in the triangle, to x comes inside if x is to the left of each of the edges that w is on.
   const auto comes_in = [&](std::uint32_t w, std::uint32_t x) {
     return std::all_of(edges.begin(), edges.end(), [&](const Corners& edge) {
       return turn_of(edge[0], edge[1], w) != 0 || turn_of(edge[0], edge[1], x) > 0;
     });
   };
-  if (comes_in(p, previous_[p]) || comes_in(n, next_[n])) return Kind::none;
 
   const auto x_of = [&](std::uint32_t corner) { return view_.x(outline_[corner]); };
   const auto y_of = [&](std::uint32_t corner) { return view_.y(outline_[corner]); };
@@ -77,10 +76,9 @@ typename EarClipper<Scalar>::Kind EarClipper<Scalar>::kind_of_ear(std::uint32_t 
   for (; at != by_x_.end() && x_of(*at) <= greatest_x; ++at) {
     const std::uint32_t w = *at;
     if (!is_left_[w] || w == p || w == c || w == n || y_of(w) < least_y || y_of(w) > greatest_y) continue;
-    int least_turn = 1;
-    for (const Corners& edge : edges) least_turn = std::min(least_turn, turn_of(edge[0], edge[1], w));
-    if (least_turn < 0) continue;
-    if (least_turn > 0 || comes_in(w, previous_[w]) || comes_in(w, next_[w])) return Kind::none;
+    const auto is_outside = [&](const Corners& edge) { return turn_of(edge[0], edge[1], w) < 0; };
+    if (std::any_of(edges.begin(), edges.end(), is_outside)) continue;
+    if (comes_in(w, previous_[w]) || comes_in(w, next_[w])) return Kind::none;
     if (view_.coincide(outline_[w], outline_[c]) && is_lined_inside(p, c, n, w)) return Kind::none;
     kind = Kind::touched_ear;
   }

@@ -58,16 +58,20 @@ class Words {
 /// What the first words say.
 struct OffHeader {
   std::size_t attributes = 0;  ///< numbers that follow the coordinates of a vertex; a color counts as 4
-  bool has_color = false;
+  /// How many numbers may follow them in a file with this first word, the likelier first.
+  std::vector<std::size_t> possible_attributes = {0, 4, 3};
   std::int64_t vertices = 0;
   std::int64_t faces = 0;
 };
 
-/// What the lines of a body look like.
+/// What the lines of a body look like. Lines are right where they may be a vertex or a face by their number of words.
 struct OffLines {
-  bool are_elements = false;        ///< as many as vertices and faces, those of vertices alike, those of faces right
-  bool are_right_elements = false;  ///< and but for a few they are right
-  bool are_right_vertices = false;  ///< most of those for which there are vertices
+  /// There is one for each element. Most of the first ones are alike, and half of the others are right faces.
+  bool are_elements = false;
+  /// There is one for each element, and all but a few are right.
+  bool are_right_elements = false;
+  /// Most of the first ones are right vertices, and alike.
+  bool are_right_vertices = false;
 };
 
 /// The header, and the words that follow it.
@@ -88,17 +92,10 @@ struct OffLayout {
   Faces faces = Faces::line_each;
 };
 
-/// How many numbers may follow the coordinates of a vertex, the likelier first.
-std::vector<std::size_t> attribute_counts_of(const OffHeader& header) {
-  if (header.attributes == 0) return {0, 4, 3};
-  if (header.has_color) return {header.attributes, header.attributes - 1};
-  return {header.attributes};
-}
-
 /// Whether a line of so many numbers may be a vertex of the usual kinds.
 bool is_vertex_line(std::size_t numbers, const OffHeader& header) {
-  const std::vector<std::size_t> attributes = attribute_counts_of(header);
-  return numbers >= 3 && std::find(attributes.begin(), attributes.end(), numbers - 3) != attributes.end();
+  const auto& possible = header.possible_attributes;
+  return numbers >= 3 && std::find(possible.begin(), possible.end(), numbers - 3) != possible.end();
 }
 
 /// Whether so many numbers behind the corners of a face are a color, or nothing.
@@ -208,9 +205,11 @@ void read_first_word(Words& words, OffHeader& header) {
   if (prefix.find_first_not_of("stcn") != std::string_view::npos || is_of_any_dimension) {
     throw InputError(quoted(first) + " is a kind of OFF file without 3 coordinates a vertex");
   }
-  header.has_color = prefix.find('c') != std::string_view::npos;
-  header.attributes = (prefix.find('n') != std::string_view::npos ? 3 : 0) + (header.has_color ? 4 : 0) +
+  const bool has_color = prefix.find('c') != std::string_view::npos;
+  header.attributes = (prefix.find('n') != std::string_view::npos ? 3 : 0) + (has_color ? 4 : 0) +
                       (prefix.find("st") != std::string_view::npos ? 2 : 0);
+  if (header.attributes > 0) header.possible_attributes = {header.attributes};
+  if (has_color) header.possible_attributes.push_back(header.attributes - 1);
   if (first.size() > at + magic.size()) words.put_back(first.substr(at + magic.size()));
 }
 
@@ -246,7 +245,7 @@ std::vector<OffBody> read_header(Words words) {
 /// The layouts in which an element need not be a line, the format's own first.
 std::vector<OffLayout> free_layouts_of(const OffHeader& header, OffLayout::Faces faces) {
   std::vector<OffLayout> layouts;
-  for (const std::size_t count : attribute_counts_of(header)) layouts.push_back({count, faces});
+  for (const std::size_t count : header.possible_attributes) layouts.push_back({count, faces});
   layouts.push_back({std::nullopt, faces});
   return layouts;
 }
@@ -258,6 +257,7 @@ bool is_face_line(std::string_view first, std::size_t words) {
          may_be_color(words - 1 - corners);
 }
 
+/// Looks at all lines, without reading their numbers.
 OffLines lines_of(OffBody body) {
   const auto vertices = static_cast<std::uint64_t>(body.header.vertices);
   const auto faces = static_cast<std::uint64_t>(body.header.faces);

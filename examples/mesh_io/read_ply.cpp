@@ -101,6 +101,7 @@ class PlyBodyReader {
   /// new strip. A triangle that names a corner twice leads on to another part of the strip, and is no surface.
   void read_strips(const PlyElement& element, std::uint64_t vertex_count) {
     std::vector<std::uint32_t> corners(3);
+    std::vector<std::uint32_t> face(3);
     for_each_list(element, [&](const PlyProperty& list, std::uint64_t size) {
       for (std::uint64_t in_strip = 0; size > 0; --size) {
         const std::int64_t index = values_.integer(list.type);
@@ -113,7 +114,8 @@ class PlyBodyReader {
         const auto [a, b, c] = std::tuple(corners[0], corners[1], corners[2]);
         if (in_strip < 3 || a == b || b == c || c == a) continue;
         const bool is_turned = in_strip % 2 == 0;
-        mesh_.add_face({is_turned ? b : a, is_turned ? a : b, c}, values_.line());
+        face = {is_turned ? b : a, is_turned ? a : b, c};
+        mesh_.add_face(face, values_.line());
       }
     });
   }
