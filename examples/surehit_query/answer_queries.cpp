@@ -126,18 +126,19 @@ void answer_pairs(const QueryRequest& request, const QueryOptions<Scalar>& optio
 template <typename Scalar>
 struct ReadCollider {
   Collider<Scalar> collider;
-  std::vector<std::uint32_t> faces;  ///< the face of each triangle; empty where each triangle is one
+  std::vector<std::uint32_t> ids;  ///< what the output calls each triangle; empty where that is its own id
 };
 
 template <typename Scalar>
 ReadCollider<Scalar> read_collider(const QueryRequest& request) {
   Mesh<Scalar> mesh = read_mesh<Scalar>(request.mesh_path);
   for (const std::string& warning : mesh.warnings) warn("surehit-query", request.mesh_path + ": " + warning);
-  const std::vector<std::uint32_t> masks = masks_of(request, mesh.triangles.size(), mesh.faces);
+  const std::vector<std::uint32_t> masks = masks_of(request, mesh);
   Collider<Scalar> collider;
   if (const auto invalid = collider.try_build(mesh.view(), {.masks = masks})) {
     throw InputError(request.mesh_path + ": " + invalid->what());
   }
+  if (request.ids == IdKind::triangle) mesh.faces.clear();
   return {std::move(collider), std::move(mesh.faces)};
 }
 
@@ -180,8 +181,7 @@ class MeshQueries {
   /// Appends the id, the contact and then whatever `append_between` does, before the columns that may be asked for.
   template <typename AppendBetween>
   void append_hit(const Shape& path, const Hit<Scalar>& hit, AppendBetween append_between, std::string& lines) const {
-    const bool by_face = request_.ids == IdKind::face && !mesh_.faces.empty();
-    append_number(by_face ? mesh_.faces[hit.triangle] : hit.triangle, lines);
+    append_number(mesh_.ids.empty() ? hit.triangle : mesh_.ids[hit.triangle], lines);
     append_contact(hit, lines);
     append_between();
     columns_.append(path, hit, mesh_.collider.triangle(hit.triangle), lines);

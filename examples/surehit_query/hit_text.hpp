@@ -1,12 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
-#include <initializer_list>
+#include <cstdint>
 #include <string>
-#include <string_view>
 #include <surehit/hit.hpp>
 #include <surehit/triangle.hpp>
+#include <surehit/triangle_mesh_view.hpp>
 
 namespace surehit::example {
 

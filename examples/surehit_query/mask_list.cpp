@@ -55,30 +55,33 @@ std::vector<std::uint32_t> read_masks(const std::string& path) {
   }
 }
 
-std::vector<std::uint32_t> masks_of(const QueryRequest& request, std::size_t triangle_count,
-                                    const std::vector<std::uint32_t>& faces) {
-  const std::size_t face_count = faces.empty() ? triangle_count : std::size_t{faces.back()} + 1;
-  const auto face_of = [&](std::size_t triangle) { return faces.empty() ? triangle : std::size_t{faces[triangle]}; };
+template <typename Scalar>
+std::vector<std::uint32_t> masks_of(const QueryRequest& request, const Mesh<Scalar>& mesh) {
+  const auto triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   check_is_there(request.ignored_triangle, triangle_count, "triangle");
-  check_is_there(request.ignored_face, face_count, "face");
+  check_is_there(request.ignored_face, mesh.face_count(), "face");
 
   std::vector<std::uint32_t> masks;
   if (!request.masks_path.empty()) {
     const std::vector<std::uint32_t> listed = read_masks(request.masks_path);
-    const bool is_by_face = listed.size() == face_count;
+    const bool is_by_face = listed.size() == mesh.face_count();
     if (!is_by_face && listed.size() != triangle_count) {
       throw InputError(request.masks_path + ": " + std::to_string(listed.size()) + " masks for " +
-                       std::to_string(triangle_count) + " triangles of " + std::to_string(face_count) + " faces");
+                       std::to_string(triangle_count) + " triangles of " + std::to_string(mesh.face_count()) +
+                       " faces");
     }
-    for (std::size_t i = 0; i < triangle_count; ++i) masks.push_back(listed[is_by_face ? face_of(i) : i]);
+    for (std::uint32_t i = 0; i < triangle_count; ++i) masks.push_back(listed[is_by_face ? mesh.face_of(i) : i]);
   }
   if (request.ignored_face) {
     masks.resize(triangle_count, all_bits);
-    for (std::size_t i = 0; i < triangle_count; ++i) {
-      if (face_of(i) == *request.ignored_face) masks[i] = 0;
+    for (std::uint32_t i = 0; i < triangle_count; ++i) {
+      if (mesh.face_of(i) == *request.ignored_face) masks[i] = 0;
     }
   }
   return masks;
 }
+
+template std::vector<std::uint32_t> masks_of(const QueryRequest&, const Mesh<float>&);
+template std::vector<std::uint32_t> masks_of(const QueryRequest&, const Mesh<double>&);
 
 }  // namespace surehit::example

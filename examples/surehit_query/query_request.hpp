@@ -31,8 +31,10 @@ struct QueryRequest {
   Culling culling = Culling::none;
   bool ignore_start_contact = false;
   bool ignore_end_contact = false;
-  std::uint32_t mask = ~std::uint32_t{0};  ///< not for `pair`, as all below but the columns
-  std::string masks_path;                  ///< none where empty
+
+  // These narrow a mesh, so `pair` has none of them.
+  std::uint32_t mask = ~std::uint32_t{0};
+  std::string masks_path;  ///< none where empty
   std::optional<std::uint32_t> ignored_triangle;
   std::optional<std::uint32_t> ignored_face;
 
@@ -40,7 +42,7 @@ struct QueryRequest {
   bool wants_points = false;
   bool wants_normals = false;
   bool wants_free_points = false;  ///< of `first` alone
-  bool wants_statistics = false;
+  bool wants_statistics = false;   ///< none of `pair`
 };
 
 }  // namespace surehit::example
