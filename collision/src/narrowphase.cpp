@@ -19,10 +19,10 @@ bool try_round(double lower, double upper, Scalar& rounded) {
 template <typename Scalar>
 bool try_round(const BoundedContact& bounded, Hit<Scalar>& hit) {
   if (bounded.verdict != Verdict::hit) return false;
-  const auto [least_u, greatest_u] = bounded.by_det.of(bounded.u_scaled);
-  const auto [least_v, greatest_v] = bounded.by_det.of(bounded.v_scaled);
-  return try_round(bounded.contact.t_lower, bounded.contact.t_upper, hit.t) && try_round(least_u, greatest_u, hit.u) &&
-         try_round(least_v, greatest_v, hit.v);
+  const auto [min_u, max_u] = bounded.by_det.of(bounded.u_scaled);
+  const auto [min_v, max_v] = bounded.by_det.of(bounded.v_scaled);
+  return try_round(bounded.contact.t_lower, bounded.contact.t_upper, hit.t) && try_round(min_u, max_u, hit.u) &&
+         try_round(min_v, max_v, hit.v);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 namespace surehit::detail {
 
-/// What a stage says of a path and a triangle. A miss or a hit is certain.
+/// The answer of a stage about a path and a triangle. A miss or a hit is certain.
 enum class Verdict : unsigned char { miss, hit, undecided };
 
 }  // namespace surehit::detail

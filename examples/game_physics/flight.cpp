@@ -48,7 +48,7 @@ void Flight::step(MovingPoint& point, float energy, Course& course) const {
   course.length_wanted += double{time_step * point.velocity.norm()};
   ++course.steps;
   float time_left = time_step;
-  for (int bounce = 0; bounce < most_bounces; ++bounce) {
+  for (int bounce = 0; bounce < max_bounces; ++bounce) {
     const Segmentf move{point.position, point.position + time_left * point.velocity};
     const auto contact = sweep_.first_contact(move);
     go(point, contact ? contact->stop : move.end, course);

@@ -31,7 +31,7 @@ class Flight {
   static constexpr float time_step = 0.25f;
   /// After so many bounces within a step the rest of the step is lost: a point that is caught in a corner is not to
   /// hang the game.
-  static constexpr int most_bounces = 64;
+  static constexpr int max_bounces = 64;
 
   Flight(const Arena& arena, const Sweep& sweep);
 

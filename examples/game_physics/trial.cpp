@@ -12,8 +12,8 @@
 namespace surehit::example {
 namespace {
 
-constexpr std::size_t most_trails = 24;
-constexpr std::size_t most_positions = 24;
+constexpr std::size_t max_trails = 24;
+constexpr std::size_t max_positions = 24;
 
 /// Draws starts. The standard's distributions differ between libraries, its engines do not.
 class StartDraw {
@@ -51,8 +51,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 /// The positions around one of them.
 Trail trail(const Course& course, std::size_t middle) {
-  const std::size_t first = middle - std::min(middle, most_positions / 2);
-  const std::size_t last = std::min(middle + most_positions, course.positions.size());
+  const std::size_t first = middle - std::min(middle, max_positions / 2);
+  const std::size_t last = std::min(middle + max_positions, course.positions.size());
   const auto at = [&](std::size_t i) { return course.positions.begin() + static_cast<std::ptrdiff_t>(i); };
   return {{at(first), at(last)}, middle - first};
 }
@@ -78,7 +78,7 @@ TrialReport report_on(const Course& course, const WallCheck& check, const Boxf& 
 
 void append(std::vector<Trail>& all, std::vector<Trail>& more) {
   for (Trail& trail : more) {
-    if (all.size() < most_trails) all.push_back(std::move(trail));
+    if (all.size() < max_trails) all.push_back(std::move(trail));
   }
 }
 
@@ -110,7 +110,7 @@ TrialReport run_trial(const std::string& title, const Arena& arena, const Sweep&
     const auto start = std::chrono::steady_clock::now();
     const Course course = flight.fly(points[i], options.steps);
     const double flight_seconds = seconds_since(start);
-    reports[i] = report_on(course, check, arena.room, i < most_trails);
+    reports[i] = report_on(course, check, arena.room, i < max_trails);
     reports[i].flight_seconds = flight_seconds;
   });
   TrialReport sum;

@@ -29,17 +29,17 @@ class AxisView {
     const double right = (double{y(a)} - double{y(c)}) * (double{x(b)} - double{x(c)});
     const double size = std::fabs(left) + std::fabs(right);
     const double determinant = left - right;
-    if (size > least_size && std::fabs(determinant) > relative_error * size) return determinant > 0 ? 1 : -1;
+    if (size > min_size && std::fabs(determinant) > relative_error * size) return determinant > 0 ? 1 : -1;
     return exact_orientation(a, b, c);
   }
 
  private:
   // Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates" (1997), section 4.2:
   // the determinant is off by less than (3 + 16 e) e times the size, e = 2^-53, as long as nothing underflows. What
-  // underflows adds less than 2^-1073, and there is room for that from `least_size` on. What overflows is no number or
+  // underflows adds less than 2^-1073, and there is room for that from `min_size` on. What overflows is no number or
   // infinite, and then the comparison fails.
   static constexpr double relative_error = 4 * 0x1p-53;
-  static constexpr double least_size = 0x1p-900;
+  static constexpr double min_size = 0x1p-900;
 
   /// The library decides: a line of sight through a corner meets the triangle, and the side tells how it turns.
   [[nodiscard]] int exact_orientation(const Point& a, const Point& b, const Point& c) const {

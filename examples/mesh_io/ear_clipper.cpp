@@ -68,14 +68,14 @@ typename EarClipper<Scalar>::Kind EarClipper<Scalar>::kind_of_ear(std::uint32_t 
 
   const auto x_of = [&](std::uint32_t corner) { return view_.x(outline_[corner]); };
   const auto y_of = [&](std::uint32_t corner) { return view_.y(outline_[corner]); };
-  const auto [least_x, greatest_x] = std::minmax({x_of(p), x_of(c), x_of(n)});
-  const auto [least_y, greatest_y] = std::minmax({y_of(p), y_of(c), y_of(n)});
-  auto at = std::lower_bound(by_x_.begin(), by_x_.end(), least_x,
+  const auto [min_x, max_x] = std::minmax({x_of(p), x_of(c), x_of(n)});
+  const auto [min_y, max_y] = std::minmax({y_of(p), y_of(c), y_of(n)});
+  auto at = std::lower_bound(by_x_.begin(), by_x_.end(), min_x,
                              [&](std::uint32_t corner, Scalar bound) { return x_of(corner) < bound; });
   Kind kind = Kind::free_ear;
-  for (; at != by_x_.end() && x_of(*at) <= greatest_x; ++at) {
+  for (; at != by_x_.end() && x_of(*at) <= max_x; ++at) {
     const std::uint32_t w = *at;
-    if (!is_left_[w] || w == p || w == c || w == n || y_of(w) < least_y || y_of(w) > greatest_y) continue;
+    if (!is_left_[w] || w == p || w == c || w == n || y_of(w) < min_y || y_of(w) > max_y) continue;
     const auto is_outside = [&](const Corners& edge) { return turn_of(edge[0], edge[1], w) < 0; };
     if (std::any_of(edges.begin(), edges.end(), is_outside)) continue;
     if (comes_in(w, previous_[w]) || comes_in(w, next_[w])) return Kind::none;

@@ -78,15 +78,15 @@ struct Move {
 bool may_lose_in_float(const Mesh<float>& mesh) {
   double greatest = 0;
   for (const auto& triangle : mesh.triangles) {
-    double greatest_of_triangle = 0;
+    double max_of_triangle = 0;
     for (const std::uint32_t corner : triangle) {
       for (const float coordinate : mesh.vertices[corner]) {
-        greatest_of_triangle = std::max(greatest_of_triangle, std::fabs(double{coordinate}));
+        max_of_triangle = std::max(max_of_triangle, std::fabs(double{coordinate}));
       }
     }
     // Sides may be longer before they are rounded, but not by so much.
-    if (half_unit_of(greatest_of_triangle) > little_of_triangle / 2 * longest_side(mesh, triangle)) return true;
-    greatest = std::max(greatest, greatest_of_triangle);
+    if (half_unit_of(max_of_triangle) > little_of_triangle / 2 * longest_side(mesh, triangle)) return true;
+    greatest = std::max(greatest, max_of_triangle);
   }
   return !mesh.triangles.empty() && half_unit_of(greatest) > little_of_mesh / 2 * size_of(mesh);
 }

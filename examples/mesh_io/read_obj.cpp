@@ -34,7 +34,7 @@ class ObjReader {
     });
     // A face may stand before its vertices, so only now is it known what is out of range.
     if (greatest_ > static_cast<std::int64_t>(mesh_.vertex_count())) {
-      throw InputError("line " + std::to_string(greatest_line_) + ": vertex index " + std::to_string(greatest_) +
+      throw InputError("line " + std::to_string(max_line_) + ": vertex index " + std::to_string(greatest_) +
                        " is out of range, there are " + std::to_string(mesh_.vertex_count()) + " vertices");
     }
     return mesh_.finish();
@@ -120,7 +120,7 @@ class ObjReader {
     }
     if (index > greatest_) {
       greatest_ = index;
-      greatest_line_ = lines_.number();
+      max_line_ = lines_.number();
     }
     return checked_corner(index - 1, std::numeric_limits<std::uint64_t>::max());
   }
@@ -131,7 +131,7 @@ class ObjReader {
   std::vector<std::uint32_t> corners_;
   MeshBuilder<Scalar> mesh_;
   std::int64_t greatest_ = 0;  ///< of the positive vertex indices, which count from 1
-  std::size_t greatest_line_ = 0;
+  std::size_t max_line_ = 0;
 };
 
 }  // namespace

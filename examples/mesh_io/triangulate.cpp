@@ -67,16 +67,16 @@ template <typename Scalar>
 bool are_apart(const AxisView<Scalar>& view, const Outline<Scalar>& outline, const Triangles& triangles, int turn) {
   struct Seen {
     std::array<std::array<Scalar, 3>, 3> corners;
-    Scalar least_x, greatest_x, least_y, greatest_y;
+    Scalar min_x, max_x, min_y, max_y;
   };
   std::vector<Seen> seen;
   for (const auto& [a, b, c] : triangles) {
     if (view.orientation(outline[a], outline[b], outline[c]) == 0) continue;
-    const auto [least_x, greatest_x] = std::minmax({view.x(outline[a]), view.x(outline[b]), view.x(outline[c])});
-    const auto [least_y, greatest_y] = std::minmax({view.y(outline[a]), view.y(outline[b]), view.y(outline[c])});
-    seen.push_back({{outline[a], outline[b], outline[c]}, least_x, greatest_x, least_y, greatest_y});
+    const auto [min_x, max_x] = std::minmax({view.x(outline[a]), view.x(outline[b]), view.x(outline[c])});
+    const auto [min_y, max_y] = std::minmax({view.y(outline[a]), view.y(outline[b]), view.y(outline[c])});
+    seen.push_back({{outline[a], outline[b], outline[c]}, min_x, max_x, min_y, max_y});
   }
-  std::sort(seen.begin(), seen.end(), [](const Seen& one, const Seen& other) { return one.least_x < other.least_x; });
+  std::sort(seen.begin(), seen.end(), [](const Seen& one, const Seen& other) { return one.min_x < other.min_x; });
 
   // Two triangles are apart if and only if all of one is beyond an edge of the other.
   const auto has_edge_before = [&](const Seen& one, const Seen& other) {
@@ -89,8 +89,8 @@ bool are_apart(const AxisView<Scalar>& view, const Outline<Scalar>& outline, con
     return false;
   };
   for (auto one = seen.begin(); one != seen.end(); ++one) {
-    for (auto other = one + 1; other != seen.end() && other->least_x < one->greatest_x; ++other) {
-      if (one->greatest_y <= other->least_y || other->greatest_y <= one->least_y) continue;
+    for (auto other = one + 1; other != seen.end() && other->min_x < one->max_x; ++other) {
+      if (one->max_y <= other->min_y || other->max_y <= one->min_y) continue;
       if (!has_edge_before(*one, *other) && !has_edge_before(*other, *one)) return false;
     }
   }
@@ -135,16 +135,16 @@ Triangles triangulate_outline(const Outline<Scalar>& outline) {
 
   // A plane polygon is the same from everywhere but from within its plane. A bent one may be clear from one side alone;
   // from where it looks much smaller, what is seen is how it is bent.
-  constexpr double least_share = 0.25;
-  double least_size = 0;
+  constexpr double min_share = 0.25;
+  double min_size = 0;
   bool is_line = true;
   for (const std::size_t axis : axes) {
     const AxisView<Scalar> view(axis);
-    if (looks.size[axis] < least_size) break;
+    if (looks.size[axis] < min_size) break;
     if (is_fan(view, outline)) return fan_of(outline.size());
     if (is_in_line(view, outline)) continue;
     is_line = false;
-    least_size = std::max(least_size, least_share * looks.size[axis]);
+    min_size = std::max(min_size, min_share * looks.size[axis]);
     const int likely_turn = looks.signed_area[axis] < 0 ? -1 : 1;
     for (const int turn : {likely_turn, -likely_turn}) {
       auto ears = EarClipper<Scalar>(view, outline, turn).clip();

@@ -27,7 +27,7 @@ Vector3d choose_eye(const Scene& scene) {
   const double diagonal = scene.diagonal();
   test::Random random(1);
   Vector3d best = Vector3d::Zero();
-  int least_distance = targets;
+  int min_distance = targets;
   for (int i = 0; i < eyes; ++i) {
     const Vector3d eye = floor.draw(random) + scene.upward(eye_height * diagonal);
     int seen = 0;
@@ -36,8 +36,8 @@ Vector3d choose_eye(const Scene& scene) {
       seen += collider.any_hit(Segmentf{eye.cast<float>(), target.cast<float>()}) ? 0 : 1;
     }
     const int distance = std::abs(seen - targets / 2);
-    if (distance < least_distance) {
-      least_distance = distance;
+    if (distance < min_distance) {
+      min_distance = distance;
       best = eye;
     }
   }

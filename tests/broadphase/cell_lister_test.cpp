@@ -62,7 +62,7 @@ class TrianglesInTwoRows {
   void add(const CellLister::Corners& corners) {
     const auto& [a, b, c] = corners;
     using namespace detail;
-    lister_.add(triangles_++, corners, {least(least(a, b), c), greatest(greatest(a, b), c)});
+    lister_.add(triangles_++, corners, {min(min(a, b), c), max(max(a, b), c)});
   }
 
   static constexpr detail::CellRange cells = {{0, 0, 0}, {row, 2, 1}};
@@ -101,7 +101,7 @@ TEST(CellLister, HasTooManyEntriesWhereNotAllThatMayBeWrittenFits) {
     for (std::uint32_t i = 0; i < count; ++i) triangles.add_small(i);
     return triangles.fit();
   };
-  constexpr auto most = static_cast<std::uint32_t>(detail::ListedBlocks::most);
+  constexpr auto most = static_cast<std::uint32_t>(detail::ListedBlocks::max_count);
   EXPECT_TRUE(fit(3, 24));
   EXPECT_FALSE(fit(3, 23));
   EXPECT_TRUE(fit(most, 8 * most));

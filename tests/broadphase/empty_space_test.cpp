@@ -52,7 +52,7 @@ class EmptySpace : public testing::Test {
       }
       ASSERT_TRUE(CellWord(measured[cell]).is_empty());
       for (std::uint32_t octant = 0; octant < 8; ++octant) {
-        ASSERT_EQ(CellWord(measured[cell]).distance(octant), cubes.largest(cell, octant, CellWord::farthest))
+        ASSERT_EQ(CellWord(measured[cell]).distance(octant), cubes.largest(cell, octant, CellWord::max_distance))
             << "cell " << cell << " of " << cells[0] << " × " << cells[1] << " × " << cells[2] << " towards " << octant;
       }
     }

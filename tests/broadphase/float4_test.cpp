@@ -18,8 +18,8 @@ Float4 draw(Random& random) {
                 random.symmetric<float>()};
 }
 
-float greatest_of(Float4 x) { return std::max({x[0], x[1], x[2], x[3]}); }
-float least_of(Float4 x) { return std::min({x[0], x[1], x[2], x[3]}); }
+float max_of(Float4 x) { return std::max({x[0], x[1], x[2], x[3]}); }
+float min_of(Float4 x) { return std::min({x[0], x[1], x[2], x[3]}); }
 
 TEST(Float4, GreatestLanesAreThoseOfEachVector) {
   Random random(7);
@@ -28,11 +28,11 @@ TEST(Float4, GreatestLanesAreThoseOfEachVector) {
     const Float4 b = draw(random);
     const Float4 c = draw(random);
     const Float4 d = draw(random);
-    const Float4 greatest = greatest_lanes(a, b, c, d);
-    EXPECT_EQ(greatest[0], greatest_of(a));
-    EXPECT_EQ(greatest[1], greatest_of(b));
-    EXPECT_EQ(greatest[2], greatest_of(c));
-    EXPECT_EQ(greatest[3], greatest_of(d));
+    const Float4 greatest = max_lanes(a, b, c, d);
+    EXPECT_EQ(greatest[0], max_of(a));
+    EXPECT_EQ(greatest[1], max_of(b));
+    EXPECT_EQ(greatest[2], max_of(c));
+    EXPECT_EQ(greatest[3], max_of(d));
   }
 }
 
@@ -40,14 +40,14 @@ TEST(Float4, LeastAndGreatestLaneAreInEveryLane) {
   Random random(7);
   for (int i = 0; i < 1000; ++i) {
     const Float4 x = draw(random);
-    const Float4 least = least_lane(x);
-    const Float4 greatest = greatest_lane(x);
+    const Float4 least = min_lane(x);
+    const Float4 greatest = max_lane(x);
     for (int lane = 0; lane < 4; ++lane) {
-      EXPECT_EQ(least[lane], least_of(x));
-      EXPECT_EQ(greatest[lane], greatest_of(x));
+      EXPECT_EQ(least[lane], min_of(x));
+      EXPECT_EQ(greatest[lane], max_of(x));
     }
   }
-  const Float4 with_infinity = least_lane(Float4{std::numeric_limits<float>::infinity(), 3, 2, 5});
+  const Float4 with_infinity = min_lane(Float4{std::numeric_limits<float>::infinity(), 3, 2, 5});
   for (int lane = 0; lane < 4; ++lane) EXPECT_EQ(with_infinity[lane], 2);
 }
 
@@ -107,8 +107,8 @@ TEST(Float4, LanesAreComparedAndConvertedOneByOne) {
     const Float4 b = draw(random);
     const Int4 whole = to_int(100 * a);
     for (int lane = 0; lane < 4; ++lane) {
-      EXPECT_EQ(least(a, b)[lane], std::min(a[lane], b[lane]));
-      EXPECT_EQ(greatest(a, b)[lane], std::max(a[lane], b[lane]));
+      EXPECT_EQ(min(a, b)[lane], std::min(a[lane], b[lane]));
+      EXPECT_EQ(max(a, b)[lane], std::max(a[lane], b[lane]));
       EXPECT_EQ(absolute(a)[lane], a[lane] < 0 ? -a[lane] : a[lane]);
       EXPECT_EQ(to_float(whole)[lane], static_cast<float>(whole[lane]));
       EXPECT_EQ(without_fourth(a)[lane], a[std::min(lane, 2)]);
@@ -116,11 +116,11 @@ TEST(Float4, LanesAreComparedAndConvertedOneByOne) {
     }
     EXPECT_EQ(sum_of(to_float(whole)), static_cast<float>(whole[0] + whole[1] + whole[2] + whole[3]));
     EXPECT_EQ(sum_of_three(to_float(whole)), static_cast<float>(whole[0] + whole[1] + whole[2]));
-    EXPECT_EQ(any_lane_exceeds_any(a, b + 1), greatest_of(a) > least_of(b) + 1);
+    EXPECT_EQ(any_lane_exceeds_any(a, b + 1), max_of(a) > min_of(b) + 1);
     const Int4 other = to_int(100 * b);
     for (int lane = 0; lane < 4; ++lane) {
-      EXPECT_EQ(least(whole, other)[lane], std::min<std::int32_t>(whole[lane], other[lane]));
-      EXPECT_EQ(greatest(whole, other)[lane], std::max<std::int32_t>(whole[lane], other[lane]));
+      EXPECT_EQ(min(whole, other)[lane], std::min<std::int32_t>(whole[lane], other[lane]));
+      EXPECT_EQ(max(whole, other)[lane], std::max<std::int32_t>(whole[lane], other[lane]));
     }
   }
 }

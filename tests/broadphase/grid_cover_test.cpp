@@ -24,8 +24,8 @@ class GridCoverTest : public GridWalk<Scalar> {
   /// Walks from where the path enters the cover to where it leaves that.
   Walk walk_in_cover(const Path<Scalar>& path, const Range& range) const {
     Walk walk;
-    PlacedPath path_in_grid(this->grid_, path, range.first, range.last);
-    if (path_in_grid.place != PlacedPath::Place::inside) return walk;
+    ClippedPath path_in_grid(this->grid_, path, range.first, range.last);
+    if (path_in_grid.status != ClippedPath::Status::clipped) return walk;
     const GridCover::Part part = this->grid_.cover().part_of(path_in_grid.start, path_in_grid.inverse_rate,
                                                              path_in_grid.octant, path_in_grid.end);
     if (part.enters > part.leaves) return walk;
@@ -97,10 +97,10 @@ TYPED_TEST(GridCoverTest, LooksNowhereOutsideTheGrid) {
   for (std::size_t i = case_count(2'000); i > 0; --i) {
     const std::size_t out = random.below(3);
     const std::size_t along = (out + 1 + random.below(2)) % 3;
-    const bool falls = random.one_in(2);
+    const bool is_mirrored = random.one_in(2);
     // Counted from the corner at which the box is, or from the opposite one.
-    const double corner = falls ? 0 : 40;
-    const double inward = falls ? 1 : -1;
+    const double corner = is_mirrored ? 0 : 40;
+    const double inward = is_mirrored ? 1 : -1;
     const double box = corner + inward * (8 - 2.0 * frame.padding(0));
     std::array<double, 3> at = {};
     at.fill(corner + inward * 4);
@@ -119,8 +119,8 @@ TYPED_TEST(GridCoverTest, LooksNowhereOutsideTheGrid) {
       segment.end[k] = static_cast<TypeParam>(out_of_frame(frame, axis, to[axis]));
     }
     const Path<TypeParam> path = segment;
-    const PlacedPath in_grid(this->grid_, path, 0, 1);
-    if (in_grid.place != PlacedPath::Place::inside) continue;
+    const ClippedPath in_grid(this->grid_, path, 0, 1);
+    if (in_grid.status != ClippedPath::Status::clipped) continue;
     const GridCover::Part part =
         this->grid_.cover().part_of(in_grid.start, in_grid.inverse_rate, in_grid.octant, in_grid.end);
     if (part.enters > part.leaves) continue;

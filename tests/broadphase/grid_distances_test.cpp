@@ -34,7 +34,7 @@ class GridDistances : public testing::Test {
       if (!words[cell].is_empty()) continue;
       for (std::uint32_t octant = 0; octant < 8; ++octant) {
         const std::uint32_t distance = words[cell].distance(octant);
-        EXPECT_EQ(distance, cubes.largest(cell, octant, CellWord::farthest)) << cell << " towards " << octant;
+        EXPECT_EQ(distance, cubes.largest(cell, octant, CellWord::max_distance)) << cell << " towards " << octant;
         greatest = std::max<std::size_t>(greatest, distance);
       }
     }
@@ -55,12 +55,12 @@ TEST_F(GridDistances, AreCappedAtWhatANibbleHolds) {
   GeneratedMesh<float> mesh;
   for (const float x : {0.0F, 1.0F}) mesh.add({{x, x, x}, {x, x, x}, {x, x, x}});
   const Grid grid = grid_of(mesh, {.resolution = {40, 3, 3}});
-  EXPECT_EQ(expect_exact(grid.top(), grid.resolution(), true), CellWord::farthest);
+  EXPECT_EQ(expect_exact(grid.top(), grid.resolution(), true), CellWord::max_distance);
 }
 
 TEST_F(GridDistances, OfBricksEndWithTheBrick) {
   const Grid grid = grid_of(scattered_triangles<float>(300, 0.02F, random_), {.resolution = {3, 2, 2}, .crowded = 1});
-  ASSERT_EQ(grid.levels(), Grid::most_levels);
+  ASSERT_EQ(grid.levels(), Grid::max_levels);
   std::size_t greatest = 0;
   for (std::size_t first = 0; first < grid.bricks().size(); first += Grid::brick_size) {
     const std::uint32_t edge = Grid::brick_edge;

@@ -169,7 +169,7 @@ TYPED_TEST(GridFrameTest, PlacesWithFewRoundings) {
       }
       const ExactPoint exact = in_frame(frame, point);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double placed = frame.place(axis, frame.scaled(point[static_cast<Eigen::Index>(axis)]));
+        const double placed = frame.to_cells(axis, frame.scaled(point[static_cast<Eigen::Index>(axis)]));
         const double resolution = frame.resolution(axis);
         EXPECT_LE(abs(mpq_class(placed) - exact[axis]), 0x1p-29 * resolution);
         const double rounded = static_cast<float>(placed);

@@ -20,7 +20,7 @@ class GridNesting : public testing::Test {
     return Grid(mesh.view(), box_of(mesh.view()), options);
   }
 
-  static std::size_t most_listed(const Grid& grid) {
+  static std::size_t max_listed(const Grid& grid) {
     std::size_t most = 0;
     for (const LeafCell& leaf : LeafCells(grid)) {
       if (!leaf.word.is_empty()) most = std::max(most, grid.triangles(leaf.word).size());
@@ -54,11 +54,11 @@ TEST_F(GridNesting, DividesCellsThatListMoreThanIsCrowded) {
   const Grid one_level = grid_of(mesh, {.resolution = {1, 1, 1}, .crowded = once + 1});
   EXPECT_EQ(one_level.levels(), 1U);
   EXPECT_EQ(one_level.frame().division, 4U);
-  EXPECT_LE(most_listed(one_level), 9U);
+  EXPECT_LE(max_listed(one_level), 9U);
   const Grid two_levels = grid_of(mesh, {.resolution = {1, 1, 1}, .crowded = 3});
   EXPECT_EQ(two_levels.levels(), 2U);
   EXPECT_EQ(two_levels.frame().division, 16U);
-  EXPECT_LE(most_listed(two_levels), 2U);
+  EXPECT_LE(max_listed(two_levels), 2U);
   EXPECT_EQ(two_levels.resolution(), (std::array<std::uint32_t, 3>{1, 1, 1}));
 }
 
@@ -72,8 +72,8 @@ TEST_F(GridNesting, NeverDividesWhereCrowdedIsZero) {
 
 TEST_F(GridNesting, GoesTwoLevelsDeepAndNoFurther) {
   const Grid grid = grid_of(dust(40), {.resolution = {1, 1, 1}, .crowded = 1});
-  EXPECT_EQ(grid.levels(), Grid::most_levels);
-  EXPECT_GT(most_listed(grid), 1U);
+  EXPECT_EQ(grid.levels(), Grid::max_levels);
+  EXPECT_GT(max_listed(grid), 1U);
 }
 
 /// Dividing would only list each of them 64 times.
@@ -93,7 +93,7 @@ TEST_F(GridNesting, LeavesCellsWholeThatListOneTriangleManyTimesOver) {
   for (int i = 0; i < 1000; ++i) mesh.add({{0, 0, 0}, {1, 0, 0.3F}, {0, 1, 1}});
   const Grid grid = grid_of(mesh, {.resolution = {1, 1, 1}, .crowded = 4});
   EXPECT_TRUE(grid.bricks().empty());
-  EXPECT_EQ(most_listed(grid), 1000U);
+  EXPECT_EQ(max_listed(grid), 1000U);
 }
 
 TEST_F(GridNesting, DividesOnlyWhereTrianglesCrowd) {

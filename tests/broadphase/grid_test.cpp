@@ -108,7 +108,7 @@ class GridTest : public testing::Test {
     EXPECT_EQ(grid.lists().back().first_entry, grid.entry_count());
   }
 
-  static std::size_t most_listed(const Grid& grid) {
+  static std::size_t max_listed(const Grid& grid) {
     std::size_t most = 0;
     for (const LeafCell& leaf : LeafCells(grid)) {
       if (!leaf.word.is_empty()) most = std::max(most, grid.triangles(leaf.word).size());
@@ -143,7 +143,7 @@ TYPED_TEST(GridTest, ListsEachTriangleWhereItIs) {
 TYPED_TEST(GridTest, ListsEachTriangleWhereItIsInDividedCells) {
   const GridOptions divided = {.resolution = {2, 1, 1}, .crowded = 1};
   const auto small = scattered_triangles<TypeParam>(60, 0.05F, this->random_);
-  ASSERT_EQ(this->grid_of(small, divided).levels(), Grid::most_levels);
+  ASSERT_EQ(this->grid_of(small, divided).levels(), Grid::max_levels);
   this->expect_complete_and_tight(small, divided);
   this->expect_complete_and_tight(small, this->odd(3));
   this->expect_complete_and_tight(rough_ground<TypeParam>(6, 0.2F, this->random_), divided);
@@ -280,7 +280,7 @@ TYPED_TEST(GridTest, LongListsAreWellFormed) {
     for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(ids[i], i);
     const Grid few_cells = this->grid_of(mesh, {.resolution = {3, 1, 2}, .crowded = 0});
     this->expect_well_formed(few_cells);
-    EXPECT_GE(this->most_listed(few_cells), count / 6);
+    EXPECT_GE(this->max_listed(few_cells), count / 6);
   }
 }
 

@@ -17,19 +17,19 @@ class GridTraversalError : public WalkError<Scalar> {
   using typename WalkError<Scalar>::VisitedBox;
 
   [[nodiscard]] double worst_share(const Path<Scalar>& path) const override {
-    const PlacedPath placed(this->grid_, path, 0, 1);
-    const auto course = this->course(path, placed.octant);
+    const ClippedPath clipped(this->grid_, path, 0, 1);
+    const auto course = this->course(path, clipped.octant);
     if (course.first > course.last) return 0;
-    if (placed.place != PlacedPath::Place::inside) {
+    if (clipped.status != ClippedPath::Status::clipped) {
       ADD_FAILURE() << hex_text(path) << " is not walked";
       return 0;
     }
     std::vector<VisitedBox> boxes;
-    for (GridTraversal traversal(this->grid_, placed); !traversal.at_end(); traversal.advance()) {
+    for (GridTraversal traversal(this->grid_, clipped); !traversal.at_end(); traversal.advance()) {
       const CellWord word = traversal.word();
-      const bool is_far = boxes.empty() || word.distance(placed.octant) >= GridTraversal::least_leap ||
+      const bool is_far = boxes.empty() || word.distance(clipped.octant) >= GridTraversal::min_leap ||
                           static_cast<std::uint32_t>(traversal.size()) != this->grid_.frame().division;
-      const auto leap = static_cast<std::int32_t>(word.is_empty() && is_far ? word.distance(placed.octant) : 1);
+      const auto leap = static_cast<std::int32_t>(word.is_empty() && is_far ? word.distance(clipped.octant) : 1);
       VisitedBox box;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         box.low[axis] = traversal.low()[axis];
@@ -44,7 +44,7 @@ TYPED_TEST_SUITE(GridTraversalError, Scalars, ScalarNames);
 
 TYPED_TEST(GridTraversalError, StaysBelowItsBoundOnRandomPaths) { this->expect_below_one(this->draw_worst(20, 300)); }
 
-/// A path of doubles is placed in doubles, which takes up a few of the 16 roundings less.
+/// A path of doubles is clipped in doubles, which takes up a few of the 16 roundings less.
 TYPED_TEST(GridTraversalError, StaysBelowItsBoundWhereHillClimbingMakesItWorst) {
   const double worst = this->climb(24, 1'000);
   this->expect_below_one(worst);

@@ -24,16 +24,16 @@ TYPED_TEST_SUITE(GridTraversalTest, Scalars, ScalarNames);
 TYPED_TEST(GridTraversalTest, EmptyGridHasNoWalk) {
   const Grid grid;
   const Line<TypeParam> line = {{0, 0, 0}, {1, 0, 0}};
-  const PlacedPath placed(grid, Path<TypeParam>(line), -infinity, infinity);
-  EXPECT_EQ(placed.place, PlacedPath::Place::outside);
-  EXPECT_TRUE(GridTraversal(grid, placed).at_end());
+  const ClippedPath clipped(grid, Path<TypeParam>(line), -infinity, infinity);
+  EXPECT_EQ(clipped.status, ClippedPath::Status::miss);
+  EXPECT_TRUE(GridTraversal(grid, clipped).at_end());
 }
 
 TYPED_TEST(GridTraversalTest, FindsAllThatThePathMeets) { this->scan(1000); }
 
 TYPED_TEST(GridTraversalTest, FindsAllInDividedCells) {
   this->place_ground(1, {0, 0, 0}, this->nested());
-  ASSERT_EQ(this->grid_.levels(), Grid::most_levels);
+  ASSERT_EQ(this->grid_.levels(), Grid::max_levels);
   this->scan(750);
   Random random(7);
   for (const std::uint32_t crowded : {1U, 4U}) {
@@ -166,10 +166,10 @@ TYPED_TEST(GridTraversalTest, MeetsASlabThatThePathTouches) {
               static_cast<TypeParam>(out_of_frame(frame, 2, z))};
     };
     const Path<TypeParam> path = Segment<TypeParam>{point(), point()};
-    const PlacedPath placed(grid, path, 0, 1);
-    for (GridTraversal walk(grid, placed); !walk.at_end(); walk.advance()) {
+    const ClippedPath clipped(grid, path, 0, 1);
+    for (GridTraversal walk(grid, clipped); !walk.at_end(); walk.advance()) {
       const auto low = static_cast<std::uint32_t>(walk.low()[0]);
-      if (((placed.octant & 1) != 0 ? 2047 - low : low) != column) continue;
+      if (((clipped.octant & 1) != 0 ? 2047 - low : low) != column) continue;
       ASSERT_TRUE(walk.meets_box());
       const LeafCell leaf{{column, 0, 0}, 1, walk.word()};
       if (meets_part_in_slab(frame, path, 0, 1, leaf.box(), leaf.placed(slab))) {
@@ -196,10 +196,10 @@ TYPED_TEST(GridTraversalTest, NeverTurnsBack) {
     ASSERT_EQ(grid.frame().resolution(0), 400U);
     for (std::size_t i = 0; i < case_count(1000); ++i) {
       const auto line = line_through_corners<TypeParam>(grid.frame(), random);
-      const PlacedPath placed(grid, Path<TypeParam>(line), -infinity, infinity);
+      const ClippedPath clipped(grid, Path<TypeParam>(line), -infinity, infinity);
       std::array<std::int32_t, 3> before = {0, 0, 0};
       std::size_t cells = 0;
-      for (GridTraversal walk(grid, placed); !walk.at_end(); walk.advance(), ++cells) {
+      for (GridTraversal walk(grid, clipped); !walk.at_end(); walk.advance(), ++cells) {
         const auto low = walk.low();
         for (std::size_t axis = 0; axis < 3; ++axis) {
           EXPECT_GT(low[axis] + walk.size(), before[axis]) << hex_text(Path<TypeParam>(line));
@@ -215,7 +215,7 @@ TYPED_TEST(GridTraversalTest, NeverTurnsBack) {
 TYPED_TEST(GridTraversalTest, EntersDividedCellsThroughTheirCorners) {
   Random random(7);
   this->build(dust_in_square<TypeParam>(4000, random), {.resolution = {25, 25, 1}, .crowded = 1});
-  ASSERT_EQ(this->grid_.levels(), Grid::most_levels);
+  ASSERT_EQ(this->grid_.levels(), Grid::max_levels);
   // Of 20,000 lines in float the four of which a place is rounded beyond the cell that they enter.
   std::vector<Line<TypeParam>> lines = {{{0x1.3ae0e6p-2F, 0x1.a6663ap-2F, 0}, {4, -4, 0}},
                                         {{0x1.479eb8p-6F, 0x1.451edap-1F, 0}, {4, 3, 0}},
@@ -384,33 +384,33 @@ TYPED_TEST(GridTraversalTest, StaysInEmptySpaceOnlyWhereThereIsNothing) {
 TYPED_TEST(GridTraversalTest, IsUnclippedOnlyWhereItCannotBePlaced) {
   const auto at = [&](TypeParam distance) {
     const Segment<TypeParam> segment = {{distance, 0, 0.3F}, {-distance, 0, 0.3F}};
-    return PlacedPath(this->grid_, Path<TypeParam>(segment), 0, 1);
+    return ClippedPath(this->grid_, Path<TypeParam>(segment), 0, 1);
   };
-  using Place = PlacedPath::Place;
-  EXPECT_EQ(at(0x1p59F).place, Place::inside);
-  EXPECT_EQ(at(0x1p63F).place, Place::unclipped);
-  EXPECT_EQ(at(std::numeric_limits<TypeParam>::max()).place, Place::unclipped);
-  const PlacedPath unclipped = at(0x1p63F);
+  using Status = ClippedPath::Status;
+  EXPECT_EQ(at(0x1p59F).status, Status::clipped);
+  EXPECT_EQ(at(0x1p63F).status, Status::too_far);
+  EXPECT_EQ(at(std::numeric_limits<TypeParam>::max()).status, Status::too_far);
+  const ClippedPath unclipped = at(0x1p63F);
   EXPECT_TRUE(GridTraversal(this->grid_, unclipped).at_end());
 }
 
 TYPED_TEST(GridTraversalTest, IsOutsideWhereItEndsBeforeTheGridOrBeginsBehindIt) {
-  using Place = PlacedPath::Place;
+  using Status = ClippedPath::Status;
   const double low = this->grid_.frame().low[0];
   const double width = this->grid_.frame().high[0] - low;
   const auto along_x = [&](double from, double to, double first = 0, double last = 1) {
     const auto at = [&](double share) { return Vector3<TypeParam>(TypeParam(low + share * width), 0, 0.3F); };
-    return PlacedPath(this->grid_, Path<TypeParam>(Segment<TypeParam>{at(from), at(to)}), first, last).place;
+    return ClippedPath(this->grid_, Path<TypeParam>(Segment<TypeParam>{at(from), at(to)}), first, last).status;
   };
-  EXPECT_EQ(along_x(-0.75, -0.25), Place::outside);
-  EXPECT_EQ(along_x(-0.75, 0.25), Place::inside);
-  EXPECT_EQ(along_x(-0.75, 0.25, 0, 0.5), Place::outside);
-  EXPECT_EQ(along_x(-0.75, 0.25, 0.5, 1), Place::inside);
-  EXPECT_EQ(along_x(0.75, 1.25), Place::inside);
-  EXPECT_EQ(along_x(0.75, 1.25, 0.75, 1), Place::outside);
-  EXPECT_EQ(along_x(-0.25, 1.75, 0.9, 1), Place::outside);
-  EXPECT_EQ(along_x(1.25, 1.75), Place::outside);
-  EXPECT_EQ(along_x(1.25, 0.75), Place::inside);
+  EXPECT_EQ(along_x(-0.75, -0.25), Status::miss);
+  EXPECT_EQ(along_x(-0.75, 0.25), Status::clipped);
+  EXPECT_EQ(along_x(-0.75, 0.25, 0, 0.5), Status::miss);
+  EXPECT_EQ(along_x(-0.75, 0.25, 0.5, 1), Status::clipped);
+  EXPECT_EQ(along_x(0.75, 1.25), Status::clipped);
+  EXPECT_EQ(along_x(0.75, 1.25, 0.75, 1), Status::miss);
+  EXPECT_EQ(along_x(-0.25, 1.75, 0.9, 1), Status::miss);
+  EXPECT_EQ(along_x(1.25, 1.75), Status::miss);
+  EXPECT_EQ(along_x(1.25, 0.75), Status::clipped);
 }
 
 TYPED_TEST(GridTraversalTest, StartsNearAndEndsAnywhere) {

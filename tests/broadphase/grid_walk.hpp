@@ -91,17 +91,17 @@ class GridWalk : public testing::Test {
 
   /// The same, where the path is made shorter on the way.
   Walk walk_shortened(const Path<Scalar>& path, Range& range, std::size_t steps, double t) {
-    const PlacedPath placed(grid_, path, range.first, range.last);
-    EXPECT_NE(placed.place, PlacedPath::Place::unclipped) << hex_text(path);
+    const ClippedPath clipped(grid_, path, range.first, range.last);
+    EXPECT_NE(clipped.status, ClippedPath::Status::too_far) << hex_text(path);
     Walk walk;
-    for (GridTraversal traversal(grid_, placed); !traversal.at_end(); traversal.advance()) {
-      const std::size_t leaf = expect_on_path(path, range, placed, traversal);
+    for (GridTraversal traversal(grid_, clipped); !traversal.at_end(); traversal.advance()) {
+      const std::size_t leaf = expect_on_path(path, range, clipped, traversal);
       walk.visited.push_back(leaf);
       if (!traversal.word().is_empty()) {
         expect_box_on_path(path, range, (*leaves_)[leaf], traversal.meets_box());
         if (traversal.meets_box()) walk.met.push_back(leaf);
       }
-      if (walk.visited.size() > most_steps()) {
+      if (walk.visited.size() > max_steps()) {
         ADD_FAILURE() << "no end to the walk of " << hex_text(path);
         break;
       }
@@ -130,14 +130,14 @@ class GridWalk : public testing::Test {
   }
 
   /// Returns the leaf in which the walk stands.
-  std::size_t expect_on_path(const Path<Scalar>& path, const Range& range, const PlacedPath& placed,
+  std::size_t expect_on_path(const Path<Scalar>& path, const Range& range, const ClippedPath& clipped,
                              const GridTraversal& traversal) const {
     std::array<std::uint32_t, 3> low;
     const auto size = static_cast<std::uint32_t>(traversal.size());
     for (std::size_t axis = 0; axis < 3; ++axis) {
       low[axis] = static_cast<std::uint32_t>(traversal.low()[axis]);
       EXPECT_EQ(static_cast<float>(low[axis]), traversal.low()[axis]) << hex_text(path);
-      if ((placed.octant >> axis & 1) != 0) low[axis] = grid_.frame().resolution(axis) - low[axis] - size;
+      if ((clipped.octant >> axis & 1) != 0) low[axis] = grid_.frame().resolution(axis) - low[axis] - size;
     }
     const std::optional<std::size_t> leaf = leaves_->at(low);
     if (!leaf) {
@@ -154,7 +154,7 @@ class GridWalk : public testing::Test {
   }
 
   /// Each step goes beyond a plane on some axis.
-  [[nodiscard]] std::size_t most_steps() const {
+  [[nodiscard]] std::size_t max_steps() const {
     const GridFrame& frame = grid_.frame();
     return std::size_t{frame.resolution(0)} + frame.resolution(1) + frame.resolution(2) - 2;
   }
@@ -184,8 +184,8 @@ class GridWalk : public testing::Test {
   void expect_found(const Path<Scalar>& path, const Range& range) {
     const std::size_t met = expect_listed(path, range, walk(path, range));
     met_ += met;
-    const PlacedPath placed(grid_, path, range.first, range.last);
-    if (placed.place == PlacedPath::Place::inside && placed.stays_in_empty_space(grid_)) {
+    const ClippedPath clipped(grid_, path, range.first, range.last);
+    if (clipped.status == ClippedPath::Status::clipped && clipped.stays_in_empty_space(grid_)) {
       ++stayed_;
       EXPECT_EQ(met, 0U) << hex_text(path) << " from " << range.first << " to " << range.last
                          << " does not stay in empty space";

@@ -64,7 +64,7 @@ class ListingError : public CellPointDraws, public testing::WithParamInterface<s
 
   /// The least growth that lists the triangle, between those of `low` and `high` parts.
   template <typename IsListedFrom>
-  static int least_parts(int low, int high, const IsListedFrom& is_listed) {
+  static int min_parts(int low, int high, const IsListedFrom& is_listed) {
     while (high - low > 1) {
       const int middle = (low + high) / 2;
       (is_listed(middle) ? high : low) = middle;
@@ -78,10 +78,10 @@ class ListingError : public CellPointDraws, public testing::WithParamInterface<s
     const auto exactly = [&](int count) { return is_listed_exactly(drawn, growth_of(count)); };
     const auto rounded = [&](int count) { return is_listed(drawn, static_cast<float>(growth_of(count))); };
     if (exactly(0) || !exactly(most)) return 0;
-    const int truth = least_parts(0, most, exactly);
+    const int truth = min_parts(0, most, exactly);
     if (!rounded(most)) return 1;
     if (rounded(truth)) return 0;
-    return (least_parts(truth, most, rounded) - truth) / (8.0 * parts);
+    return (min_parts(truth, most, rounded) - truth) / (8.0 * parts);
   }
 
   /// Past an edge of a cell at about the padding, as wide as the grid or as a cell.

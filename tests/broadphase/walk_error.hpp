@@ -39,11 +39,11 @@ class WalkError : public GridWalk<Scalar> {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const mpq_class stop = frame.resolution(axis);
       const mpq_class margin = 2 * mpq_class(frame.padding(axis));
-      const bool falls = (octant >> axis & 1) != 0;
+      const bool is_mirrored = (octant >> axis & 1) != 0;
       mpq_class& x = course.x[axis];
       mpq_class& d = course.d[axis];
-      x = falls ? mpq_class(stop - start[axis]) : start[axis];
-      d = falls ? mpq_class(start[axis] - end[axis]) : mpq_class(end[axis] - start[axis]);
+      x = is_mirrored ? mpq_class(stop - start[axis]) : start[axis];
+      d = is_mirrored ? mpq_class(start[axis] - end[axis]) : mpq_class(end[axis] - start[axis]);
       if (d == 0) {
         if (x < margin || x > stop - margin) course.last = -1;
         continue;

@@ -31,9 +31,9 @@ mpq_class draw_truth(Random& random, const Bounded& x) {
   }
 }
 
-Bounded draw(Random& random, int least_exponent, int greatest_exponent) {
+Bounded draw(Random& random, int min_exponent, int max_exponent) {
   const double value =
-      std::ldexp(random.symmetric<double>(), static_cast<int>(random.between(least_exponent, greatest_exponent)));
+      std::ldexp(random.symmetric<double>(), static_cast<int>(random.between(min_exponent, max_exponent)));
   if (random.one_in(4)) return exact(value);
   return {value, std::fabs(value) * std::ldexp(random.unit<double>(), -static_cast<int>(random.between(0, 60)))};
 }

@@ -19,11 +19,11 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 bool can_spread() { return false; }
-std::vector<std::array<float, 3>> cells_of(const Grid&, const PlacedPath&, float) { return {}; }
+std::vector<std::array<float, 3>> cells_of(const Grid&, const ClippedPath&, float) { return {}; }
 #else
 bool can_spread() { return LaneWalk::can_spread; }
 
-std::vector<std::array<float, 3>> cells_of(const Grid& grid, const PlacedPath& path, float enters) {
+std::vector<std::array<float, 3>> cells_of(const Grid& grid, const ClippedPath& path, float enters) {
   const LaneWalk walk(grid, nullptr);
   const LaneWalk::Crossings crossings(path, enters);
   WalkingPaths paths;
@@ -58,7 +58,7 @@ using namespace detail;
 
 bool can_spread() { return HWY_DYNAMIC_DISPATCH(can_spread)(); }
 
-std::vector<std::array<float, 3>> cells_of(const Grid& grid, const PlacedPath& path, float enters) {
+std::vector<std::array<float, 3>> cells_of(const Grid& grid, const ClippedPath& path, float enters) {
   return HWY_DYNAMIC_DISPATCH(cells_of)(grid, path, enters);
 }
 

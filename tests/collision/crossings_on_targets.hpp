@@ -12,6 +12,6 @@ namespace surehit::test {
 
 /// The cells in which `detail::LaneWalk` stands there, of a path from some tau on: their low corners, as the path is
 /// mirrored.
-[[nodiscard]] std::vector<std::array<float, 3>> cells_of(const Grid& grid, const PlacedPath& path, float enters);
+[[nodiscard]] std::vector<std::array<float, 3>> cells_of(const Grid& grid, const ClippedPath& path, float enters);
 
 }  // namespace surehit::test

@@ -32,16 +32,16 @@ class CrossingsTest : public WalkError<float> {
 
   /// From some tau on.
   [[nodiscard]] double worst_share_from(const Path<float>& path, float enters) const {
-    const PlacedPath placed(grid_, path, 0, 1);
-    Course course = this->course(path, placed.octant);
+    const ClippedPath clipped(grid_, path, 0, 1);
+    Course course = this->course(path, clipped.octant);
     if (course.first > course.last) return 0;
-    if (placed.place != PlacedPath::Place::inside) {
+    if (clipped.status != ClippedPath::Status::clipped) {
       ADD_FAILURE() << hex_text(path) << " is not walked";
       return 0;
     }
-    if (enters > 0) course.first = std::max(course.first, mpq_class(mpq_class(placed.origin[2]) + enters));
+    if (enters > 0) course.first = std::max(course.first, mpq_class(mpq_class(clipped.origin[2]) + enters));
     if (course.first > course.last) return 0;
-    std::vector<Cell> cells = cells_of(grid_, placed, enters);
+    std::vector<Cell> cells = cells_of(grid_, clipped, enters);
     // In the path's order, which rises on every axis.
     std::sort(cells.begin(), cells.end(),
               [](const Cell& a, const Cell& b) { return a[0] + a[1] + a[2] < b[0] + b[1] + b[2]; });
@@ -83,9 +83,9 @@ TEST_F(CrossingsTest, StayBelowTheirBoundWhereHillClimbingMakesItWorst) {
 TEST_F(CrossingsTest, BeginWhereThePathIsToBegin) {
   expect_below_one_on_each([&] {
     return draw_worst(20, 300, [&](const Segment<float>& segment, Random& random) {
-      const PlacedPath placed(grid_, Path<float>(segment), 0, 1);
-      if (!placed.is_placed_in_float) return 0.0;
-      return worst_share_from(segment, random.unit<float>() * std::min(placed.end, placed.exit));
+      const ClippedPath clipped(grid_, Path<float>(segment), 0, 1);
+      if (!clipped.is_clipped_in_float) return 0.0;
+      return worst_share_from(segment, random.unit<float>() * std::min(clipped.end, clipped.exit));
     });
   });
 }
@@ -97,7 +97,7 @@ TEST_F(CrossingsTest, StayBelowTheirBoundOnPathsThatArePlacedInDouble) {
     return draw_worst(20, 300, [&](const Segment<float>& segment, Random& random) {
       const float times = 4 + 28 * random.unit<float>();
       const Segment<float> far{segment.end + (segment.start - segment.end) * times, segment.end};
-      placed_in_double += PlacedPath(grid_, Path<float>(far), 0, 1).is_placed_in_float ? 0 : 1;
+      placed_in_double += ClippedPath(grid_, Path<float>(far), 0, 1).is_clipped_in_float ? 0 : 1;
       return worst_share(far);
     });
   });
@@ -111,8 +111,9 @@ TEST_F(CrossingsTest, BeginWhereThePathEntersTheCover) {
   const Vector3<float> start = {0x1.9f2b66p-1F, 0x1.63d34ep-4F, -0x1.dea05ap-2F};
   const Vector3<float> end = {-0x1.faa466p-3F, -0x1.acff5ap-6F, 0x1.d1ce4ap-2F};
   for (const Segment<float>& segment : {Segment<float>{start, end}, Segment<float>{end, start}}) {
-    const PlacedPath placed(grid_, Path<float>(segment), 0, 1);
-    const GridCover::Part part = grid_.cover().part_of(placed.start, placed.inverse_rate, placed.octant, placed.end);
+    const ClippedPath clipped(grid_, Path<float>(segment), 0, 1);
+    const GridCover::Part part =
+        grid_.cover().part_of(clipped.start, clipped.inverse_rate, clipped.octant, clipped.end);
     ASSERT_GT(part.enters, 0);
     expect_below_one_on_each([&] { return worst_share_from(segment, part.enters); });
   }

@@ -104,15 +104,14 @@ INSTANTIATE_TEST_SUITE_P(Families, DoubleKernelOnFamily, testing::ValuesIn(all_p
 
 /// Each lane at another size, so that what one overflows does nothing to its neighbour.
 template <typename Scalar>
-void check_all_magnitudes(int least_exponent, int greatest_exponent) {
+void check_all_magnitudes(int min_exponent, int max_exponent) {
   Random random(62);
   CheckedPairs<Scalar> pairs;
   for (std::size_t i = case_count(3'000); i > 0; --i) {
-    const auto exponent = static_cast<int>(random.between(least_exponent, greatest_exponent));
+    const auto exponent = static_cast<int>(random.between(min_exponent, max_exponent));
     const auto vector = [&]() -> Vector3<Scalar> {
       return Vector3<Scalar>::NullaryExpr([&] {
-        const int own =
-            random.one_in(3) ? static_cast<int>(random.between(least_exponent, greatest_exponent)) : exponent;
+        const int own = random.one_in(3) ? static_cast<int>(random.between(min_exponent, max_exponent)) : exponent;
         return std::ldexp(random.symmetric<Scalar>(), own);
       });
     };
@@ -232,7 +231,7 @@ TEST(Quotients, hold_the_true_quotient_in_every_lane) {
     const Bounded by{denominator, radius(std::fabs(denominator))};
     if (!(std::fabs(denominator) > by.radius)) continue;
     Bounded of{numerator, random.one_in(8) ? std::fabs(scaled()) : radius(std::fabs(numerator))};
-    if (std::fabs(numerator) < detail::least_exact_product) of.radius += detail::KernelBound<double>::underflow;
+    if (std::fabs(numerator) < detail::min_exact_product) of.radius += detail::KernelBound<double>::underflow;
     numerators.push_back(of);
     denominators.push_back(by);
   }

@@ -124,10 +124,10 @@ TEST(Executor, is_of_nothing_but_what_takes_tasks) {
 template <typename Scalar>
 class BatchOnExecutor : public testing::Test {
  protected:
-  static constexpr std::size_t most_paths = 13'000;
+  static constexpr std::size_t max_paths = 13'000;
 
   static const ManyPaths<Scalar>& many() {
-    static const ManyPaths<Scalar> paths = ManyPaths<Scalar>::scattered(most_paths);
+    static const ManyPaths<Scalar> paths = ManyPaths<Scalar>::scattered(max_paths);
     return paths;
   }
 };
@@ -147,7 +147,7 @@ TYPED_TEST(BatchOnExecutor, in_any_order_answers_as_without) {
 }
 
 TYPED_TEST(BatchOnExecutor, of_any_threads_answers_as_without) {
-  const AnswersWithoutExecutor expected(this->many(), this->most_paths);
+  const AnswersWithoutExecutor expected(this->many(), this->max_paths);
   for (const std::size_t count : {1U, 2U, 4U}) expected.expect_same_with(NewThreads(count));
 }
 

@@ -131,13 +131,13 @@ class KernelBoundOf : public testing::Test {
   }
 
   template <bool fused>
-  static double draw_worst(int least_exponent, int greatest_exponent) {
+  static double draw_worst(int min_exponent, int max_exponent) {
     Random random(26);
     double worst = 0;
     for (std::size_t i = case_count(15'000); i > 0; --i) {
       Case x = draw(random);
       for (Scalar& coordinate : x.coordinates) {
-        coordinate = std::ldexp(coordinate, static_cast<int>(random.between(least_exponent, greatest_exponent)));
+        coordinate = std::ldexp(coordinate, static_cast<int>(random.between(min_exponent, max_exponent)));
       }
       worst = std::max(worst, share_of<fused>(x));
     }

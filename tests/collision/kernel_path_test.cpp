@@ -46,8 +46,8 @@ class KernelPathOf : public testing::Test {
             path.start + std::ldexp(Scalar{1}, -static_cast<int>(random.below(30))) * (path.toward - path.start);
       }
       const detail::KernelPath<Scalar> kernel_path(path, grid.frame());
-      const PlacedPath placed(grid, path, path.has_start() ? 0 : -infinity, path.has_end() ? 1 : infinity);
-      for (GridTraversal traversal(grid, placed); !traversal.at_end(); traversal.advance()) {
+      const ClippedPath clipped(grid, path, path.has_start() ? 0 : -infinity, path.has_end() ? 1 : infinity);
+      for (GridTraversal traversal(grid, clipped); !traversal.at_end(); traversal.advance()) {
         if (traversal.word().is_empty()) continue;
         const CellWord word = traversal.word();
         const Scalar* block = blocks.block(word.number(), grid.first_entry(word));

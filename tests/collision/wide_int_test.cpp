@@ -27,11 +27,11 @@ mpz_class value_of(const WideInt<B>& x) {
   return x.sign() < 0 ? mpz_class(-result) : result;
 }
 
-/// Any length up to `most_bits`. Limbs of ones and of zeros are common: carries and borrows run far through those.
+/// Any length up to `max_bits`. Limbs of ones and of zeros are common: carries and borrows run far through those.
 template <int B>
-WideInt<B> draw(Random& random, int most_bits = B) {
+WideInt<B> draw(Random& random, int max_bits = B) {
   WideInt<B> result;
-  const int bits = static_cast<int>(random.between(0, most_bits));
+  const int bits = static_cast<int>(random.between(0, max_bits));
   for (int lowest = 0; lowest < bits; lowest += 64) {
     const std::uint64_t kind = random.below(4);
     std::uint64_t limb = kind == 0 ? 0 : kind == 1 ? ~std::uint64_t{0} : random.bits();
@@ -206,7 +206,7 @@ TYPED_TEST(RoundedQuotient, at_half_the_least_denormal) {
   const auto one = WideInt<64>::shifted(1, 0, false);
   const auto almost_one = WideInt<200>::power_of_two(150) - one;
   const auto above_one = WideInt<200>::power_of_two(150) + one;
-  constexpr int half = Decomposed<TypeParam>::least_exponent - 1;
+  constexpr int half = Decomposed<TypeParam>::min_exponent - 1;
   EXPECT_EQ(detail::rounded_quotient<TypeParam>(one, one, half), 0);
   EXPECT_EQ(detail::rounded_quotient<TypeParam>(almost_one, one, half - 150), 0);
   EXPECT_EQ(detail::rounded_quotient<TypeParam>(above_one, one, half - 150),

@@ -157,12 +157,12 @@ struct JudgedSpot {
 
 /// Spots all over the polygon and around it, some of them on its outline.
 inline std::vector<JudgedSpot> judged_spots(const SamplePolygon& polygon) {
-  const auto [least_x, greatest_x] = std::minmax_element(polygon.spots.begin(), polygon.spots.end());
-  const auto [least_y, greatest_y] = std::minmax_element(polygon.spots.begin(), polygon.spots.end(),
-                                                         [](const Spot& a, const Spot& b) { return a[1] < b[1]; });
+  const auto [min_x, max_x] = std::minmax_element(polygon.spots.begin(), polygon.spots.end());
+  const auto [min_y, max_y] = std::minmax_element(polygon.spots.begin(), polygon.spots.end(),
+                                                  [](const Spot& a, const Spot& b) { return a[1] < b[1]; });
   std::vector<JudgedSpot> judged;
-  for (std::int64_t x = sample_scale * (*least_x)[0] - 1; x <= sample_scale * (*greatest_x)[0] + 1; x += 2) {
-    for (std::int64_t y = sample_scale * (*least_y)[1] - 3; y <= sample_scale * (*greatest_y)[1] + 3; y += 3) {
+  for (std::int64_t x = sample_scale * (*min_x)[0] - 1; x <= sample_scale * (*max_x)[0] + 1; x += 2) {
+    for (std::int64_t y = sample_scale * (*min_y)[1] - 3; y <= sample_scale * (*max_y)[1] + 3; y += 3) {
       judged.push_back({{x, y}, is_closed_over(polygon, sample_scale, {x, y})});
     }
   }

@@ -331,7 +331,7 @@ template <typename Scalar>
 Scalar nearest(const mpq_class& x) {
   using Limits = std::numeric_limits<Scalar>;
   using Bits = std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>;
-  constexpr long least_quantum = Limits::min_exponent - Limits::digits;
+  constexpr long min_quantum = Limits::min_exponent - Limits::digits;
 
   const mpq_class magnitude = abs(x);
   if (magnitude == 0) return 0;
@@ -349,7 +349,7 @@ Scalar nearest(const mpq_class& x) {
   };
   if (over_power_of_two(exponent) < 1) --exponent;
 
-  const long quantum = std::max(exponent - (Limits::digits - 1), least_quantum);
+  const long quantum = std::max(exponent - (Limits::digits - 1), min_quantum);
   const Bits infinity = std::bit_cast<Bits>(Limits::infinity());
   Bits bits = infinity;
   if (exponent < Limits::max_exponent) {
@@ -358,7 +358,7 @@ Scalar nearest(const mpq_class& x) {
     const int against_half = cmp(mpq_class(quanta - whole), mpq_class(1, 2));
     if (against_half > 0 || (against_half == 0 && mpz_odd_p(whole.get_mpz_t()))) ++whole;
     // The leading bit of a normal significand adds the last 1 to the exponent field, and so does a carry out of it.
-    bits = static_cast<Bits>((static_cast<Bits>(quantum - least_quantum) << (Limits::digits - 1)) + whole.get_ui());
+    bits = static_cast<Bits>((static_cast<Bits>(quantum - min_quantum) << (Limits::digits - 1)) + whole.get_ui());
   }
   const Scalar result = std::bit_cast<Scalar>(std::min(bits, infinity));
   return x < 0 && bits != 0 ? -result : result;

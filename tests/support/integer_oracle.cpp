@@ -61,10 +61,10 @@ struct DyadicPair {
 
 /// With coordinates below 2^k their differences are below 2^(k+1), a cross product's components below 2^(2k+3), and a
 /// determinant below 3 · 2^(k+1) · 2^(2k+3) < 2^(3k+6), which 127 bits hold for k up to 40.
-constexpr int most_bits_across = 40;
+constexpr int max_bits_across = 40;
 /// In the plane, weights over their common denominator are below 2^(2k+3), the third of them and each bound of t below
 /// 2^(2k+5), and what compares two bounds or puts one into a weight below 2^(4k+11).
-constexpr int most_bits_in_plane = 29;
+constexpr int max_bits_in_plane = 29;
 
 /// numerator / denominator, with a positive denominator.
 template <typename Integer>
@@ -289,9 +289,9 @@ template <typename Scalar>
 bool is_right(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const std::optional<Hit<Scalar>>& answer) {
   const DyadicPair dyadic(path, triangle);
   if constexpr (sizeof(Scalar) == sizeof(float)) {
-    if (dyadic.bits() <= most_bits_across) {
+    if (dyadic.bits() <= max_bits_across) {
       IntegerPair<std::int64_t, Int128> pair(dyadic, path.kind);
-      if (!pair.is_in_plane() || dyadic.bits() <= most_bits_in_plane) {
+      if (!pair.is_in_plane() || dyadic.bits() <= max_bits_in_plane) {
         if (const auto agreement = agree(pair.contact(), answer)) return *agreement;
       }
     }

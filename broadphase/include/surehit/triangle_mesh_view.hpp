@@ -66,10 +66,10 @@ class TriangleMeshView {
   [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }
 
   [[nodiscard]] Vector3<Scalar> vertex(std::size_t index) const {
-    const std::byte* const place = vertices_ + index * vertex_stride_;
+    const std::byte* const address = vertices_ + index * vertex_stride_;
     const auto coordinate = [&](std::size_t axis) {
       Scalar x;  // copied, since a stride may leave it unaligned
-      std::memcpy(&x, place + axis * sizeof x, sizeof x);
+      std::memcpy(&x, address + axis * sizeof x, sizeof x);
       return x;
     };
     return {coordinate(0), coordinate(1), coordinate(2)};
@@ -77,9 +77,9 @@ class TriangleMeshView {
 
   /// Index of corner 0, 1 or 2 (a, b, c) of a triangle.
   [[nodiscard]] std::uint32_t corner(std::size_t triangle, std::size_t which) const {
-    const std::byte* const place = triangles_ + triangle * triangle_stride_ + which * index_size_;
-    if (index_size_ == sizeof(std::uint16_t)) return index_at<std::uint16_t>(place);
-    return index_at<std::uint32_t>(place);
+    const std::byte* const address = triangles_ + triangle * triangle_stride_ + which * index_size_;
+    if (index_size_ == sizeof(std::uint16_t)) return index_at<std::uint16_t>(address);
+    return index_at<std::uint32_t>(address);
   }
 
   [[nodiscard]] Triangle<Scalar> triangle(std::size_t index) const {
@@ -99,9 +99,9 @@ class TriangleMeshView {
         index_size_(sizeof(Index)) {}
 
   template <typename Index>
-  static Index index_at(const std::byte* place) {
+  static Index index_at(const std::byte* address) {
     Index index;
-    std::memcpy(&index, place, sizeof index);
+    std::memcpy(&index, address, sizeof index);
     return index;
   }
 

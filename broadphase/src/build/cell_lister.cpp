@@ -8,7 +8,7 @@ namespace surehit::detail {
 namespace {
 
 /// A triangle that takes more is first parted from as many as can be.
-constexpr float most_blocks = 16;
+constexpr float max_blocks = 16;
 
 float count_blocks(const PaddedPoint& first, const PaddedPoint& last) {
   const PaddedPoint blocks = to_float(to_int((last - first) * 0.5F)) + 1;
@@ -36,7 +36,7 @@ CellLister::CellLister(CellEntries& entries, bool may_grow, const CellRange& cel
 }
 
 void CellLister::add_range(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last) {
-  if (count_blocks(first, last) <= most_blocks) {
+  if (count_blocks(first, last) <= max_blocks) {
     add_blocks(triangle, corners, first, last);
     return;
   }
@@ -48,7 +48,7 @@ void CellLister::add_range(std::uint32_t triangle, const Corners& corners, const
 /// Halves the cells until the triangle misses them or they are few enough. At first it meets them.
 void CellLister::add_parts(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last,
                            const TriangleOverlap& overlap) {
-  if (count_blocks(first, last) <= most_blocks) {
+  if (count_blocks(first, last) <= max_blocks) {
     add_blocks(triangle, corners, first, last);
     return;
   }
@@ -76,7 +76,7 @@ void CellLister::add_blocks(std::uint32_t triangle, const Corners& corners, cons
   for (block[2] = first[2]; block[2] <= last[2]; block[2] += 2) {
     for (block[1] = first[1]; block[1] <= last[1]; block[1] += 2) {
       for (block[0] = first[0]; block[0] <= last[0]; block[0] += 2) {
-        add_block(triangle, corners, block, least(last - block, all_lanes(1.0F)));
+        add_block(triangle, corners, block, min(last - block, all_lanes(1.0F)));
       }
     }
   }
@@ -86,13 +86,13 @@ void CellLister::ask() {
   const std::size_t filled = std::exchange(filled_, 0);
   const std::size_t blocks = std::exchange(block_count_, 0);
   if (blocks == 0 || entries_.count == CellEntries::too_many) return;
-  const std::size_t most = entries_.count + blocks * OverlapLanes::cells_of_a_block;
-  if (entries_.cells.size() < most) {
+  const std::size_t max_count = entries_.count + blocks * OverlapLanes::cells_of_a_block;
+  if (entries_.cells.size() < max_count) {
     if (!may_grow_) {
       entries_.count = CellEntries::too_many;
       return;
     }
-    entries_.make_room(2 * most);
+    entries_.make_room(2 * max_count);
   }
   if (filled > 0) {
     OverlapLanes::Row<std::int32_t> overlaps;

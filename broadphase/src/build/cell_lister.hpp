@@ -27,8 +27,8 @@ class CellLister {
   void add(std::uint32_t triangle, const Corners& corners, const PaddedBox& box) {
     const Cell low = cell_of(box.low - padding_);
     const Cell high = cell_of(box.high + padding_);
-    const Cell first = greatest(low, first_);
-    const Cell last = least(high, last_);
+    const Cell first = max(low, first_);
+    const Cell last = min(high, last_);
     const Cell more = last - first;
     assert(!any_lane(more < all_lanes(0.0F)));
     if (sum_of(high - low) <= 1) {
@@ -69,7 +69,7 @@ class CellLister {
     blocks_.triangles[block] = triangle;
     blocks_.first[block] = static_cast<std::uint32_t>(static_cast<std::int32_t>(sum_of((first - first_) * pitch_)));
     blocks_.overlaps[block] = static_cast<std::int32_t>(overlaps);
-    if (block + 1 == ListedBlocks::most) ask();
+    if (block + 1 == ListedBlocks::max_count) ask();
   }
 
   void add_range(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last);

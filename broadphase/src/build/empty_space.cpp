@@ -9,7 +9,7 @@
 namespace surehit::detail {
 namespace {
 
-constexpr std::uint8_t farthest = CellWord::farthest;
+constexpr std::uint8_t max_distance = CellWord::max_distance;
 constexpr std::uint32_t octants = 8;
 
 /// What some cells side by side allow, a byte each, in vectors that any target has.
@@ -58,7 +58,7 @@ class Octants {
     for (std::uint32_t octant = 0; octant < octants; ++octant)
       distances_[octant] = emptiness_ + (1 + octant) * all_rows;
     outer_row_ = emptiness_ + (1 + octants) * all_rows;
-    std::fill_n(outer_row_, pitch_, farthest);
+    std::fill_n(outer_row_, pitch_, max_distance);
   }
 
   /// Where the cells of a row begin.
@@ -120,16 +120,17 @@ class Octants {
     std::uint8_t* const measured = distances + row(y, z);
 
     // Of the cells beyond these on the row.
-    Cells next_beside = all_cells(farthest);
-    Cells next_begun = all_cells(farthest);
-    Cells next_of_four = all_cells(farthest);
+    Cells next_beside = all_cells(max_distance);
+    Cells next_begun = all_cells(max_distance);
+    Cells next_of_four = all_cells(max_distance);
     for (std::size_t step = 0; step < pitch_; step += row_unit) {
       const std::size_t x = is_upward ? pitch_ - row_unit - step : step;
       const Cells beside = lesser(lesser(load(beside_y + x), load(beside_z + x)), load(beside_both + x));
-      const Cells least = lesser(lesser(beside, ahead<is_upward, 1>(beside, next_beside)), all_cells(farthest - 1));
-      const Cells begun = (least + 1) & load(emptiness + x);
-      const Cells of_four = least_of_four<is_upward, 1>(begun, next_begun);
-      const Cells distance = least_of_four<is_upward, 4>(of_four, next_of_four);
+      const Cells nearest =
+          lesser(lesser(beside, ahead<is_upward, 1>(beside, next_beside)), all_cells(max_distance - 1));
+      const Cells begun = (nearest + 1) & load(emptiness + x);
+      const Cells of_four = min_of_four<is_upward, 1>(begun, next_begun);
+      const Cells distance = min_of_four<is_upward, 4>(of_four, next_of_four);
       store(distance, measured + x);
       next_beside = beside;
       next_begun = begun;
@@ -139,7 +140,7 @@ class Octants {
 
   /// The least of a cell and the three ahead of it, `by` apart, each of which allows `by` more than the one before.
   template <bool is_upward, int by>
-  [[gnu::always_inline]] static Cells least_of_four(Cells cells, Cells next) {
+  [[gnu::always_inline]] static Cells min_of_four(Cells cells, Cells next) {
     return lesser(
         lesser(cells, ahead<is_upward, by>(cells, next) + by),
         lesser(ahead<is_upward, 2 * by>(cells, next) + 2 * by, ahead<is_upward, 3 * by>(cells, next) + 3 * by));

@@ -20,19 +20,19 @@ constexpr std::size_t entries_per_triangle = 8;
 constexpr std::size_t free_entries = std::size_t{1} << 18;
 /// Most meshes take fewer than the one and more than the other. Room that is not used is not touched.
 constexpr std::size_t usual_entries = 4;
-constexpr std::size_t least_entries = 2;
+constexpr std::size_t min_entries = 2;
 /// Vertices or triangles in an executor's task.
 constexpr std::size_t triangles_in_a_part = std::size_t{1} << 13;
 constexpr double cells_per_triangle_limit = 8;
 constexpr double free_cells = 0x1p20;
 /// Cells are counted in float, exactly up to here.
-constexpr double most_cells = 0x1p24;
-constexpr double most_cells_on_an_axis = 0x1p11;
+constexpr double max_cells = 0x1p24;
+constexpr double max_cells_on_an_axis = 0x1p11;
 /// Cells are cubes where the triangles' mean box is no longer on one axis than on another by more than this: the mean
 /// of a sample is no more exact.
-constexpr double least_stretch = 1.5;
+constexpr double min_stretch = 1.5;
 /// Of a cell's edge, over and under the mean of its edges.
-constexpr double most_stretch = 2;
+constexpr double max_stretch = 2;
 /// Cells that are less wide, counted in the triangles' mean boxes, are made fewer in proportion. More would be faster
 /// to walk: this is for memory.
 constexpr double wide_cell = 2.55;
@@ -100,13 +100,13 @@ template <typename Scalar>
 std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar>& box,
                                         const TriangleMeshView<Scalar>& mesh, const GridOptions& options) {
   const std::array<double, 3> extent = mean_extent(frame, mesh);
-  const auto [least, greatest] = std::minmax({extent[0], extent[1], extent[2]});
+  const auto [shortest, longest] = std::minmax({extent[0], extent[1], extent[2]});
   const double mean = (extent[0] + extent[1] + extent[2]) / 3;
-  const bool are_stretched = mean > 0 && greatest > least_stretch * least;
+  const bool are_stretched = mean > 0 && longest > min_stretch * shortest;
   std::array<double, 3> width = {};  // stretched so that cells are cubes
   for (std::size_t axis = 0; axis < 3; ++axis) {
     width[axis] = frame.scaled(box.high[static_cast<Eigen::Index>(axis)]) - frame.origin[axis];
-    if (are_stretched) width[axis] /= std::clamp(extent[axis] / mean, 1 / most_stretch, most_stretch);
+    if (are_stretched) width[axis] /= std::clamp(extent[axis] / mean, 1 / max_stretch, max_stretch);
   }
   const auto count = static_cast<double>(mesh.triangle_count());
   const double usual_cells = std::max(1.0, GridOptions().cells_per_triangle * count);
@@ -117,9 +117,9 @@ std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar
   std::array<double, 3> wished = cubic_resolution(width, std::max(1.0, share * options.cells_per_triangle * count));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (options.resolution[axis] != 0) wished[axis] = options.resolution[axis];
-    wished[axis] = std::clamp(std::floor(wished[axis]), 1.0, most_cells_on_an_axis);
+    wished[axis] = std::clamp(std::floor(wished[axis]), 1.0, max_cells_on_an_axis);
   }
-  const double limit = std::min(std::max(free_cells, cells_per_triangle_limit * count), most_cells);
+  const double limit = std::min(std::max(free_cells, cells_per_triangle_limit * count), max_cells);
   while (wished[0] * wished[1] * wished[2] > limit) {
     double& finest = *std::max_element(wished.begin(), wished.end());
     finest = std::floor(finest / 2);
@@ -159,11 +159,11 @@ class GridBuild {
 
  private:
   static constexpr std::uint32_t division = Grid::brick_edge * Grid::brick_edge;
-  static_assert(Grid::most_levels == 2);
+  static_assert(Grid::max_levels == 2);
   /// A cell is left whole if its bricks' lists would be longer than this many times its own.
-  static constexpr std::size_t most_growth = 3;
+  static constexpr std::size_t max_growth = 3;
   /// With so many, all cells together have no more lists than a word can number.
-  static constexpr std::size_t most_brick_cells = CellWord::most_numbers - static_cast<std::size_t>(most_cells);
+  static constexpr std::size_t max_brick_cells = CellWord::max_numbers - static_cast<std::size_t>(max_cells);
   /// What a vector load may read beyond the last top cell.
   static constexpr std::size_t top_slack = 64;
 
@@ -174,7 +174,7 @@ class GridBuild {
     const detail::VertexLanes<Scalar> vertices(mesh_);
     detail::Float4 margin = frame.float_margin;
     margin[3] = 0;
-    const auto place = [&](std::size_t i) -> detail::PaddedPoint {
+    const auto padded = [&](std::size_t i) -> detail::PaddedPoint {
       if constexpr (std::is_same_v<Scalar, float>) {
         if (frame.has_floats) {
           detail::Float4 vertex;
@@ -184,12 +184,12 @@ class GridBuild {
       }
       const Vector3<Scalar> vertex = mesh_.vertex(i);
       const auto coordinate = [&](std::size_t axis) {
-        return static_cast<float>(frame.place(axis, frame.scaled(vertex[static_cast<Eigen::Index>(axis)])));
+        return static_cast<float>(frame.to_cells(axis, frame.scaled(vertex[static_cast<Eigen::Index>(axis)])));
       };
       return detail::PaddedPoint{coordinate(0), coordinate(1), coordinate(2), 0};
     };
     detail::in_parts(executor_, points.size(), triangles_in_a_part, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) points[i] = place(i);
+      for (std::size_t i = first; i < last; ++i) points[i] = padded(i);
     });
     for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame.padding(axis);
   }
@@ -198,7 +198,7 @@ class GridBuild {
   /// so many entries. Among the top cells, where each triangle comes once, it writes down their boxes.
   template <bool is_top, typename Id>
   bool try_find(std::size_t first, std::size_t last, const Id& id, const detail::CellRange& cells, std::uint32_t size,
-                std::size_t most_entries, detail::CellEntries& entries, bool may_grow) const {
+                std::size_t max_entries, detail::CellEntries& entries, bool may_grow) const {
     detail::CellLister lister(entries, may_grow, cells, size, padding_);
     const auto& points = scratch_.points_;
     for (std::size_t i = first; i < last; ++i) {
@@ -208,13 +208,13 @@ class GridBuild {
       detail::PaddedBox& box = scratch_.boxes_[triangle];
       if constexpr (is_top) {
         const auto& [a, b, c] = corners;
-        box = {detail::least(detail::least(a, b), c), detail::greatest(detail::greatest(a, b), c)};
+        box = {detail::min(detail::min(a, b), c), detail::max(detail::max(a, b), c)};
       }
       lister.add(triangle, corners, box);
-      if (entries.count > most_entries) return false;
+      if (entries.count > max_entries) return false;
     }
     lister.finish();
-    return entries.count <= most_entries;
+    return entries.count <= max_entries;
   }
 
   /// Lists all triangles in top cells, unless that takes more entries than the budget. One cell always fits.
@@ -232,25 +232,25 @@ class GridBuild {
     return true;
   }
 
-  bool try_find_top(std::size_t first, std::size_t last, std::size_t most_entries, detail::CellEntries& entries,
+  bool try_find_top(std::size_t first, std::size_t last, std::size_t max_entries, detail::CellEntries& entries,
                     bool may_grow) const {
-    entries.make_room(usual_entries * (last - first), least_entries * (last - first));
+    entries.make_room(usual_entries * (last - first), min_entries * (last - first));
     const auto id = [](std::size_t i) { return static_cast<std::uint32_t>(i); };
-    return try_find<true>(first, last, id, {{0, 0, 0}, grid_.frame_.cells}, division, most_entries, entries, may_grow);
+    return try_find<true>(first, last, id, {{0, 0, 0}, grid_.frame_.cells}, division, max_entries, entries, may_grow);
   }
 
   /// The same by the executor's tasks. False as well if some part takes more room than most: tasks cannot ask for it.
-  bool try_find_in_parts(std::size_t most_entries) {
+  bool try_find_in_parts(std::size_t max_entries) {
     constexpr std::size_t size = triangles_in_a_part;
     auto& parts = scratch_.parts_;
     parts.resize((mesh_.triangle_count() + size - 1) / size);
-    for (detail::CellEntries& part : parts) part.make_room(entries_per_triangle * size, least_entries * size);
+    for (detail::CellEntries& part : parts) part.make_room(entries_per_triangle * size, min_entries * size);
     detail::in_parts(executor_, mesh_.triangle_count(), size, [&](std::size_t first, std::size_t last) {
-      static_cast<void>(try_find_top(first, last, most_entries, parts[first / size], false));
+      static_cast<void>(try_find_top(first, last, max_entries, parts[first / size], false));
     });
     std::size_t entries = 0;
     for (const detail::CellEntries& part : parts) {
-      if (part.count > most_entries - entries) return false;
+      if (part.count > max_entries - entries) return false;
       entries += part.count;
     }
     return true;
@@ -270,7 +270,7 @@ class GridBuild {
     for (std::size_t cell = 0; cell < grid_.top_count_; ++cell) {
       const std::size_t count = offsets[cell + 1] - offsets[cell];
       const bool is_crowded = count > crowded_;
-      entries += is_crowded ? (most_growth - 1) * count : 0;
+      entries += is_crowded ? (max_growth - 1) * count : 0;
       lists += is_crowded ? Grid::brick_size / 2 : count != 0 ? 1 : 0;
     }
     grid_.entries_.clear();
@@ -296,37 +296,37 @@ class GridBuild {
   }
 
   /// The word of a cell that is not empty, at `place` in cells of its `size`.
-  std::uint32_t emit(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& place, std::uint32_t size,
+  std::uint32_t emit(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& cell, std::uint32_t size,
                      std::uint32_t level) {
-    if (ids.size() > crowded_ && level < Grid::most_levels) {
-      if (const std::uint32_t word = divide(ids, place, size / Grid::brick_edge, level + 1); word != 0) return word;
+    if (ids.size() > crowded_ && level < Grid::max_levels) {
+      if (const std::uint32_t word = divide(ids, cell, size / Grid::brick_edge, level + 1); word != 0) return word;
     }
     const auto list = static_cast<std::uint32_t>(grid_.lists_.size());
-    grid_.lists_.push_back({box_of(ids, place, size), static_cast<std::uint32_t>(grid_.entries_.size())});
+    grid_.lists_.push_back({box_of(ids, cell, size), static_cast<std::uint32_t>(grid_.entries_.size())});
     grid_.entries_.insert(grid_.entries_.end(), ids.begin(), ids.end());
     return CellWord::listing(list).bits();
   }
 
   /// Of the triangles' boxes and the cell. They are padded as when they were listed, and so each meets the cell.
-  [[nodiscard]] CellBox box_of(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& place,
+  [[nodiscard]] CellBox box_of(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& cell,
                                std::uint32_t size) const {
     using namespace detail;
     auto [low, high] = scratch_.boxes_[ids.front()];
     for (const std::uint32_t id : ids.subspan(1)) {
-      low = least(low, scratch_.boxes_[id].low);
-      high = greatest(high, scratch_.boxes_[id].high);
+      low = min(low, scratch_.boxes_[id].low);
+      high = max(high, scratch_.boxes_[id].high);
     }
     constexpr float parts = CellBox::parts;
     const auto edge = static_cast<float>(size);
     const float per_part = parts / edge;  // a power of two
-    const Float4 corner = to_float(Int4{static_cast<std::int32_t>(place[0]), static_cast<std::int32_t>(place[1]),
-                                        static_cast<std::int32_t>(place[2]), 0}) *
+    const Float4 corner = to_float(Int4{static_cast<std::int32_t>(cell[0]), static_cast<std::int32_t>(cell[1]),
+                                        static_cast<std::int32_t>(cell[2]), 0}) *
                           edge;
     const Float4 padding = {padding_[0], padding_[1], padding_[2], 0};
     const Float4 from = (low - padding - corner) * per_part;
     const Float4 to = (high + padding - corner) * per_part;
-    const Int4 first_part = to_int(least(greatest(from, all_lanes(0.0F)), all_lanes(parts - 1)));
-    const Float4 last = least(greatest(to, all_lanes(1.0F)), all_lanes(parts));
+    const Int4 first_part = to_int(min(max(from, all_lanes(0.0F)), all_lanes(parts - 1)));
+    const Float4 last = min(max(to, all_lanes(1.0F)), all_lanes(parts));
     const Int4 whole = to_int(last);
     const Int4 end_part = whole - (to_float(whole) < last);
     std::array<std::uint32_t, 3> first;
@@ -339,21 +339,21 @@ class GridBuild {
   }
 
   /// The word of a cell that is divided into a brick of cells of `size`; 0 if that would not part its triangles.
-  std::uint32_t divide(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& place,
-                       std::uint32_t size, std::uint32_t level) {
+  std::uint32_t divide(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& cell, std::uint32_t size,
+                       std::uint32_t level) {
     constexpr std::uint32_t edge = Grid::brick_edge;
     detail::CellRange cells;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      cells.low[axis] = place[axis] * edge;
+      cells.low[axis] = cell[axis] * edge;
       cells.high[axis] = cells.low[axis] + edge;
     }
     detail::CellLists& lists = scratch_.lists_[level];
     const auto id = [&](std::size_t i) { return ids[i]; };
     // The brick of no number is no one's: a word of zeros would be that of an empty cell not yet measured.
     const std::size_t first = std::max<std::size_t>(grid_.bricks_.size(), Grid::brick_size);
-    const std::size_t most_entries = std::min(most_growth * ids.size(), ids.size() + spare_entries_);
-    if (first >= most_brick_cells ||
-        !try_find<false>(0, ids.size(), id, cells, size, most_entries, lists.entries, true)) {
+    const std::size_t max_entries = std::min(max_growth * ids.size(), ids.size() + spare_entries_);
+    if (first >= max_brick_cells ||
+        !try_find<false>(0, ids.size(), id, cells, size, max_entries, lists.entries, true)) {
       return 0;
     }
     sort_entries({&lists.entries, 1}, Grid::brick_size, lists);
@@ -378,7 +378,7 @@ class GridBuild {
 
   /// Counts in the finest cells that there are.
   void shrink_division() {
-    for (std::uint32_t level = grid_.levels_; level < Grid::most_levels; ++level) {
+    for (std::uint32_t level = grid_.levels_; level < Grid::max_levels; ++level) {
       grid_.frame_.coarsen(Grid::brick_edge);
     }
   }

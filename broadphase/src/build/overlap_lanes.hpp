@@ -43,11 +43,11 @@ struct CellOrder {
 
 /// Blocks of up to 2 × 2 × 2 cells, each with a triangle, and which of the cells this meets.
 struct ListedBlocks {
-  static constexpr std::size_t most = 64;
+  static constexpr std::size_t max_count = 64;
 
-  std::array<std::uint32_t, most> triangles;
-  std::array<std::uint32_t, most> first;    ///< the first cell's place in the order
-  std::array<std::int32_t, most> overlaps;  ///< as `find_overlaps` tells them
+  std::array<std::uint32_t, max_count> triangles;
+  std::array<std::uint32_t, max_count> first;    ///< the first cell's place in the order
+  std::array<std::int32_t, max_count> overlaps;  ///< as `find_overlaps` tells them
 };
 
 /// Writes the cells that are met in the first `count` blocks, block by block, by their places in the order, and for

@@ -14,8 +14,8 @@ class CellWord {
   CellWord() = default;
   explicit CellWord(std::uint32_t bits) : bits_(bits) {}
 
-  static constexpr std::uint32_t most_numbers = std::uint32_t{1} << 27;
-  static constexpr std::uint32_t farthest = 15;        ///< a nibble's
+  static constexpr std::uint32_t max_numbers = std::uint32_t{1} << 27;
+  static constexpr std::uint32_t max_distance = 15;    ///< a nibble's
   static constexpr std::uint32_t divided_bits = 0x1f;  ///< all 0 in the word of a divided cell
 
   static CellWord listing(std::uint32_t list) { return CellWord(list << 5 | 1U << 4); }

@@ -27,7 +27,7 @@ class Grid {
  public:
   static constexpr std::uint32_t brick_edge = 4;
   static constexpr std::uint32_t brick_size = brick_edge * brick_edge * brick_edge;
-  static constexpr std::uint32_t most_levels = 2;
+  static constexpr std::uint32_t max_levels = 2;
 
   /// No cells.
   Grid() = default;

@@ -34,9 +34,9 @@ struct CoverBox {
 /// Of the grid, what its cells list there.
 struct GridPart {
   static constexpr std::uint32_t on_an_axis = 8;
-  static constexpr std::size_t most = std::size_t{on_an_axis} * on_an_axis * on_an_axis;
+  static constexpr std::size_t max_count = std::size_t{on_an_axis} * on_an_axis * on_an_axis;
 
-  std::array<std::uint32_t, 3> place = {0, 0, 0};
+  std::array<std::uint32_t, 3> cell = {0, 0, 0};
   CoverBox box;
 };
 
@@ -46,14 +46,14 @@ struct PartGroup {
   CoverBox box;
   float gain = 0;  ///< in surface, if they are divided there:
   std::size_t axis = 0;
-  std::uint32_t plane = 0;  ///< the first place that belongs to the second half
+  std::uint32_t plane = 0;  ///< the first cell that belongs to the second half
 
   PartGroup() = default;
   explicit PartGroup(std::span<GridPart> some) : parts(some) {
     for (const GridPart& part : parts) box.grow_around(part.box);
     for (std::size_t on = 0; on < 3; ++on) {
       std::array<CoverBox, GridPart::on_an_axis> slabs;
-      for (const GridPart& part : parts) slabs[part.place[on]].grow_around(part.box);
+      for (const GridPart& part : parts) slabs[part.cell[on]].grow_around(part.box);
       std::array<CoverBox, GridPart::on_an_axis> from = slabs;  // this slab on
       for (std::size_t at = from.size() - 1; at > 0; --at) from[at - 1].grow_around(from[at]);
       CoverBox before;
@@ -101,16 +101,16 @@ class ListingParts {
   }
 
   /// With the boxes of what they list. Returns how many there are.
-  [[nodiscard]] std::size_t boxed(std::array<GridPart, GridPart::most>& parts) const {
-    std::array<CoverBox, GridPart::most> boxes;
+  [[nodiscard]] std::size_t boxed(std::array<GridPart, GridPart::max_count>& parts) const {
+    std::array<CoverBox, GridPart::max_count> boxes;
     const auto size = static_cast<float>(grid_.frame().division);
-    visit_cells([&](std::size_t part, const std::array<std::uint32_t, 3>& place, CellWord word) {
+    visit_cells([&](std::size_t part, const std::array<std::uint32_t, 3>& cell, CellWord word) {
       CoverBox box;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         constexpr std::uint32_t steps = CellBox::parts;
         const std::uint32_t low = word.is_divided() ? 0 : grid_.box(word).low(axis);
         const std::uint32_t high = word.is_divided() ? steps : grid_.box(word).high(axis);
-        const auto corner = static_cast<float>(place[axis]);
+        const auto corner = static_cast<float>(cell[axis]);
         box.low[axis] = (corner + static_cast<float>(low) / steps) * size;
         box.high[axis] = (corner + static_cast<float>(high) / steps) * size;
       }
@@ -128,24 +128,24 @@ class ListingParts {
 
   static std::array<std::uint32_t, 3> place_of(std::uint32_t part) { return {part % n, part / n % n, part / n / n}; }
 
-  /// visit(part, place, word) for each top cell that is not empty.
+  /// visit(part, cell, word) for each top cell that is not empty.
   template <typename Visit>
   void visit_cells(const Visit& visit) const {
     const auto& cells = grid_.resolution();
     const CellWord* word = grid_.top().data();
-    std::array<std::uint32_t, 3> place;
-    for (place[2] = 0; place[2] < cells[2]; ++place[2]) {
-      for (place[1] = 0; place[1] < cells[1]; ++place[1]) {
-        const std::size_t row = (std::size_t{place[2] * n / cells[2]} * n + place[1] * n / cells[1]) * n;
-        for (place[0] = 0; place[0] < cells[0]; ++place[0], ++word) {
-          if (!word->is_empty()) visit(row + place[0] * n / cells[0], place, *word);
+    std::array<std::uint32_t, 3> cell;
+    for (cell[2] = 0; cell[2] < cells[2]; ++cell[2]) {
+      for (cell[1] = 0; cell[1] < cells[1]; ++cell[1]) {
+        const std::size_t row = (std::size_t{cell[2] * n / cells[2]} * n + cell[1] * n / cells[1]) * n;
+        for (cell[0] = 0; cell[0] < cells[0]; ++cell[0], ++word) {
+          if (!word->is_empty()) visit(row + cell[0] * n / cells[0], cell, *word);
         }
       }
     }
   }
 
   const Grid& grid_;
-  std::array<bool, GridPart::most> lists_ = {};
+  std::array<bool, GridPart::max_count> lists_ = {};
 };
 
 }  // namespace
@@ -153,16 +153,16 @@ class ListingParts {
 GridCover::GridCover(const Grid& grid) {
   const ListingParts listing(grid);
   if (listing.silhouette() >= useful_share) return;
-  std::array<GridPart, GridPart::most> parts;
-  std::array<PartGroup, most_boxes> groups;
+  std::array<GridPart, GridPart::max_count> parts;
+  std::array<PartGroup, max_boxes> groups;
   std::size_t count = 0;
   groups[count++] = PartGroup(std::span(parts).first(listing.boxed(parts)));
-  while (count < most_boxes) {
+  while (count < max_boxes) {
     PartGroup& best = *std::max_element(groups.begin(), groups.begin() + count,
                                         [](const PartGroup& a, const PartGroup& b) { return a.gain < b.gain; });
     if (best.gain <= 0) break;
     const auto middle = std::partition(best.parts.begin(), best.parts.end(),
-                                       [&](const GridPart& part) { return part.place[best.axis] < best.plane; });
+                                       [&](const GridPart& part) { return part.cell[best.axis] < best.plane; });
     const auto first = static_cast<std::size_t>(middle - best.parts.begin());
     const std::span<GridPart> second = best.parts.subspan(first);
     best = PartGroup(best.parts.first(first));

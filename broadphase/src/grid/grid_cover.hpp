@@ -15,7 +15,7 @@ class Grid;
 /// walked but from the first box to the last one. Where they do not, to ask them would cost more than it saves.
 class GridCover {
  public:
-  static constexpr std::size_t most_boxes = 8;
+  static constexpr std::size_t max_boxes = 8;
   /// Of the surface of the grid: paths come to a box as often as it has surface. The cover is of use where the lists,
   /// seen along the axes, and the boxes take up less. (Of the meshes measured, one has 0.5 of it: its long paths take
   /// 0.79 to 0.83 of the time. The others have 0.85 or more, where long paths would take as long, lines of sight 1.02.)
@@ -41,19 +41,19 @@ class GridCover {
     const Sides& z = sides_[2][octant >> 2 & 1];
     Float4 first = all_lanes(never);
     Float4 last = all_lanes(-never);
-    for (std::size_t i = 0; i < most_boxes / 4; ++i) {
+    for (std::size_t i = 0; i < max_boxes / 4; ++i) {
       const auto crosses = [&](const Float4& sides, std::size_t axis) {
         return (sides - start[axis]) * inverse_rate[axis];
       };
-      const Float4 enters = greatest(greatest(crosses(x.near[i], 0), crosses(y.near[i], 1)),
-                                     greatest(crosses(z.near[i], 2), all_lanes(0.0F)));
+      const Float4 enters =
+          max(max(crosses(x.near[i], 0), crosses(y.near[i], 1)), max(crosses(z.near[i], 2), all_lanes(0.0F)));
       const Float4 leaves =
-          least(least(crosses(x.far[i], 0), crosses(y.far[i], 1)), least(crosses(z.far[i], 2), all_lanes(end)));
+          min(min(crosses(x.far[i], 0), crosses(y.far[i], 1)), min(crosses(z.far[i], 2), all_lanes(end)));
       const Int4 is_met = enters <= leaves;
-      first = least(first, is_met ? enters : first);
-      last = greatest(last, is_met ? leaves : last);
+      first = min(first, is_met ? enters : first);
+      last = max(last, is_met ? leaves : last);
     }
-    return {least_lane(first)[0], -least_lane(-last)[0]};
+    return {min_lane(first)[0], -min_lane(-last)[0]};
   }
 
  private:
@@ -61,8 +61,8 @@ class GridCover {
 
   /// Of all boxes on an axis, in finest cells, one padding farther out than the boxes.
   struct Sides {
-    std::array<detail::Float4, most_boxes / 4> near;
-    std::array<detail::Float4, most_boxes / 4> far;
+    std::array<detail::Float4, max_boxes / 4> near;
+    std::array<detail::Float4, max_boxes / 4> far;
   };
   std::array<std::array<Sides, 2>, 3> sides_ = {};  ///< as the path rises on the axis, and mirrored
   bool is_useful_ = false;

@@ -23,7 +23,7 @@ constexpr double margin_share = 2 * double{GridFrame::padding_share};
 
 /// Of the box's greatest extent: an axis less wide is not divided, so that a scaled coordinate that is off by 2^-43
 /// (grid_traversal.cpp) is off by less than 2^-22 of the grid's width.
-constexpr double least_width = 0x1p-20;
+constexpr double min_width = 0x1p-20;
 
 /// Rounded down to a float: what is multiplied by it in float is multiplied by the same number as in double.
 double float_below(double x) {
@@ -59,22 +59,22 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
 
   frame.unit = {std::ldexp(1.0, frame.exponent / 2), std::ldexp(1.0, frame.exponent - frame.exponent / 2)};
 
-  const auto most_cells = static_cast<double>(std::uint32_t{most_finest_cells / division});
+  const auto max_cells = static_cast<double>(std::uint32_t{max_finest_cells / division});
   double finest = 0;
   std::array<double, 3> width = {};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     frame.origin[axis] = frame.scaled(box.low[i]);
     width[axis] = frame.scaled(box.high[i]) - frame.origin[axis];
-    frame.cells[axis] = static_cast<std::uint32_t>(std::clamp(std::floor(wished_cells[axis]), 1.0, most_cells));
+    frame.cells[axis] = static_cast<std::uint32_t>(std::clamp(std::floor(wished_cells[axis]), 1.0, max_cells));
     const double resolution = frame.resolution(axis);
     frame.margin[axis] = static_cast<float>(margin_share * resolution);
     const double scale = (resolution - 2 * double{frame.margin[axis]}) / width[axis];
     frame.scale[axis] = scale;
-    if (width[axis] >= least_width) finest = std::max(finest, scale);
+    if (width[axis] >= min_width) finest = std::max(finest, scale);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (width[axis] >= least_width) continue;
+    if (width[axis] >= min_width) continue;
     frame.cells[axis] = 1;
     const double resolution = division;
     frame.margin[axis] = static_cast<float>(margin_share * resolution);
@@ -95,7 +95,7 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
   return frame;
 }
 
-double GridFrame::place(std::size_t axis, double scaled_coordinate) const noexcept {
+double GridFrame::to_cells(std::size_t axis, double scaled_coordinate) const noexcept {
   return (scaled_coordinate - origin[axis]) * scale[axis] + double{margin[axis]};
 }
 
@@ -107,9 +107,9 @@ void GridFrame::coarsen(std::uint32_t factor) noexcept {
     std::uint32_t pitch = 1;
     std::uint32_t first = 0;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
-      const bool falls = (octant >> axis & 1) != 0;
-      order.pitch[axis] = static_cast<std::int32_t>(falls ? -pitch : pitch);
-      if (falls) first += pitch * (cells[axis] - 1);
+      const bool is_mirrored = (octant >> axis & 1) != 0;
+      order.pitch[axis] = static_cast<std::int32_t>(is_mirrored ? -pitch : pitch);
+      if (is_mirrored) first += pitch * (cells[axis] - 1);
       pitch *= cells[axis];
     }
     order.first = static_cast<std::int32_t>(first);

@@ -31,8 +31,8 @@ struct GridFrame {
     std::array<std::int32_t, 8> step = {};   ///< by the axes on which it leads to the next cell (bit k: axis k), in all
 
     /// In scalars: on x86 a product of vectors of integers takes three times as long, and a walk waits for it.
-    [[nodiscard]] std::int32_t index(detail::Int4 place) const noexcept {
-      return place[0] * pitch[0] + place[1] * pitch[1] + (place[2] * pitch[2] + first);
+    [[nodiscard]] std::int32_t index(detail::Int4 cell) const noexcept {
+      return cell[0] * pitch[0] + cell[1] * pitch[1] + (cell[2] * pitch[2] + first);
     }
   };
   std::array<TopOrder, 8> top_orders;  ///< by octant
@@ -51,7 +51,7 @@ struct GridFrame {
   /// Of the grid's width on an axis: by so much is a cell's box grown on each side when triangles are listed.
   static constexpr float padding_share = 0x1p-19F;
   /// The finest cells on an axis are no more than this, so that they are 16 paddings wide or wider.
-  static constexpr std::uint32_t most_finest_cells = std::uint32_t{1} << 15;
+  static constexpr std::uint32_t max_finest_cells = std::uint32_t{1} << 15;
 
   /// Around a box that is not empty, with as many top cells on each axis as is wished and the padding allows.
   template <typename Scalar>
@@ -68,7 +68,7 @@ struct GridFrame {
     return padding_share * static_cast<float>(resolution(axis));
   }
   /// X of a scaled coordinate. Three roundings of doubles.
-  [[nodiscard]] double place(std::size_t axis, double scaled_coordinate) const noexcept;
+  [[nodiscard]] double to_cells(std::size_t axis, double scaled_coordinate) const noexcept;
 };
 
 }  // namespace surehit

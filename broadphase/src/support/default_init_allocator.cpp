@@ -24,9 +24,9 @@ void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 void fault_in([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
 #if defined(__linux__) && defined(MADV_POPULATE_WRITE)
   // Of fewer pages the call takes as long as it saves.
-  constexpr std::size_t least_bytes = std::size_t{1} << 16;
+  constexpr std::size_t min_bytes = std::size_t{1} << 16;
   constexpr std::uintptr_t page = std::uintptr_t{1} << 12;
-  if (bytes < least_bytes) return;
+  if (bytes < min_bytes) return;
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
   const std::uintptr_t first = begin & -page;
   const std::uintptr_t last = (begin + bytes + page - 1) & -page;

@@ -35,8 +35,8 @@ struct DefaultInitAllocator : std::allocator<T> {
   }
 
   template <typename U>
-  void construct(U* place) noexcept {
-    ::new (static_cast<void*>(place)) U;
+  void construct(U* address) noexcept {
+    ::new (static_cast<void*>(address)) U;
   }
 };
 

@@ -16,10 +16,10 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
 [[gnu::always_inline]] inline Float4 all_lanes(float x) { return Float4{x, x, x, x}; }
 [[gnu::always_inline]] inline Int4 all_lanes(std::int32_t x) { return Int4{x, x, x, x}; }
 
-[[gnu::always_inline]] inline Float4 least(Float4 a, Float4 b) { return a < b ? a : b; }
-[[gnu::always_inline]] inline Float4 greatest(Float4 a, Float4 b) { return a > b ? a : b; }
-[[gnu::always_inline]] inline Int4 least(Int4 a, Int4 b) { return a < b ? a : b; }
-[[gnu::always_inline]] inline Int4 greatest(Int4 a, Int4 b) { return a > b ? a : b; }
+[[gnu::always_inline]] inline Float4 min(Float4 a, Float4 b) { return a < b ? a : b; }
+[[gnu::always_inline]] inline Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
+[[gnu::always_inline]] inline Int4 min(Int4 a, Int4 b) { return a < b ? a : b; }
+[[gnu::always_inline]] inline Int4 max(Int4 a, Int4 b) { return a > b ? a : b; }
 
 [[gnu::always_inline]] inline Float4 to_float(Int4 x) { return __builtin_convertvector(x, Float4); }
 /// Toward zero; of a number that no integer holds, any integer.
@@ -32,7 +32,7 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
 }
 
 /// -x where the mask's lanes are all ones, x elsewhere.
-[[gnu::always_inline]] inline Float4 turned(Float4 x, Int4 mask) {
+[[gnu::always_inline]] inline Float4 negated_where(Float4 x, Int4 mask) {
   return reinterpret_cast<Float4>(reinterpret_cast<Int4>(x) ^ (mask & std::numeric_limits<std::int32_t>::min()));
 }
 
@@ -48,22 +48,22 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
 }
 
 /// The greatest lane of each of four vectors.
-[[gnu::always_inline]] inline Float4 greatest_lanes(Float4 a, Float4 b, Float4 c, Float4 d) {
-  const Float4 ab = greatest(__builtin_shufflevector(a, b, 0, 4, 1, 5), __builtin_shufflevector(a, b, 2, 6, 3, 7));
-  const Float4 cd = greatest(__builtin_shufflevector(c, d, 0, 4, 1, 5), __builtin_shufflevector(c, d, 2, 6, 3, 7));
-  return greatest(__builtin_shufflevector(ab, cd, 0, 1, 4, 5), __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
+[[gnu::always_inline]] inline Float4 max_lanes(Float4 a, Float4 b, Float4 c, Float4 d) {
+  const Float4 ab = max(__builtin_shufflevector(a, b, 0, 4, 1, 5), __builtin_shufflevector(a, b, 2, 6, 3, 7));
+  const Float4 cd = max(__builtin_shufflevector(c, d, 0, 4, 1, 5), __builtin_shufflevector(c, d, 2, 6, 3, 7));
+  return max(__builtin_shufflevector(ab, cd, 0, 1, 4, 5), __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
 }
 
 /// The least lane, in every lane.
-[[gnu::always_inline]] inline Float4 least_lane(Float4 x) {
-  const Float4 pairs = least(x, __builtin_shufflevector(x, x, 1, 0, 3, 2));
-  return least(pairs, __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1));
+[[gnu::always_inline]] inline Float4 min_lane(Float4 x) {
+  const Float4 pairs = min(x, __builtin_shufflevector(x, x, 1, 0, 3, 2));
+  return min(pairs, __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1));
 }
 
 /// The greatest lane, in every lane.
-[[gnu::always_inline]] inline Float4 greatest_lane(Float4 x) {
-  const Float4 pairs = greatest(x, __builtin_shufflevector(x, x, 1, 0, 3, 2));
-  return greatest(pairs, __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1));
+[[gnu::always_inline]] inline Float4 max_lane(Float4 x) {
+  const Float4 pairs = max(x, __builtin_shufflevector(x, x, 1, 0, 3, 2));
+  return max(pairs, __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1));
 }
 
 /// Of all lanes.

@@ -84,7 +84,7 @@ Pair exact_difference(double x, double y) {
 // 8 are left.
 //
 // For the same reason a path meets nothing whose first cell begins a cube of empty ones that holds the cell of the
-// rounded place where it ends, or leaves the grid, as well (`PlacedPath::stays_in_empty_space`): on every axis all of
+// rounded place where it ends, or leaves the grid, as well (`ClippedPath::stays_in_empty_space`): on every axis all of
 // it that counts lies within e of the cells from the one to the other, since what it has beyond the rounded tau of an
 // outer plane is by the paddings beyond all that it meets. Of these cells none that is in the grid lists anything, and
 // a point that is met is within e of such a one.
@@ -102,24 +102,24 @@ Pair exact_difference(double x, double y) {
 // 6 u R for its three roundings, or 5 u R with that of mirroring, which is exact where P is R / 2 or more; the way to
 // the grid is at most 2 R - w, its rate is off by 2 u of itself and the product and the sum are rounded, 4 u (2 R - w)
 // + u R; and what enters the grid by its rounded crossing is clamped into it, 3 u (2 R - w) at most. With the above
-// that stays below 16 u R for every w: p is not placed better than to 15 u R. In double, a start within `near` of a box
-// [0, w] with w <= 1, and w >= 2^-20 on an axis that is divided, is off by a few 2^-53, in cells less than 2^-29 R, one
-// that is placed anew by 2^-43, less than 2^-22 R = 4 u R, and either by u R when it is rounded to float at last and 3
-// u R when it is clamped.
+// that stays below 16 u R for every w: p is not clipped better than to 15 u R. In double, a start within `near` of a
+// box [0, w] with w <= 1, and w >= 2^-20 on an axis that is divided, is off by a few 2^-53, in cells less than 2^-29 R,
+// one that is clipped anew by 2^-43, less than 2^-22 R = 4 u R, and either by u R when it is rounded to float at last
+// and 3 u R when it is clamped.
 //
-// A path is taken to stand still on an axis if its rate is below `least_rate`. In the grid, tau is at most 2^37 on a
+// A path is taken to stand still on an axis if its rate is below `min_rate`. In the grid, tau is at most 2^37 on a
 // path that needs no scaling (a start within 2 R of the grid, at `slow` or faster; 1 on a segment), and 2^39 on one
 // that is scaled to a rate of 1 or more (a start within 8 2^35 cells): it moves by less than 2^-27 cells, an eighth of
 // u R.
 //
-// A path that starts farther than `near` from the box is placed anew, at the tau where it passes 0.5 on the axis on
+// A path that starts farther than `near` from the box is clipped anew, at the tau where it passes 0.5 on the axis on
 // which it moves fastest: if it meets the box at all, it is there within 2 of the box on every axis. The new place is
 // start + tau rate, with start, rate and their product as sums of two doubles without error; what is lost is 8 v^2
 // |start| in the sums of the low parts, v = 2^-53, and 2 v of the result. tau itself is rounded, so that the place is
 // off 0.5 by up to v |start|, which is exact as a place but may be far: a second step of the same kind from there ends
-// at 0.5 but for roundings. With |start| <= `farthest` the steps lose below 2^-43.
+// at 0.5 but for roundings. With |start| <= `max_start` the steps lose below 2^-43.
 constexpr double near = 4;
-constexpr double farthest = 0x1p60;
+constexpr double max_start = 0x1p60;
 
 /// start + tau rate in the scaled frame, relative to the box's low corner.
 struct ScaledPath {
@@ -148,25 +148,25 @@ struct ScaledPath {
   }
 
   /// Brings the start near the box.
-  PlacedPath::Place place() {
+  ClippedPath::Status clip() {
     double distance = 0;
     double largest_rate = 0;
     std::size_t fastest = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double size = std::fabs(rate[axis][0]);
-      if (!(std::fabs(start[axis][0]) <= farthest && size < infinity)) return PlacedPath::Place::unclipped;
+      if (!(std::fabs(start[axis][0]) <= max_start && size < infinity)) return ClippedPath::Status::too_far;
       distance = std::max(distance, std::fabs(start[axis][0]));
       if (size > largest_rate) {
         largest_rate = size;
         fastest = axis;
       }
     }
-    if (distance <= near) return PlacedPath::Place::inside;
-    if (largest_rate == 0) return PlacedPath::Place::outside;  // a point that far off
+    if (distance <= near) return ClippedPath::Status::clipped;
+    if (largest_rate == 0) return ClippedPath::Status::miss;  // a point that far off
     for (double& step : origin) {
       step = (0.5 - start[fastest][0]) / rate[fastest][0];
       // Not even the fastest axis comes near in any tau that a double holds.
-      if (!std::isfinite(step)) return PlacedPath::Place::outside;
+      if (!std::isfinite(step)) return ClippedPath::Status::miss;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double move = step * rate[axis][0];
         const double move_error = std::fma(step, rate[axis][0], -move);
@@ -175,15 +175,15 @@ struct ScaledPath {
       }
     }
     const double left = std::max({std::fabs(start[0][0]), std::fabs(start[1][0]), std::fabs(start[2][0])});
-    return left <= 2 * near ? PlacedPath::Place::inside : PlacedPath::Place::outside;
+    return left <= 2 * near ? ClippedPath::Status::clipped : ClippedPath::Status::miss;
   }
 };
 
 }  // namespace
 
 template <typename Scalar>
-void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t,
-                                 double last_t) noexcept {
+void ClippedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t,
+                                  double last_t) noexcept {
   if (!path.start.allFinite() || !path.toward.allFinite()) return;
   unit = {1, 1, 1};
   origin = {0, 0, 0};
@@ -205,8 +205,8 @@ void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pat
       distance <= near && is_near_in_cells && fastest <= double{fast} && (fastest >= double{slow} || path.has_end());
   if (!is_plain) {
     ScaledPath scaled(frame, path);
-    place = scaled.place();
-    if (place != Place::inside) return;
+    status = scaled.clip();
+    if (status != Status::clipped) return;
     fastest = 0;  // times 2^-64, lest it overflow
     for (std::size_t axis = 0; axis < 3; ++axis) {
       from[axis] = scaled.start[axis][0];
@@ -238,9 +238,9 @@ void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pat
       by[axis] = -by[axis];
       octant |= std::uint32_t{1} << axis;
     }
-    if (by[axis] < double{least_rate}) {
+    if (by[axis] < double{min_rate}) {
       by[axis] = 0;
-      inverse[axis] = double{greatest_inverse};
+      inverse[axis] = double{max_inverse};
       passes &= 0 <= from[axis] && from[axis] <= stop;
       continue;
     }
@@ -249,14 +249,14 @@ void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pat
     enters = std::max(enters, -from[axis] * inverse[axis]);
     leaves = std::min(leaves, (stop - from[axis]) * inverse[axis]);
   }
-  place = passes && enters <= leaves ? Place::inside : Place::outside;
-  if (place == Place::outside) return;
+  status = passes && enters <= leaves ? Status::clipped : Status::miss;
+  if (status == Status::miss) return;
   if (!moves) enters = 0;
   origin[2] = enters;
   end = moves ? beyond_in_double(last_t) : 0;
   exit = moves ? static_cast<float>(leaves - enters) : 0;
   rate = detail::all_lanes(0.0F);
-  inverse_rate = detail::all_lanes(greatest_inverse);
+  inverse_rate = detail::all_lanes(max_inverse);
   start = frame.float_margin;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto stop = static_cast<float>(frame.resolution(axis));
@@ -267,14 +267,14 @@ void PlacedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pat
   }
 }
 
-float PlacedPath::beyond_in_double(double t) const noexcept {
+float ClippedPath::beyond_in_double(double t) const noexcept {
   const double scaled = t * unit[0] * unit[1] * unit[2];
   const double tau = scaled - origin[0] - origin[1] - origin[2];
   const double rounding = std::fabs(scaled) + std::fabs(origin[0]) + std::fabs(origin[1]) + std::fabs(origin[2]);
   return static_cast<float>(tau + rounding * 0x1p-50 + std::fabs(tau) * 0x1p-22 + 0x1p-140);
 }
 
-template void PlacedPath::place_in_double(const GridFrame&, const Path<float>&, double, double) noexcept;
-template void PlacedPath::place_in_double(const GridFrame&, const Path<double>&, double, double) noexcept;
+template void ClippedPath::place_in_double(const GridFrame&, const Path<float>&, double, double) noexcept;
+template void ClippedPath::place_in_double(const GridFrame&, const Path<double>&, double, double) noexcept;
 
 }  // namespace surehit

@@ -25,6 +25,7 @@ std::optional<Contact> exact_contact(const Path<Scalar>& path, const Triangle<Sc
   std::optional<Contact> contact = ExactPair<Scalar>(path, triangle, scale).find(range, t, nullptr);
   if (contact) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    // The nearest double is at most half an ulp from the exact t, so its neighbors enclose it.
     const double nearest = rounded_quotient<double>(t.num, t.den, scale.t_exponent);
     contact->t_lower = std::nextafter(nearest, -infinity);
     contact->t_upper = std::nextafter(nearest, infinity);
@@ -61,21 +62,22 @@ Vector3<Scalar> exact_point(const Path<Scalar>& path, Scalar t) {
   Vector3<Scalar> result;
   const Decomposed<Scalar> parts(t);
   for (int i = 0; i < 3; ++i) {
-    // start + t d = (start 2^k + significand d) / 2^k, in units of the place, where t = significand / 2^k.
-    Place place;
-    place.include(path.start);
-    place.include(path.toward);
-    if (place.exponent == std::numeric_limits<int>::max()) place.exponent = 0;
+    // Let t = m 2^k. If k < 0, the point is (start 2^-k + m d) / 2^-k. Otherwise it is start + m 2^k d.
+    // All coordinates are integers here, so each numerator is exact.
+    BinaryUnit unit;
+    unit.include(path.start);
+    unit.include(path.toward);
+    if (unit.exponent == std::numeric_limits<int>::max()) unit.exponent = 0;
     WideInt<B::difference> start;
     WideInt<B::difference> d;
-    set_integer(start, path.start[i], place);
-    set_integer(d, path.toward[i], place);
+    set_integer(start, path.start[i], unit);
+    set_integer(d, path.toward[i], unit);
     if (path.kind == PathKind::segment) d.add(start, true);
     WideInt<2 * B::difference + 64> sum =
         d * WideInt<B::coordinate>::shifted(parts.significand, std::max(parts.exponent, 0), parts.negative);
     const auto scale = WideInt<B::coordinate>::power_of_two(std::max(-parts.exponent, 0));
     sum.add(start * scale);
-    result[i] = rounded_quotient<Scalar>(sum, scale, place.exponent);
+    result[i] = rounded_quotient<Scalar>(sum, scale, unit.exponent);
   }
   return result;
 }
@@ -83,13 +85,13 @@ Vector3<Scalar> exact_point(const Path<Scalar>& path, Scalar t) {
 template <typename Scalar>
 Vector3<double> exact_cross(const Triangle<Scalar>& triangle) {
   using B = Bits<Scalar>;
-  Place place;
-  place.include(triangle);
-  if (place.exponent == std::numeric_limits<int>::max()) place.exponent = 0;
+  BinaryUnit unit;
+  unit.include(triangle);
+  if (unit.exponent == std::numeric_limits<int>::max()) unit.exponent = 0;
   Differences<Scalar> e1;
   Differences<Scalar> e2;
-  set_difference(e1, triangle.b, triangle.a, place);
-  set_difference(e2, triangle.c, triangle.a, place);
+  set_difference(e1, triangle.b, triangle.a, unit);
+  set_difference(e2, triangle.c, triangle.a, unit);
   WideVector<B::cross> cross;
   set_cross(cross, e1, e2);
   const int exponent = -std::max({cross[0].bit_length(), cross[1].bit_length(), cross[2].bit_length()});

@@ -11,29 +11,32 @@
 
 namespace surehit::detail {
 
-/// Where the path, cut to the range, first meets the triangle, by exact integer arithmetic: for all finite input,
-/// degenerate triangles, paths in the plane and paths of no length included. The range is not empty.
+/// Returns the first contact of the path with the triangle in the range, by exact integer arithmetic. Returns nothing
+/// if there is none. Any finite input is allowed: degenerate triangles, paths in the triangle's plane, paths of length
+/// zero. The range must not be empty.
 template <typename Scalar>
 [[nodiscard]] std::optional<Contact> exact_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
                                                    const PathRange<Scalar>& range);
 
-/// t, u and v of a contact that is known to exist, each rounded once to nearest. `triangle` and `side` are left as they
-/// are.
+/// Sets t, u and v of a hit that is known to exist. Each is rounded once, to nearest. `hit.triangle` and `hit.side`
+/// keep their values.
 template <typename Scalar>
 void exact_rounding(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const PathRange<Scalar>& range,
                     Hit<Scalar>& hit);
 
-/// Which of two triangles, both known to be met, the path meets first.
+/// Compares the exact t of two triangles. Returns `less` if the path meets `triangle` before `other`. The path must
+/// meet both of them.
 template <typename Scalar>
 [[nodiscard]] std::strong_ordering exact_order(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
                                                const Triangle<Scalar>& other, const PathRange<Scalar>& range);
 
-/// start + t (toward - start) for a segment, start + t toward for a ray or a line, rounded once to nearest.
+/// Returns the point of the path at t, rounded once to nearest. For a segment it is start + t (toward - start). For a
+/// ray or a line it is start + t toward.
 template <typename Scalar>
 [[nodiscard]] Vector3<Scalar> exact_point(const Path<Scalar>& path, Scalar t);
 
-/// (b - a) × (c - a) times the power of two that brings its largest component into [1/2, 1); zero if it is zero
-/// exactly. Each component is rounded once.
+/// Returns (b - a) × (c - a) times a power of two. That power brings the largest component into [1/2, 1). Each
+/// component is rounded once. The result is zero only if the exact cross product is zero.
 template <typename Scalar>
 [[nodiscard]] Vector3<double> exact_cross(const Triangle<Scalar>& triangle);
 

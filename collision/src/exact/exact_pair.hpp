@@ -8,26 +8,28 @@
 
 namespace surehit::detail {
 
-/// Weights of b and c at the contact, rounded.
+/// The rounded weights at the contact.
 template <typename Scalar>
 struct Weights {
-  Scalar u = 0;
-  Scalar v = 0;
+  Scalar u = 0;  ///< The weight of corner b.
+  Scalar v = 0;  ///< The weight of corner c.
 };
 
-/// One path against one triangle, in integers. The steps are kept from being inlined into each other, so that their
-/// frames come and go: with the numbers sized for the whole range of double, one frame of all would break the 16 KiB
-/// that a query may use.
+/// Tests one path against one triangle in exact integers.
 ///
-/// Whatever the shapes, the path's whole line meets the triangle in a closed interval of parameters: one parameter if
-/// it crosses the plane or touches a degenerate triangle, more if it runs in it. The path, cut to its range, meets the
-/// triangle where that interval and the range overlap, and first at the greater of the two lower ends.
+/// The path's whole line meets the triangle in a closed interval of parameters, if at all. A line that crosses the
+/// triangle's plane has one such parameter. A line in the plane, or along a degenerate triangle, may have many.
+/// The path meets the triangle where this interval and the range overlap. The first contact is at the larger one of the
+/// two lower ends.
+///
+/// The steps are not inlined into each other, so each stack frame ends with its step. The integers are large enough for
+/// all of double. One frame for all steps would exceed the 16 KiB of stack that a query may use.
 template <typename Scalar>
 class ExactPair {
  public:
   using B = Bits<Scalar>;
   using Parameter = Ratio<B::parameter>;
-  using PlaneParameter = Ratio<B::cross + 3>;  // n - (u + v) is the widest of its parts
+  using PlaneParameter = Ratio<B::cross + 3>;  ///< Its largest part is n - (U + V), see `set_weight`.
 
   ExactPair(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const Scale<Scalar>& scale)
       : path_(path), triangle_(triangle), scale_(scale) {
@@ -42,7 +44,8 @@ class ExactPair {
     }
   }
 
-  /// The contact, its exact t in `t`, and on demand its weights.
+  /// Returns the first contact, or nothing if there is none. Sets `t` to its exact parameter. Sets the weights unless
+  /// `weights` is null.
   [[nodiscard]] std::optional<Contact> find(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights) {
     if (is_zero(d_)) return standing_point(range, t, weights);
     if (std::optional<Contact> contact; crosses_plane(range, t, weights, contact)) return contact;
@@ -51,12 +54,12 @@ class ExactPair {
   }
 
  private:
-  /// The triangle's plane, seen along an axis on which the normal does not vanish.
+  /// The triangle's plane, projected along an axis on which the normal is not zero.
   struct Plane {
-    bool is_degenerate = true;  ///< no plane: the corners lie on a line
-    bool contains_start = false;
-    std::size_t axis = 0;
-    WideInt<B::cross> normal;  ///< its component on the axis
+    bool is_degenerate = true;    ///< True if the corners are on one line, so that there is no plane.
+    bool contains_start = false;  ///< True if the path's start is in the plane.
+    std::size_t axis = 0;         ///< The axis of the projection.
+    WideInt<B::cross> normal;     ///< The normal's component on that axis.
   };
 
   [[gnu::noinline]] Plane find_plane() const {
@@ -73,7 +76,8 @@ class ExactPair {
     return plane;
   }
 
-  /// Cuts the interval [first, last] to the range; t, which may be first itself, becomes where the rest begins.
+  /// Cuts the interval [first, last] to the range. Returns the contact, or nothing if they do not overlap. Sets `t` to
+  /// the lower end of the overlap. `t` and `first` may be the same object.
   template <int F, int L, int P>
   [[gnu::noinline]] std::optional<Contact> cut(const Ratio<F>& first, const Ratio<L>& last,
                                                const PathRange<Scalar>& range, Ratio<P>& t) {
@@ -100,7 +104,8 @@ class ExactPair {
     return contact;
   }
 
-  /// det ≠ 0: one parameter T / det, weights U / det and V / det. False if det = 0 and nothing is decided.
+  /// Handles det ≠ 0. The contact is at T / det, and its weights are U / det and V / det. Returns false if det = 0,
+  /// which decides nothing.
   [[gnu::noinline]] bool crosses_plane(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights,
                                        std::optional<Contact>& contact) {
     const Crossing crossing = cross_plane(t);
@@ -113,7 +118,8 @@ class ExactPair {
     return true;
   }
 
-  /// How the path's whole line meets the triangle's plane.
+  /// How the path's whole line meets the triangle's plane. `none` means det = 0. `beside` means a point outside the
+  /// triangle.
   enum class Crossing { none, beside, from_front, from_back };
 
   [[gnu::noinline]] Crossing cross_plane(Parameter& t) const {
@@ -131,7 +137,7 @@ class ExactPair {
     return side > 0 ? Crossing::from_front : Crossing::from_back;
   }
 
-  /// Worked out once more than need be, so that the determinants are off the stack while t is cut to the range.
+  /// Computes the determinants a second time. If they were kept, they would use stack while `cut` runs.
   [[gnu::noinline]] Weights<Scalar> crossing_weights() const {
     WideInt<B::det> det;
     WideInt<B::det> u;
@@ -153,7 +159,7 @@ class ExactPair {
     t.set(t.num, det);
   }
 
-  /// det = 0. False if the triangle spans no plane, and nothing is decided.
+  /// Handles det = 0 and a triangle that spans a plane. Returns false if it spans none, which decides nothing.
   [[gnu::noinline]] bool is_parallel_to_plane(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights,
                                               std::optional<Contact>& contact) {
     const Plane plane = find_plane();
@@ -162,9 +168,8 @@ class ExactPair {
     return true;
   }
 
-  /// A path in the plane of a triangle that spans it. The line's weights run linearly, u (t) = (su + t du) / n and so
-  /// on, when all is seen along an axis on which the normal does not vanish; each weight that must not be negative
-  /// bounds t.
+  /// Handles a path in the plane of a triangle. All is projected along an axis on which the normal is not zero. Each
+  /// weight of the line's point at t is then linear: (s + t d) / n. No weight may be negative, so each one bounds t.
   [[gnu::noinline]] std::optional<Contact> along_plane(const Plane& plane, const PathRange<Scalar>& range, Parameter& t,
                                                        Weights<Scalar>* weights) {
     const std::size_t axis = plane.axis;
@@ -180,7 +185,8 @@ class ExactPair {
   enum class PlaneWeight { u, v, w };
   using PlaneTerm = WideInt<B::cross + 3>;
 
-  /// s and d of a weight (s + t d) / n of the line, where n is the normal's component on the axis.
+  /// Sets s and d of one weight. The line's point at t has the weight (s + t d) / n, where n is the normal's component
+  /// on the axis.
   [[gnu::noinline]] void set_weight(PlaneWeight which, std::size_t axis, const WideInt<B::cross>& n, PlaneTerm& s,
                                     PlaneTerm& d) const {
     switch (which) {
@@ -226,19 +232,19 @@ class ExactPair {
     return cut(interval.first, interval.last, range, t);
   }
 
-  /// The parameters t at which every s + t d seen so far is at least zero.
+  /// The parameters t at which all s + t d so far are at least zero.
   struct Interval {
     PlaneParameter first;
     PlaneParameter last;
     bool has_first = false;
     bool has_last = false;
 
-    /// False if s + t d is negative everywhere. A line in the plane crosses two edges of the triangle at least, one
-    /// going in and one going out, so that both ends are set once all three weights are seen.
+    /// Adds the condition s + t d >= 0. Returns false if no t fulfills it. All three weights together set both ends:
+    /// their d sum to zero, and they are not all zero, so one is positive and one is negative.
     bool bound(PlaneTerm& s, PlaneTerm& d) {
       if (d.is_zero()) return s.sign() >= 0;
       const bool enters = d.sign() > 0;
-      (enters ? s : d).negate();  // the zero is at -s / d
+      (enters ? s : d).negate();  // s + t d is zero at t = -s / d.
       PlaneParameter& end = enters ? first : last;
       bool& has_end = enters ? has_first : has_last;
       if (!has_end || (compare(s, d, end.num, end.den) > 0) == enters) end.set(s, d);
@@ -268,10 +274,10 @@ class ExactPair {
     return result;
   }
 
-  /// The two corners that a degenerate triangle spans: indices into a, b, c.
+  /// The two extreme corners of a degenerate triangle, in lexicographic order. They are indices into a, b, c.
   struct Span {
-    int least = 0;
-    int greatest = 0;
+    int min = 0;  ///< The first corner in that order.
+    int max = 0;  ///< The last corner in that order.
   };
 
   Span span() const {
@@ -281,40 +287,38 @@ class ExactPair {
     };
     Span span;
     for (int i = 1; i < 3; ++i) {
-      if (before(*corners[i], *corners[span.least])) span.least = i;
-      if (before(*corners[span.greatest], *corners[i])) span.greatest = i;
+      if (before(*corners[i], *corners[span.min])) span.min = i;
+      if (before(*corners[span.max], *corners[i])) span.max = i;
     }
     return span;
   }
 
   const Differences<Scalar>& e(int corner) const { return corner == 1 ? e1_ : e2_; }
 
-  /// From the least corner of a degenerate triangle to the start (r) and to the greatest corner (g).
+  /// Sets r = start - min and g = max - min, where min and max are the extreme corners of a degenerate triangle.
   void set_span_differences(const Span& span, Differences<Scalar>& r, Differences<Scalar>& g) const {
     for (std::size_t i = 0; i < 3; ++i) {
       r[i] = s_[i];
-      if (span.greatest != 0) g[i] = e(span.greatest)[i];
-      if (span.least == 0) continue;
-      r[i].add(e(span.least)[i], true);
-      g[i].add(e(span.least)[i], true);
+      if (span.max != 0) g[i] = e(span.max)[i];
+      if (span.min == 0) continue;
+      r[i].add(e(span.min)[i], true);
+      g[i].add(e(span.min)[i], true);
     }
   }
 
-  /// Weights of b and c for the point least + (num / den) (greatest - least).
+  /// Returns the weights of b and c at the point min + (num / den) (max - min).
   template <int N, int D>
   [[gnu::noinline]] static Weights<Scalar> span_weights(const Span& span, const WideInt<N>& num,
                                                         const WideInt<D>& den) {
     return span_weights(span, rounded_quotient<Scalar>(num, den), rounded_quotient<Scalar>(den - num, den));
   }
 
-  static Weights<Scalar> span_weights(const Span& span, Scalar greatest, Scalar least) {
-    const auto of = [&](int corner) {
-      return corner == span.greatest ? greatest : corner == span.least ? least : Scalar{0};
-    };
+  static Weights<Scalar> span_weights(const Span& span, Scalar at_max, Scalar at_min) {
+    const auto of = [&](int corner) { return corner == span.max ? at_max : corner == span.min ? at_min : Scalar{0}; };
     return {of(1), of(2)};
   }
 
-  /// A path of some length against the segment or the point that the corners span.
+  /// Handles a path with a length against a degenerate triangle, which is a segment or a point.
   [[gnu::noinline]] std::optional<Contact> along_degenerate(const PathRange<Scalar>& range, Parameter& t,
                                                             Weights<Scalar>* weights) {
     const Span ends = span();
@@ -325,7 +329,7 @@ class ExactPair {
       const std::optional<std::size_t> axis = crossing_axis(r, g);
       return axis ? across_span(*axis, ends, r, g, range, t, weights) : std::nullopt;
     }
-    // Parallel, or the triangle is a point: they meet on the path's own line or not at all.
+    // They are parallel, or the triangle is a point. So they can only meet on the path's own line.
     return are_parallel(d_, r) ? along_span(ends, r, g, range, t, weights) : std::nullopt;
   }
 
@@ -335,7 +339,7 @@ class ExactPair {
     return is_zero(cross);
   }
 
-  /// A path on the line of the corners: seen along an axis on which it moves.
+  /// Handles a path on the line of the corners, by its coordinates on an axis on which it moves.
   [[gnu::noinline]] std::optional<Contact> along_span(const Span& ends, const Differences<Scalar>& r,
                                                       const Differences<Scalar>& g, const PathRange<Scalar>& range,
                                                       Parameter& t, Weights<Scalar>* weights) {
@@ -353,7 +357,7 @@ class ExactPair {
                                                        PlaneParameter& t) {
     Ratio<B::difference> first;
     Ratio<B::difference> last;
-    WideInt<B::difference> ahead = r;  // from the start to the least corner, then to the greatest
+    WideInt<B::difference> ahead = r;  // This becomes min - start, and then max - start.
     ahead.negate();
     first.set(ahead, d);
     ahead.add(g);
@@ -361,7 +365,7 @@ class ExactPair {
     return compare(first, last) <= 0 ? cut(first, last, range, t) : cut(last, first, range, t);
   }
 
-  /// w = (r + t d) / g
+  /// Returns the weights at the point min + w (max - min), where w = (r + t d) / g.
   [[gnu::noinline]] static Weights<Scalar> weights_along_span(const Span& ends, const WideInt<B::difference>& r,
                                                               const WideInt<B::difference>& g,
                                                               const WideInt<B::difference>& d,
@@ -369,14 +373,14 @@ class ExactPair {
     WideInt<B::difference + B::cross + 5> w = r * t.den;
     w.add(d * t.num);
     const auto den = g * t.den;
-    const Scalar greatest = rounded_quotient<Scalar>(w, den);
-    w.negate();  // and den - w in the same place: the stack is short here
+    const Scalar at_max = rounded_quotient<Scalar>(w, den);
+    w.negate();  // The same memory then holds den - w, since stack is scarce here.
     w.add(den);
-    return span_weights(ends, greatest, rounded_quotient<Scalar>(w, den));
+    return span_weights(ends, at_max, rounded_quotient<Scalar>(w, den));
   }
 
-  /// Two lines that cross, if they are in one plane: r + t d = w g, so that t = (r × g)·axis / (g × d)·axis and
-  /// w = (d × r)·axis / (d × g)·axis.
+  /// Handles two lines in one plane that are not parallel. They cross where r + t d = w g. The product with g gives
+  /// t = (r × g)·axis / (g × d)·axis. The product with d gives w = (d × r)·axis / (d × g)·axis.
   [[gnu::noinline]] std::optional<Contact> across_span(std::size_t axis, const Span& ends, const Differences<Scalar>& r,
                                                        const Differences<Scalar>& g, const PathRange<Scalar>& range,
                                                        Parameter& t, Weights<Scalar>* weights) {
@@ -391,7 +395,7 @@ class ExactPair {
     return contact;
   }
 
-  /// An axis along which the path and the span are seen to cross; none if they pass each other.
+  /// Returns an axis on which d × g is not zero. Returns nothing if the two lines are not in one plane.
   [[gnu::noinline]] std::optional<std::size_t> crossing_axis(const Differences<Scalar>& r,
                                                              const Differences<Scalar>& g) const {
     WideVector<B::cross> cross;
@@ -401,7 +405,7 @@ class ExactPair {
     return height.is_zero() ? std::optional(nonzero_axis(cross)) : std::nullopt;
   }
 
-  /// A path of no length: it is at t = 0, and touches what contains its start.
+  /// Handles a path of length zero. It is a point at t = 0, and it meets a triangle that contains this point.
   [[gnu::noinline]] std::optional<Contact> standing_point(const PathRange<Scalar>& range, Parameter& t,
                                                           Weights<Scalar>* weights) {
     if (!(range.first <= 0 && range.last >= 0)) return std::nullopt;
@@ -418,7 +422,7 @@ class ExactPair {
     return plane.contains_start && on_plane(plane, weights);
   }
 
-  /// Whether the start, which is in the triangle's plane, lies on the triangle.
+  /// Returns whether the triangle contains the start, which must be in its plane.
   [[gnu::noinline]] bool on_plane(const Plane& plane, Weights<Scalar>* weights) const {
     const WideInt<B::cross>& n = plane.normal;
     const auto u = cross_component(s_, e2_, plane.axis);
@@ -430,7 +434,7 @@ class ExactPair {
     return true;
   }
 
-  /// Whether the start lies on the segment or the point that the corners span.
+  /// Returns whether a degenerate triangle, which is a segment or a point, contains the start.
   [[gnu::noinline]] bool on_span(Weights<Scalar>* weights) const {
     const Span ends = span();
     Differences<Scalar> r;

@@ -10,8 +10,9 @@
 
 namespace surehit::detail {
 
-/// Where the places of coordinates begin: as integers they are x 2^-place. Zeros have no place of their own.
-struct Place {
+/// The unit in which some coordinates are integers: x = n 2^exponent. It is the largest power of two that divides all
+/// of them. Zeros do not change it, and without any other number the exponent is the maximum int.
+struct BinaryUnit {
   int exponent = std::numeric_limits<int>::max();
 
   template <typename Scalar>
@@ -31,29 +32,30 @@ struct Place {
 };
 
 template <typename Scalar>
-void set_integer(WideInt<Bits<Scalar>::difference>& out, Scalar x, const Place& place) {
+void set_integer(WideInt<Bits<Scalar>::difference>& out, Scalar x, const BinaryUnit& unit) {
   const Decomposed<Scalar> parts(x);
   out = parts.significand == 0 ? WideInt<Bits<Scalar>::difference>()
                                : WideInt<Bits<Scalar>::difference>::shifted(
-                                     parts.significand, parts.exponent - place.exponent, parts.negative);
+                                     parts.significand, parts.exponent - unit.exponent, parts.negative);
 }
 
 template <typename Scalar>
 using Differences = WideVector<Bits<Scalar>::difference>;
 
 template <typename Scalar>
-void set_difference(Differences<Scalar>& out, const Vector3<Scalar>& x, const Vector3<Scalar>& y, const Place& place) {
+void set_difference(Differences<Scalar>& out, const Vector3<Scalar>& x, const Vector3<Scalar>& y,
+                    const BinaryUnit& unit) {
   WideInt<Bits<Scalar>::difference> subtrahend;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    set_integer(out[i], x[axis], place);
-    set_integer(subtrahend, y[axis], place);
+    set_integer(out[i], x[axis], unit);
+    set_integer(subtrahend, y[axis], unit);
     out[i].add(subtrahend, true);
   }
 }
 
-/// The scale of a path against triangles: points are counted in units of 2^points.exponent, the direction of a ray or a
-/// line in units of its own, so that a true t is the integers' t times 2^t_exponent.
+/// The units in which a path and its triangles are integers. All points share one unit. The direction of a ray or a
+/// line has its own unit, which keeps the integers short. So the true t is 2^t_exponent times the t of the integers.
 template <typename Scalar>
 struct Scale {
   Scale(const Path<Scalar>& path, const Triangle<Scalar>& triangle) {
@@ -80,17 +82,17 @@ struct Scale {
     t_exponent = points.exponent - direction.exponent;
   }
 
-  Place points;
-  Place direction;
+  BinaryUnit points;
+  BinaryUnit direction;
   int t_exponent = 0;
 };
 
-/// A finite limit on t in the integers' terms: ±significand × 2^exponent.
+/// A finite limit on t, scaled like the t of the integers. It is ±significand × 2^exponent.
 template <typename Scalar>
 struct Limit {
   Limit(Scalar limit, int t_exponent) : parts(limit) { parts.exponent -= t_exponent; }
 
-  /// The sign of ratio - limit. The limit is multiplied in and shifted only when both sides have the same length.
+  /// Returns the sign of ratio - limit. Bit lengths decide first, because a shift of a long integer is expensive.
   template <int B>
   [[nodiscard, gnu::noinline]] int compare(const Ratio<B>& ratio) const {
     const int sign = parts.significand == 0 ? 0 : parts.negative ? -1 : 1;

@@ -8,23 +8,23 @@
 
 namespace surehit::detail {
 
-/// Bounds, in bits, of every term of the exact stage. Coordinates are counted in the least place that any of them uses,
-/// so they are integers.
+/// The maximum number of bits of each term of the exact stage. Coordinates are integers here, in units of `BinaryUnit`.
 template <typename Scalar>
 struct Bits {
-  static constexpr int coordinate = std::numeric_limits<Scalar>::max_exponent - Decomposed<Scalar>::least_exponent;
-  static constexpr int difference = coordinate + 1;   // D, E1, E2, S
-  static constexpr int cross = 2 * difference + 1;    // P, Q, the normal: two products
-  static constexpr int det = difference + cross + 2;  // det, T, U, V: three products
-  static constexpr int weight = det + 1;              // W = det - U - V: |W| is itself such a determinant
-  static constexpr int limit = 2 * coordinate;        // a limit on t: its own places, shifted by those of path and mesh
-  static constexpr int parameter = weight;            // numerator and denominator of any t
+  /// A coordinate needs no more, since the unit is at least the smallest denormal.
+  static constexpr int coordinate = std::numeric_limits<Scalar>::max_exponent - Decomposed<Scalar>::min_exponent;
+  static constexpr int difference = coordinate + 1;   ///< D, E1, E2 and S are differences.
+  static constexpr int cross = 2 * difference + 1;    ///< D × E2, S × E1 and the normal sum two products.
+  static constexpr int det = difference + cross + 2;  ///< det, T, U and V sum three products.
+  static constexpr int weight = det + 1;              ///< W is such a determinant too, but det - U needs one more bit.
+  static constexpr int limit = 2 * coordinate;        ///< A limit on t has its own bits, shifted by `t_exponent`.
+  static constexpr int parameter = weight;            ///< The numerator and the denominator of any t fit in this.
 };
 
 template <int B>
 using WideVector = std::array<WideInt<B>, 3>;
 
-/// out = a b - c d
+/// Sets out = a b - c d.
 template <int Out, int A, int B>
 [[gnu::noinline]] void set_minor(WideInt<Out>& out, const WideInt<A>& a, const WideInt<B>& b, const WideInt<A>& c,
                                  const WideInt<B>& d) {
@@ -55,13 +55,13 @@ bool is_zero(const WideVector<B>& x) {
   return x[0].is_zero() && x[1].is_zero() && x[2].is_zero();
 }
 
-/// A component that is not zero, of a vector that is not.
+/// Returns an axis on which x is not zero. The vector must not be zero.
 template <int B>
 std::size_t nonzero_axis(const WideVector<B>& x) {
   return !x[0].is_zero() ? 0 : !x[1].is_zero() ? 1 : 2;
 }
 
-/// num / den with den > 0.
+/// The fraction num / den, with den > 0.
 template <int B>
 struct Ratio {
   WideInt<B> num;
@@ -78,14 +78,14 @@ struct Ratio {
   }
 };
 
-/// The sign of x_num / x_den - y_num / y_den; both denominators are positive.
+/// Returns the sign of x_num / x_den - y_num / y_den. Both denominators must be positive.
 template <int XN, int XD, int YN, int YD>
 int compare(const WideInt<XN>& x_num, const WideInt<XD>& x_den, const WideInt<YN>& y_num, const WideInt<YD>& y_den) {
   if (x_num.sign() != y_num.sign()) return x_num.sign() < y_num.sign() ? -1 : 1;
   return x_num.sign() * compare_products(x_num, y_den, y_num, x_den);
 }
 
-/// The sign of x - y.
+/// Returns the sign of x - y.
 template <int A, int B>
 int compare(const Ratio<A>& x, const Ratio<B>& y) {
   return compare(x.num, x.den, y.num, y.den);

@@ -17,13 +17,13 @@ namespace surehit::detail {
 #endif
 __extension__ typedef unsigned __int128 Uint128;
 
-/// An exact integer below 2^Bits in magnitude. The bound is part of the type and grows with each operation, so that no
-/// overflow can happen and none is checked for; only the limbs in use are ever touched, so a small value costs little
-/// whatever the bound. Being integers, the values do not depend on any floating-point mode.
+/// An exact integer below 2^Bits in magnitude. The bound is part of the type and grows with each operation. So no
+/// overflow can happen, and none is checked. Only the limbs in use are read or written, so small values are cheap for
+/// any bound. Integers do not depend on the floating-point mode.
 template <int Bits>
 class WideInt {
  public:
-  /// One limb more than the bound needs, for the carry that a sum or a product writes before it is found to be zero.
+  /// One limb more than the bound needs. A sum or a product writes its carry there, and `trim` then drops a zero.
   static constexpr int capacity = (Bits + 63) / 64 + 1;
 
   WideInt() {}
@@ -49,7 +49,7 @@ class WideInt {
     return result;
   }
 
-  /// ±significand × 2^exponent
+  /// Returns ±significand × 2^exponent. The exponent must not be negative.
   static WideInt shifted(std::uint64_t significand, int exponent, bool negative) {
     WideInt result;
     if (significand == 0) return result;
@@ -68,10 +68,10 @@ class WideInt {
   [[nodiscard]] bool is_zero() const { return size_ == 0; }
   void negate() { negative_ = !negative_; }
 
-  /// Of the magnitude; 0 for zero.
+  /// Returns the number of bits of the magnitude, which is 0 for zero.
   [[nodiscard]] int bit_length() const { return size_ == 0 ? 0 : 64 * size_ - std::countl_zero(limb_[size_ - 1]); }
 
-  /// 64 bits of the magnitude from bit `lowest` on; bits below bit 0 read as zero.
+  /// Returns 64 bits of the magnitude, of which bit `lowest` is the lowest. Bits below bit 0 are zero.
   [[nodiscard]] std::uint64_t bits_from(int lowest) const {
     if (lowest < 0) return lowest <= -64 ? 0 : bits_from(0) << -lowest;
     const int at = lowest / 64;
@@ -81,7 +81,7 @@ class WideInt {
     return low | high;
   }
 
-  /// × 2^count, for a result that the caller knows to stay below 2^Bits.
+  /// Multiplies by 2^count. The caller must know that the result is below 2^Bits.
   void shift_left(int count) {
     if (size_ == 0 || count == 0) return;
     const int limbs = count / 64;
@@ -116,7 +116,7 @@ class WideInt {
     trim();
   }
 
-  /// this += other, or this -= other. The caller's type bounds the sum.
+  /// Adds `other`, or subtracts it. The caller must know that the result is below 2^Bits.
   template <int B>
   void add(const WideInt<B>& other, bool subtract = false) {
     static_assert(B <= Bits);
@@ -137,13 +137,13 @@ class WideInt {
     }
   }
 
-  /// |this| - factor × |other|, which lies in (-4 |other|, |other|): brought into [0, |other|) by adding |other| back.
-  /// The number of times that took.
+  /// Sets |this| to |this| - factor × |other|, plus |other| as often as needed to bring it into [0, |other|). Returns
+  /// how often that is. The difference must be in (-4 |other|, |other|).
   template <int B>
   int reduce(std::uint64_t factor, const WideInt<B>& other) {
     const int length = std::max(size_, other.size_ + 1);
     std::fill(limb_ + size_, limb_ + length, std::uint64_t{0});
-    std::uint64_t borrow = 0;  // of the product's high half and the subtraction together
+    std::uint64_t borrow = 0;  // This is the product's high half plus the borrow of the subtraction.
     for (int i = 0; i < length; ++i) {
       const Uint128 product = Uint128{factor} * (i < other.size_ ? other.limb_[i] : 0) + borrow;
       const auto low = static_cast<std::uint64_t>(product);
@@ -151,7 +151,8 @@ class WideInt {
       limb_[i] -= low;
     }
     int times = 0;
-    for (bool below_zero = borrow != 0; below_zero; ++times) {  // two's complement until the carry runs out of the top
+    // A negative value is in two's complement here. A carry out of the top limb shows that it is no longer negative.
+    for (bool below_zero = borrow != 0; below_zero; ++times) {
       std::uint64_t carry = 0;
       for (int i = 0; i < length; ++i) {
         const Uint128 sum = Uint128{limb_[i]} + (i < other.size_ ? other.limb_[i] : 0) + carry;
@@ -165,7 +166,7 @@ class WideInt {
     return times;
   }
 
-  /// -1, 0 or 1 as |this| is less than, equal to or greater than |other|.
+  /// Returns the sign of |this| - |other|.
   template <int B>
   [[nodiscard]] int compare_magnitude(const WideInt<B>& other) const {
     if (size_ != other.size_) return size_ < other.size_ ? -1 : 1;
@@ -175,8 +176,8 @@ class WideInt {
     return 0;
   }
 
-  /// Digit `index` of |a b|, where `carry` holds what the lower digits have carried so far: products are added column
-  /// by column (Comba 1990), so that a product can be read without room to store it.
+  /// Returns digit `index` of |a b|, where a is this number. `carry` holds the carry of the digits below, and then that
+  /// of this digit. Products are added by column (Comba 1990), so a product can be read without memory for it.
   template <int B>
   [[nodiscard]] std::uint64_t next_product_digit(const WideInt<B>& b, int index,
                                                  std::array<std::uint64_t, 2>& carry) const {
@@ -192,7 +193,7 @@ class WideInt {
     return static_cast<std::uint64_t>(low);
   }
 
-  /// -1, 0 or 1 as |a b| is less than, equal to or greater than |c d|.
+  /// Returns the sign of |a b| - |c d|.
   template <int A, int B, int C, int D>
   friend int compare_products(const WideInt<A>& a, const WideInt<B>& b, const WideInt<C>& c, const WideInt<D>& d);
 
@@ -225,7 +226,7 @@ class WideInt {
     trim();
   }
 
-  /// this = |large| - |small|; either may be this.
+  /// Sets |this| = |large| - |small|. Either may be the limbs of this number.
   void subtract_magnitude(const std::uint64_t* large, int large_size, const std::uint64_t* small, int small_size) {
     std::uint64_t borrow = 0;
     for (int i = 0; i < large_size; ++i) {
@@ -239,7 +240,7 @@ class WideInt {
 
   int size_ = 0;
   bool negative_ = false;
-  std::uint64_t limb_[capacity];  ///< least significant first; those from size_ on are not set
+  std::uint64_t limb_[capacity];  ///< The lowest limb is first. Limbs from size_ on are not initialized.
 };
 
 template <int A, int B, int C, int D>
@@ -250,7 +251,7 @@ int compare_products(const WideInt<A>& a, const WideInt<B>& b, const WideInt<C>&
   for (int index = 0; index < std::max(a.size_ + b.size_, c.size_ + d.size_); ++index) {
     const std::uint64_t first = a.next_product_digit(b, index, first_carry);
     const std::uint64_t second = c.next_product_digit(d, index, second_carry);
-    if (first != second) order = first < second ? -1 : 1;  // a higher digit outweighs the lower ones
+    if (first != second) order = first < second ? -1 : 1;  // Higher digits come later and overrule lower ones.
   }
   return order;
 }
@@ -276,16 +277,16 @@ template <int A, int B>
   return result;
 }
 
-/// A finite Scalar as ±significand × 2^exponent with an odd significand, or 0 × 2^0.
+/// A finite Scalar as ±significand × 2^exponent. The significand is odd, except for zero, which is 0 × 2^0.
 template <typename Scalar>
 struct Decomposed {
   using Word = std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>;
   static constexpr int stored_bits = std::numeric_limits<Scalar>::digits - 1;
   static constexpr int exponent_bits = static_cast<int>(8 * sizeof(Scalar)) - 1 - stored_bits;
-  /// Exponent of the least denormal: 2^-149 or 2^-1074.
-  static constexpr int least_exponent = std::numeric_limits<Scalar>::min_exponent - std::numeric_limits<Scalar>::digits;
+  /// The smallest denormal is 2^min_exponent: 2^-149 for float and 2^-1074 for double.
+  static constexpr int min_exponent = std::numeric_limits<Scalar>::min_exponent - std::numeric_limits<Scalar>::digits;
 
-  /// By its bits, so that flush-to-zero has no say in it.
+  /// Reads the bits of x, so flush-to-zero cannot change the result.
   explicit Decomposed(Scalar x) {
     const Word word = std::bit_cast<Word>(x);
     const Word fraction = word & ((Word{1} << stored_bits) - 1);
@@ -295,7 +296,7 @@ struct Decomposed {
     if (significand == 0) return;
     const int zeros = std::countr_zero(significand);
     significand >>= zeros;
-    exponent = least_exponent + std::max(biased, 1) - 1 + zeros;
+    exponent = min_exponent + std::max(biased, 1) - 1 + zeros;
   }
 
   std::uint64_t significand = 0;
@@ -303,12 +304,13 @@ struct Decomposed {
   bool negative = false;
 };
 
-/// numerator / denominator × 2^exponent, rounded once to nearest, ties to even; zero is +0. The denominator is not
-/// zero.
+/// Returns numerator / denominator × 2^exponent, rounded once to nearest, ties to even. Zero is +0. The denominator
+/// must not be zero.
 ///
-/// One step of Knuth's long division (The Art of Computer Programming 2, section 4.3.1, algorithm D) with digits of 64
-/// bits: the quotient is scaled to 63 or 64 bits, estimated from the leading bits (at most 3 too large) and put right
-/// by the remainder, whose being zero or not is all that the bits below it have to say.
+/// This is one step of Knuth's long division with digits of 64 bits (The Art of Computer Programming 2, section 4.3.1,
+/// algorithm D). A shift first gives the quotient 63 or 64 bits. The leading bits then give an estimate, which is at
+/// most 3 too large. The remainder corrects it. Of all bits below the quotient, rounding only needs to know whether the
+/// remainder is zero.
 template <typename Scalar, int N, int D>
 [[nodiscard, gnu::noinline]] Scalar rounded_quotient(const WideInt<N>& numerator, const WideInt<D>& denominator,
                                                      int exponent = 0) {

@@ -117,11 +117,11 @@ class BlockBounds : BlockDeterminants<Scalar, Products::by_size> {
     det = hn::MulAdd(this->det_, share, underflow);
     height = hn::MulAdd(this->height_, share, det);
     range = hn::MulAdd(this->height_, all(weights.t_bound / 6), hn::Mul(det, all(weights.det_size)));
-    least_side = hn::Neg(hn::Add(side, det));
-    least_end = hn::Neg(hn::Add(range, det));
+    min_side = hn::Neg(hn::Add(side, det));
+    min_end = hn::Neg(hn::Add(range, det));
   }
 
-  V side, range, det, height, least_side, least_end;
+  V side, range, det, height, min_side, min_end;
 };
 
 /// The determinants as their own filter: the bound stands in kernel_bound.hpp. Verdicts are certain, fused or not; what
@@ -168,9 +168,8 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// is.
   [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<Scalar>& range, const Bounds& bounds) const {
     const struct {
-      V side, range, det, least_side, least_end;
-    } in_all_lanes = {all(bounds.side), all(bounds.range), all(bounds.det), all(bounds.least_side),
-                      all(bounds.least_end)};
+      V side, range, det, min_side, min_end;
+    } in_all_lanes = {all(bounds.side), all(bounds.range), all(bounds.det), all(bounds.min_side), all(bounds.min_end)};
     return classify_by(range, in_all_lanes);
   }
 
@@ -202,9 +201,9 @@ class BlockKernel : BlockDeterminants<Scalar> {
   [[nodiscard]] HWY_INLINE FirstLanes<Scalar> first_of(const Bounds& bounds, std::uint64_t certain,
                                                        Scalar limit) const {
     if (!std::has_single_bit(certain)) return first_of(bounds, crossing(), certain, limit);
-    constexpr std::size_t most_lanes_of_any = hn::MaxLanes(Tag());
-    alignas(sizeof(Scalar) * most_lanes_of_any) Scalar height[most_lanes_of_any];
-    alignas(sizeof(Scalar) * most_lanes_of_any) Scalar det[most_lanes_of_any];
+    constexpr std::size_t max_lanes_of_any = hn::MaxLanes(Tag());
+    alignas(sizeof(Scalar) * max_lanes_of_any) Scalar height[max_lanes_of_any];
+    alignas(sizeof(Scalar) * max_lanes_of_any) Scalar det[max_lanes_of_any];
     hn::Store(height_, d_, height);
     hn::Store(det_, d_, det);
     const auto lane = static_cast<std::size_t>(std::countr_zero(certain));
@@ -236,11 +235,11 @@ class BlockKernel : BlockDeterminants<Scalar> {
     const V det = hn::Abs(det_), height = hn::Xor(height_, sign);
     const V u = hn::Xor(u_, sign), v = hn::Xor(v_, sign), w = hn::Sub(hn::Sub(det, u), v);
     const V side = hn::Min(hn::Min(u, v), w);
-    auto misses = hn::Lt(side, limits.least_side);
+    auto misses = hn::Lt(side, limits.min_side);
     V end;
     if (range.is_whole) [[likely]] {
       end = hn::Min(height, hn::Sub(det, height));
-      misses = hn::Or(misses, hn::Lt(end, limits.least_end));
+      misses = hn::Or(misses, hn::Lt(end, limits.min_end));
     } else {
       const V first = hn::MulAdd(height, all(range.t_first), hn::Mul(det, all(range.det_first)));
       const V last = hn::MulAdd(height, all(range.t_last), hn::Mul(det, all(range.det_last)));

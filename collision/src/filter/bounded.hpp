@@ -33,7 +33,7 @@ inline constexpr double radius_growth = 1 + 0x1p-49;
 inline constexpr double radius_underflow = 0x1p-1070;
 /// A product from here on has an error that is a double itself: its last place is at least 2^-1074 (2^-960 leaves
 /// 2^-1066).
-inline constexpr double least_exact_product = 0x1p-960;
+inline constexpr double min_exact_product = 0x1p-960;
 
 [[nodiscard]] inline Bounded exact(double x) { return {x, 0}; }
 
@@ -51,7 +51,7 @@ inline constexpr double least_exact_product = 0x1p-960;
 [[nodiscard]] inline Bounded operator*(const Bounded& a, const Bounded& b) {
   const double product = a.value * b.value;
   const double error = std::fma(a.value, b.value, -product);
-  const bool error_is_exact = std::fabs(product) >= least_exact_product || a.value == 0 || b.value == 0;
+  const bool error_is_exact = std::fabs(product) >= min_exact_product || a.value == 0 || b.value == 0;
   if (a.radius == 0 && b.radius == 0 && error == 0 && error_is_exact) return {product, 0};
   const double radius =
       std::fabs(a.value) * b.radius + std::fabs(b.value) * a.radius + a.radius * b.radius + std::fabs(error);

@@ -146,13 +146,13 @@ BoundedQuotients::BoundedQuotients(const Bounded& denominator) {
       HWY_NAMESPACE::Quotients<OneLane>::by(d, hn::Set(d, denominator.value), hn::Set(d, denominator.radius));
   inverse_ = hn::GetLane(by.inverse);
   radius_ = denominator.radius;
-  greatest_inverse_ = hn::GetLane(by.greatest_inverse);
+  max_inverse_ = hn::GetLane(by.max_inverse);
 }
 
 std::array<double, 2> BoundedQuotients::of(const Bounded& numerator) const {
   if (numerator.value == 0 && numerator.radius == 0) return {0, 0};
   const OneLane d;
-  const HWY_NAMESPACE::Quotients<OneLane> by{hn::Set(d, inverse_), hn::Set(d, radius_), hn::Set(d, greatest_inverse_)};
+  const HWY_NAMESPACE::Quotients<OneLane> by{hn::Set(d, inverse_), hn::Set(d, radius_), hn::Set(d, max_inverse_)};
   const auto interval = by.of(hn::Set(d, numerator.value), hn::Set(d, numerator.radius));
   return {hn::GetLane(interval.lower), hn::GetLane(interval.upper)};
 }

@@ -23,7 +23,7 @@ class BoundedQuotients {
  private:
   double inverse_ = 0;
   double radius_ = 0;
-  double greatest_inverse_ = 0;  ///< of what the denominator may be, by size
+  double max_inverse_ = 0;  ///< of what the denominator may be, by size
 };
 
 /// What doubles with error bounds say of a path and a triangle.

@@ -118,14 +118,14 @@ struct Quotients {
     const V size = hn::Abs(quotient);
     const V underflow = hn::Set(d, std::numeric_limits<double>::min());
     const V error =
-        hn::Mul(hn::MulAdd(hn::Add(size, underflow), radius, hn::Add(numerator_radius, underflow)), greatest_inverse);
+        hn::Mul(hn::MulAdd(hn::Add(size, underflow), radius, hn::Add(numerator_radius, underflow)), max_inverse);
     const V bound = hn::MulAdd(error, hn::Set(d, radius_growth), hn::MulAdd(size, hn::Set(d, 0x1p-51), underflow));
     return {hn::Sub(quotient, bound), hn::Add(quotient, bound)};
   }
 
   V inverse;
   V radius;
-  V greatest_inverse;  ///< of what the denominator may be, by size
+  V max_inverse;  ///< of what the denominator may be, by size
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

@@ -71,9 +71,9 @@ inline KernelPath<float>::KernelPath(const Path<float>& path, const GridFrame& f
   Float4 from = {path.start[0], path.start[1], path.start[2], 0};
   Float4 way = {path.toward[0], path.toward[1], path.toward[2], 0};
   if (path.has_end()) way -= from;
-  Float4 far = greatest(absolute(from - frame.float_box_low), absolute(from - frame.float_box_high));
-  if (path.has_end()) far = least(far, absolute(way) + frame.float_cell_size);
-  const Float4 sizes = greatest_lanes(absolute(from), absolute(way), far, far);
+  Float4 far = max(absolute(from - frame.float_box_low), absolute(from - frame.float_box_high));
+  if (path.has_end()) far = min(far, absolute(way) + frame.float_cell_size);
+  const Float4 sizes = max_lanes(absolute(from), absolute(way), far, far);
   from[3] = sizes[2];
   way[3] = are_small(sizes[0], sizes[1]) ? sizes[1] : std::numeric_limits<float>::infinity();
   static_assert(std::is_standard_layout_v<KernelPath> && sizeof(KernelPath) == 2 * sizeof(Float4));

@@ -65,8 +65,8 @@ bool is_smooth(const Grid& grid, const Fit& fit) {
 template <typename Scalar>
 MeshBlocks<Scalar>::MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor) {
   copy_vertices(mesh);
-  constexpr std::size_t most_short_indices = std::size_t{1} << 16;
-  if (mesh.vertex_count() <= most_short_indices) {
+  constexpr std::size_t max_short_indices = std::size_t{1} << 16;
+  if (mesh.vertex_count() <= max_short_indices) {
     copy_corners<std::uint16_t>(mesh);
   } else {
     copy_corners<std::uint32_t>(mesh);

@@ -101,9 +101,9 @@ CellSlab fit_floats(const SlabFitter& fitter, const ListCell& cell, const float*
     highest = hn::IfThenElse(taken, hn::Max(highest, high), highest);
   }
   const float steps = 1 / (CellSlab::step * static_cast<float>(cell.size));
-  const auto in_range = [](float place) {
+  const auto in_range = [](float step) {
     return static_cast<std::int32_t>(
-        std::clamp(place, static_cast<float>(CellSlab::lowest), static_cast<float>(CellSlab::highest)));
+        std::clamp(step, static_cast<float>(CellSlab::lowest), static_cast<float>(CellSlab::highest)));
   };
   const std::int32_t low = in_range(std::floor((hn::GetLane(hn::MinOfLanes(d, lowest)) - slack) * steps));
   const std::int32_t high = in_range(std::ceil((hn::GetLane(hn::MaxOfLanes(d, highest)) + slack) * steps) - 1);

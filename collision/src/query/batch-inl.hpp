@@ -46,7 +46,7 @@ class Batch {
         paths_(paths),
         finish_(finish),
         alone_(alone),
-        visitors_(for_all_paths(query, std::make_index_sequence<most_paths>())) {}
+        visitors_(for_all_paths(query, std::make_index_sequence<max_paths>())) {}
 
   HWY_INLINE void run() {
     if (query_.grid.levels() > 0) {
@@ -57,20 +57,20 @@ class Batch {
   }
 
  private:
-  /// Paths at once, each in its slot: of vector i those from i most_lanes on. More would gain little and take stack.
-  static constexpr std::size_t most_paths = 48;
-  static constexpr std::size_t vectors = most_paths / most_lanes;
-  static_assert(most_paths % most_lanes == 0 && most_paths <= 64);  // a bit each in a set of slots
+  /// Paths at once, each in its slot: of vector i those from i max_lanes on. More would gain little and take stack.
+  static constexpr std::size_t max_paths = 48;
+  static constexpr std::size_t vectors = max_paths / max_lanes;
+  static_assert(max_paths % max_lanes == 0 && max_paths <= 64);  // a bit each in a set of slots
 
   template <std::size_t... slot>
-  static std::array<Visitor, most_paths> for_all_paths(const Query<float>& query, std::index_sequence<slot...>) {
+  static std::array<Visitor, max_paths> for_all_paths(const Query<float>& query, std::index_sequence<slot...>) {
     return {((void)slot, Visitor(query))...};
   }
 
   using Kernel = typename Visitor::Kernel;
 
   static constexpr std::size_t path_size = PathSpan<float>::numbers_each;
-  static constexpr std::size_t paths_ahead = 64;           ///< so much before they are placed, paths are fetched
+  static constexpr std::size_t paths_ahead = 64;           ///< so much before they are clipped, paths are fetched
   static constexpr std::size_t line = 64 / sizeof(float);  ///< of the cache
   /// A vector's lanes are filled when this share of them is idle: each time one ends would cost more than it saves.
   static constexpr std::size_t idle_share = 4;
@@ -94,17 +94,17 @@ class Batch {
     FirstLanes<float> first;
   };
   /// `BlockKernel::Crossing` in memory.
-  struct alignas(most_lanes * sizeof(float)) Crossing {
+  struct alignas(max_lanes * sizeof(float)) Crossing {
     LaneFloats height;
     LaneFloats det;
   };
   /// So many triangles of each list become jobs before the verdicts on any of them are heeded. Where any hit will do,
   /// the rest of a list is often not asked for.
-  static constexpr std::size_t most_at_once = Visitor::wants_order ? 64 : 32;
-  static_assert(most_at_once % most_lanes == 0);
+  static constexpr std::size_t max_at_once = Visitor::wants_order ? 64 : 32;
+  static_assert(max_at_once % max_lanes == 0);
   /// The kernel is asked about so many jobs before anything is done about its verdicts: what is kept of each takes
   /// stack.
-  static constexpr std::size_t most_jobs = 256 / most_lanes;
+  static constexpr std::size_t max_jobs = 256 / max_lanes;
 
   template <bool has_levels>
   HWY_INLINE void run_levels() {
@@ -114,7 +114,7 @@ class Batch {
       if (walking_ == 0) return;
       query_.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking_));
       // Each loop does one thing for all vectors, so that they do not wait for each other.
-      const std::size_t used = (static_cast<std::size_t>(std::bit_width(walking_)) + most_lanes - 1) / most_lanes;
+      const std::size_t used = (static_cast<std::size_t>(std::bit_width(walking_)) + max_lanes - 1) / max_lanes;
       for (std::size_t i = 0; i < used; ++i) {
         cells_[i] = walk_.look<has_levels>(lanes_[i], of_vector(i, walking_));
       }
@@ -122,7 +122,7 @@ class Batch {
       for (std::size_t i = 0; i < used; ++i) {
         const std::uint32_t standing = LaneWalk::in_lists(cells_[i], of_vector(i, walking_));
         arriving |= slots_of(i, walk_.meet_lists(cells_[i], standing, lanes_[i]));
-        hn::Store(cells_[i].word, du, &words_[i * most_lanes]);
+        hn::Store(cells_[i].word, du, &words_[i * max_lanes]);
       }
       const std::uint64_t walked = walking_;  // those that are done end with the rest
       walking_ &= ~meet_lists(arriving);
@@ -137,14 +137,14 @@ class Batch {
   // Sets of lanes and of slots have a bit for each.
 
   static std::uint32_t of_vector(std::size_t vector, std::uint64_t slots) {
-    constexpr std::uint64_t all = (std::uint64_t{1} << most_lanes) - 1;
-    return static_cast<std::uint32_t>(slots >> vector * most_lanes & all);
+    constexpr std::uint64_t all = (std::uint64_t{1} << max_lanes) - 1;
+    return static_cast<std::uint32_t>(slots >> vector * max_lanes & all);
   }
   static std::uint64_t slots_of(std::size_t vector, std::uint32_t lanes) {
-    return std::uint64_t{lanes} << vector * most_lanes;
+    return std::uint64_t{lanes} << vector * max_lanes;
   }
 
-  /// Puts paths that are placed but not yet walked into a vector's idle lanes, if these are many enough.
+  /// Puts paths that are clipped but not yet walked into a vector's idle lanes, if these are many enough.
   template <bool has_levels>
   HWY_INLINE void fill(std::size_t vector) {
     const std::size_t lanes = hn::Lanes(FloatTag());
@@ -152,51 +152,51 @@ class Batch {
     std::uint32_t idle = all & ~of_vector(vector, walking_);
     if (static_cast<std::size_t>(std::popcount(idle)) * idle_share < lanes) return;
     while (idle != 0) {
-      if (waiting_ == 0 && !place_next<has_levels>()) break;
-      alignas(most_lanes * sizeof(float)) LaneIndices from_lane = {};
+      if (waiting_ == 0 && !clip_next<has_levels>()) break;
+      alignas(max_lanes * sizeof(float)) LaneIndices from_lane = {};
       std::uint32_t filled = 0;
       for (; waiting_ != 0 && idle != 0; waiting_ &= waiting_ - 1, idle &= idle - 1) {
         const auto from = static_cast<std::size_t>(std::countr_zero(waiting_));
         const auto to = static_cast<std::size_t>(std::countr_zero(idle));
         from_lane[to] = static_cast<std::int32_t>(from);
-        kernel_path_[vector * most_lanes + to] = placed_kernel_paths_.at(from);
-        index_[vector * most_lanes + to] = placed_first_ + from;
+        kernel_path_[vector * max_lanes + to] = clipped_kernel_paths_.at(from);
+        index_[vector * max_lanes + to] = clipped_first_ + from;
         filled |= std::uint32_t{1} << to;
       }
-      lanes_[vector].take(filled, placed_, from_lane);
+      lanes_[vector].take(filled, clipped_, from_lane);
       walking_ |= slots_of(vector, filled);
     }
   }
 
   /// Places the next paths until one of them is inside the grid.
   template <bool has_levels>
-  HWY_INLINE bool place_next() {
+  HWY_INLINE bool clip_next() {
     const std::size_t lanes = hn::Lanes(FloatTag());
     while (next_ < paths_.size()) {
-      placed_first_ = next_;
+      clipped_first_ = next_;
       const std::size_t count = std::min(lanes, paths_.size() - next_);
       next_ += count;
       prefetch_paths(next_ + paths_ahead);
-      const float* numbers = paths_.numbers(placed_first_);
-      std::array<float, path_size * most_lanes> last;  // whole lanes are read
+      const float* numbers = paths_.numbers(clipped_first_);
+      std::array<float, path_size * max_lanes> last;  // whole lanes are read
       if (count < lanes) {
         last.fill(0);
         std::copy_n(numbers, path_size * count, last.begin());
         numbers = last.data();
       }
-      const LaneWalk::Placed placed =
-          walk_.place(numbers, paths_.have_ends(), range_.first, range_.last, count, placed_, placed_kernel_paths_);
-      query_.statistics.paths += count - static_cast<std::size_t>(std::popcount(placed.apart));
-      for (std::uint32_t apart = placed.apart; apart != 0; apart &= apart - 1) {
-        alone_(placed_first_ + static_cast<std::size_t>(std::countr_zero(apart)));
+      const LaneWalk::Clipped clipped =
+          walk_.clip(numbers, paths_.have_ends(), range_.first, range_.last, count, clipped_, clipped_kernel_paths_);
+      query_.statistics.paths += count - static_cast<std::size_t>(std::popcount(clipped.apart));
+      for (std::uint32_t apart = clipped.apart; apart != 0; apart &= apart - 1) {
+        alone_(clipped_first_ + static_cast<std::size_t>(std::countr_zero(apart)));
       }
-      waiting_ = leave_empty_space<has_levels>(placed.inside);
+      waiting_ = leave_empty_space<has_levels>(clipped.inside);
       if (waiting_ != 0) return true;
     }
     return false;
   }
 
-  /// Fetches as many paths as are placed together into the cache: the machine does not foresee them, for much else is
+  /// Fetches as many paths as are clipped together into the cache: the machine does not foresee them, for much else is
   /// read between two such reads. (Where paths come from memory, batches of short ones take 0.87 of the time.)
   HWY_INLINE void prefetch_paths(std::size_t first) const {
     const std::size_t lanes = hn::Lanes(FloatTag());
@@ -205,13 +205,13 @@ class Batch {
     for (std::size_t from = 0; from < path_size * lanes; from += line) hwy::Prefetch(numbers + from);
   }
 
-  /// Steps the placed paths that begin in empty cells: most short ones end with that. Returns those that still walk.
+  /// Steps the clipped paths that begin in empty cells: most short ones end with that. Returns those that still walk.
   template <bool has_levels>
   HWY_INLINE std::uint32_t leave_empty_space(std::uint32_t inside) {
-    const LaneWalk::Cells cells = walk_.look<has_levels>(placed_, inside);
+    const LaneWalk::Cells cells = walk_.look<has_levels>(clipped_, inside);
     const std::uint32_t leaving = inside & ~LaneWalk::in_lists(cells, inside);
     query_.statistics.cells += static_cast<std::uint64_t>(std::popcount(leaving));
-    return (inside & ~leaving) | walk_.advance(cells, leaving, placed_);
+    return (inside & ~leaving) | walk_.advance(cells, leaving, clipped_);
   }
 
   /// Fetches the beginning of a list into the cache, or what lies behind it. More lines would cost more than they save;
@@ -225,12 +225,12 @@ class Batch {
   /// of whatever length, before anything is done about its verdicts: neither can be foretold.
   HWY_INLINE std::uint64_t meet_lists(std::uint64_t arriving) {
     std::uint64_t done = 0;
-    for (std::size_t from = 0; arriving != 0; from += most_at_once) {
+    for (std::size_t from = 0; arriving != 0; from += max_at_once) {
       std::uint64_t longer = 0;
       const std::size_t jobs =
           from == 0 ? list_jobs<true>(arriving, 0, longer) : list_jobs<false>(arriving, from, longer);
-      for (std::size_t first_job = 0; first_job < jobs; first_job += most_jobs) {
-        const auto some = std::span(jobs_).subspan(first_job, std::min(jobs - first_job, most_jobs));
+      for (std::size_t first_job = 0; first_job < jobs; first_job += max_jobs) {
+        const auto some = std::span(jobs_).subspan(first_job, std::min(jobs - first_job, max_jobs));
         for (const auto& [slot, first_triangle, verdicts, first] : std::span(open_).first(open_jobs(some, from))) {
           query_.statistics.undecided +=
               static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
@@ -261,11 +261,11 @@ class Batch {
         query_.statistics.candidates += list.count;
       }
       const std::size_t left = lists_[slot].count - from;
-      for (std::size_t i = 0; i < most_at_once; i += lanes) {
+      for (std::size_t i = 0; i < max_at_once; i += lanes) {
         jobs_[jobs + i / lanes] = {slot, static_cast<std::uint16_t>(i)};
       }
-      jobs += (std::min(left, most_at_once) + lanes - 1) / lanes;
-      longer |= std::uint64_t{left > most_at_once} << slot;
+      jobs += (std::min(left, max_at_once) + lanes - 1) / lanes;
+      longer |= std::uint64_t{left > max_at_once} << slot;
     }
     return jobs;
   }
@@ -273,7 +273,7 @@ class Batch {
   /// Does what a path's visitor has come to; returns the path's bit if that is the end.
   HWY_INLINE std::uint64_t heed(std::size_t slot, bool shorter) {
     if constexpr (Visitor::wants_order) {
-      if (shorter) lanes_[slot / most_lanes].shorten(slot % most_lanes, visitors_[slot].limit());
+      if (shorter) lanes_[slot / max_lanes].shorten(slot % max_lanes, visitors_[slot].limit());
       return 0;
     }
     return std::uint64_t{visitors_[slot].is_done()} << slot;
@@ -327,8 +327,8 @@ class Batch {
     shown_ &= ~ended;
   }
 
-  WalkingPaths placed_ = {};  ///< paths that are placed together
-  KernelLanes placed_kernel_paths_ = {};
+  WalkingPaths clipped_ = {};  ///< paths that are clipped together
+  KernelLanes clipped_kernel_paths_ = {};
   std::array<WalkingPaths, vectors> lanes_ = {};
   std::array<LaneWalk::Cells, vectors> cells_;  ///< where they stand
   const Query<float>& query_;
@@ -338,20 +338,20 @@ class Batch {
   PathSpan<float> paths_;
   Finish& finish_;
   const Alone& alone_;
-  std::size_t next_ = 0;          ///< the first path that is not placed yet
-  std::size_t placed_first_ = 0;  ///< the first of `placed_`,
-  std::uint32_t waiting_ = 0;     ///< of `placed_`, still to be walked
-  std::uint64_t walking_ = 0;     ///< slots that hold a path
-  std::uint64_t shown_ = 0;       ///< of these, those whose visitors have been shown a triangle
-  std::array<std::size_t, most_paths> index_ = {};
-  std::array<KernelPath<float>, most_paths> kernel_path_;
-  std::array<Visitor, most_paths> visitors_;
-  alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_paths> words_;  ///< of their cells,
-  std::array<TriangleList<float>, most_paths> lists_;                                ///< and of these the lists
-  std::array<typename Kernel::Bounds, most_paths> bounds_;                           ///< of the path and its list
-  std::array<Job, vectors * most_at_once> jobs_;  ///< each slot has most_at_once / lanes of them at most
-  std::array<Open, most_jobs> open_;              ///< of some jobs,
-  std::array<Crossing, Visitor::wants_order ? most_jobs : 0> crossings_;  ///< and where their paths cross
+  std::size_t next_ = 0;           ///< the first path that is not clipped yet
+  std::size_t clipped_first_ = 0;  ///< the first of `clipped_`,
+  std::uint32_t waiting_ = 0;      ///< of `clipped_`, still to be walked
+  std::uint64_t walking_ = 0;      ///< slots that hold a path
+  std::uint64_t shown_ = 0;        ///< of these, those whose visitors have been shown a triangle
+  std::array<std::size_t, max_paths> index_ = {};
+  std::array<KernelPath<float>, max_paths> kernel_path_;
+  std::array<Visitor, max_paths> visitors_;
+  alignas(max_lanes * sizeof(float)) std::array<std::uint32_t, max_paths> words_;  ///< of their cells,
+  std::array<TriangleList<float>, max_paths> lists_;                               ///< and of these the lists
+  std::array<typename Kernel::Bounds, max_paths> bounds_;                          ///< of the path and its list
+  std::array<Job, vectors * max_at_once> jobs_;  ///< each slot has max_at_once / lanes of them at most
+  std::array<Open, max_jobs> open_;              ///< of some jobs,
+  std::array<Crossing, Visitor::wants_order ? max_jobs : 0> crossings_;  ///< and where their paths cross
 };
 
 #endif  // HWY_TARGET != HWY_SCALAR
@@ -403,15 +403,15 @@ class BatchRounding {
     if (paths_.have_ends()) {
       direction = {hn::Sub(direction.x, start.x), hn::Sub(direction.y, start.y), hn::Sub(direction.z, start.z)};
     }
-    const auto doubles = [&](const std::array<float, most>& floats) {
+    const auto doubles = [&](const std::array<float, max_hits>& floats) {
       return hn::PromoteTo(d, hn::Load(df, floats.data()));
     };
     const HitIntervals<DoubleTag> intervals(d, start, direction, vectors(2), vectors(3), vectors(4, true),
                                             doubles(t_size_), doubles(edge_size_));
     const RoundedHits<DoubleTag> rounded(d, intervals);
-    std::array<float, most> t;
-    std::array<float, most> u;
-    std::array<float, most> v;
+    std::array<float, max_hits> t;
+    std::array<float, max_hits> u;
+    std::array<float, max_hits> v;
     hn::StoreU(rounded.t, df, t.data());
     hn::StoreU(rounded.u, df, u.data());
     hn::StoreU(rounded.v, df, v.data());
@@ -430,7 +430,7 @@ class BatchRounding {
   using DoubleTag = hn::CappedTag<double, 8>;
   using FloatTag = hn::Rebind<float, DoubleTag>;
   /// As many as the widest instruction set of today has doubles.
-  static constexpr std::size_t most = 8;
+  static constexpr std::size_t max_hits = 8;
 
   HWY_INLINE void copy(std::size_t which, const void* numbers, std::size_t from) {
     auto& four = vectors_[which][count_];
@@ -452,11 +452,11 @@ class BatchRounding {
   std::size_t count_ = 0;
   /// The path's start and its end or direction, and the triangle's corners, each with one number more. Beyond the last
   /// hit anything finite.
-  alignas(most * sizeof(float)) std::array<std::array<std::array<float, 4>, most>, 5> vectors_ = {};
-  alignas(most * sizeof(float)) std::array<float, most> t_size_ = {};     ///< what `HitIntervals` goes by besides,
-  alignas(most * sizeof(float)) std::array<float, most> edge_size_ = {};  //
-  std::array<std::size_t, most> index_;
-  std::array<std::size_t, most> entry_;  ///< the one where the id stands, which is on its way into the cache
+  alignas(max_hits * sizeof(float)) std::array<std::array<std::array<float, 4>, max_hits>, 5> vectors_ = {};
+  alignas(max_hits * sizeof(float)) std::array<float, max_hits> t_size_ = {};  ///< what `HitIntervals` goes by besides,
+  alignas(max_hits * sizeof(float)) std::array<float, max_hits> edge_size_ = {};  //
+  std::array<std::size_t, max_hits> index_;
+  std::array<std::size_t, max_hits> entry_;  ///< the one where the id stands, which is on its way into the cache
 };
 
 /// Answers all paths: side by side where there are lanes and the grid's frame is one of floats, else one by one.

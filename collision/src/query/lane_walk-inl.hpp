@@ -35,7 +35,7 @@ using Ints = hn::Vec<IntTag>;
 using Words = hn::Vec<BitsTag>;
 
 /// As many as the vectors have, or more where only the machine knows.
-constexpr std::size_t most_lanes = hn::MaxLanes(FloatTag());
+constexpr std::size_t max_lanes = hn::MaxLanes(FloatTag());
 
 /// Toward zero, of numbers that an integer holds: for any other one Highway's conversion spends four operations on x86.
 HWY_INLINE Ints to_ints(Floats x) {
@@ -51,11 +51,11 @@ HWY_INLINE Ints to_ints(Floats x) {
 
 /// A number for each lane. In memory: a step loads what it needs. Lanes are filled by stores of all of them: a load of
 /// all has to wait for a store of one.
-using LaneFloats = std::array<float, most_lanes>;
-using LaneIndices = std::array<std::int32_t, most_lanes>;
+using LaneFloats = std::array<float, max_lanes>;
+using LaneIndices = std::array<std::int32_t, max_lanes>;
 
 /// Paths as `GridTraversal` walks them, one in each lane; what that says of a single one holds for each.
-struct alignas(most_lanes * sizeof(float)) WalkingPaths {
+struct alignas(max_lanes * sizeof(float)) WalkingPaths {
   std::array<LaneFloats, 3> start;
   std::array<LaneFloats, 3> rate;
   std::array<LaneFloats, 3> inverse_rate;
@@ -64,10 +64,10 @@ struct alignas(most_lanes * sizeof(float)) WalkingPaths {
   LaneFloats first_cell;             ///< index of the top cell at the origin, as the path is mirrored
   LaneFloats enters;                 ///< t at which the walk begins, where tau is 0
   LaneFloats end;
-  std::array<std::uint32_t, most_lanes> octant;
+  std::array<std::uint32_t, max_lanes> octant;
 
   /// What the path meets beyond parameter t is of no interest any more.
-  void shorten(std::size_t lane, double t) { end[lane] = std::min(end[lane], PlacedPath::beyond(t, enters[lane])); }
+  void shorten(std::size_t lane, double t) { end[lane] = std::min(end[lane], ClippedPath::beyond(t, enters[lane])); }
 
   /// Lane i, where bit i is set, becomes lane `from_lane[i]` of other paths.
   HWY_INLINE void take(std::uint32_t lanes, const WalkingPaths& from, const LaneIndices& from_lane) {
@@ -92,7 +92,7 @@ struct alignas(most_lanes * sizeof(float)) WalkingPaths {
 };
 
 /// The same paths as the kernel takes them.
-struct alignas(most_lanes * sizeof(float)) KernelLanes {
+struct alignas(max_lanes * sizeof(float)) KernelLanes {
   std::array<LaneFloats, 3> start;
   std::array<LaneFloats, 3> d;
   LaneFloats d_size;
@@ -117,15 +117,15 @@ class LaneWalk {
   LaneWalk(const Grid& grid, const CellSlab* slabs) : grid_(grid), frame_(grid.frame()), slabs_(slabs) {}
 
   /// Lanes that take part, a bit for each.
-  struct Placed {
+  struct Clipped {
     std::uint32_t inside;  ///< they walk
-    std::uint32_t apart;   ///< their paths must be placed by `PlacedPath`
+    std::uint32_t apart;   ///< their paths must be clipped by `ClippedPath`
   };
 
   /// Places paths of six floats each, start and end or direction, of which all lanes' can be read and `count` are
   /// there. The bound is derived in grid_traversal.cpp: starts within one width of the grid, in float.
-  HWY_INLINE Placed place(const float* paths, bool is_segment, float first_t, float last_t, std::size_t count,
-                          WalkingPaths& placed, KernelLanes& kernel_paths) const {
+  HWY_INLINE Clipped clip(const float* paths, bool is_segment, float first_t, float last_t, std::size_t count,
+                          WalkingPaths& clipped, KernelLanes& kernel_paths) const {
     const FloatTag d;
     const BitsTag du;
     // Each half holds starts and ends by turns.
@@ -152,9 +152,9 @@ class LaneWalk {
       const Floats toward = hn::ConcatOdd(d, far_half[k], near_half[k]);
       const Floats way = is_segment ? hn::Sub(toward, start) : toward;
       const Floats move = hn::Mul(way, scale);
-      const Floats place =
+      const Floats position =
           hn::MulAdd(hn::Sub(start, hn::Set(d, frame_.float_low[k])), scale, hn::Set(d, frame_.margin[k]));
-      is_near = hn::And(is_near, hn::And(hn::Ge(place, hn::Neg(stop)), hn::Le(place, hn::Add(stop, stop))));
+      is_near = hn::And(is_near, hn::And(hn::Ge(position, hn::Neg(stop)), hn::Le(position, hn::Add(stop, stop))));
       hn::Store(start, d, kernel_paths.start[k].data());
       hn::Store(way, d, kernel_paths.d[k].data());
       start_size = hn::Max(start_size, hn::Abs(start));
@@ -164,25 +164,25 @@ class LaneWalk {
       Floats reach_here = hn::Max(hn::Abs(from_low), hn::Abs(from_high));
       if (is_segment) reach_here = hn::Min(reach_here, hn::Add(hn::Abs(way), hn::Set(d, frame_.float_cell_size[k])));
       reach = hn::Max(reach, reach_here);
-      const auto falls = hn::Lt(move, zero);
-      from[k] = hn::IfThenElse(falls, hn::Sub(stop, place), place);
+      const auto is_mirrored = hn::Lt(move, zero);
+      from[k] = hn::IfThenElse(is_mirrored, hn::Sub(stop, position), position);
       const Floats speed = hn::Abs(move);
-      is_near = hn::And(is_near, hn::Le(speed, hn::Set(d, PlacedPath::fast)));
+      is_near = hn::And(is_near, hn::Le(speed, hn::Set(d, ClippedPath::fast)));
       fastest = hn::Max(fastest, speed);
       // A path that stands still on the axis never crosses a plane.
-      const auto stands = hn::Lt(speed, hn::Set(d, PlacedPath::least_rate));
+      const auto stands = hn::Lt(speed, hn::Set(d, ClippedPath::min_rate));
       by[k] = hn::IfThenElse(stands, zero, speed);
       const Floats inverse =
-          hn::IfThenElse(stands, hn::Set(d, PlacedPath::greatest_inverse), hn::Div(hn::Set(d, 1.0F), speed));
+          hn::IfThenElse(stands, hn::Set(d, ClippedPath::max_inverse), hn::Div(hn::Set(d, 1.0F), speed));
       enters = hn::Max(enters, hn::Mul(hn::Neg(from[k]), inverse));
       leaves = hn::Min(leaves, hn::Mul(hn::Sub(stop, from[k]), inverse));
       const Floats pitch = hn::Set(d, static_cast<float>(frame_.top_orders[0].pitch[k]));
       const Floats turned = hn::Set(d, static_cast<float>(frame_.top_orders[std::size_t{1} << k].first));
-      hn::Store(hn::IfThenElse(falls, hn::Neg(pitch), pitch), d, placed.pitch[k].data());
-      hn::Store(inverse, d, placed.inverse_rate[k].data());
-      hn::Store(by[k], d, placed.rate[k].data());
-      first_cell = hn::IfThenElse(falls, hn::Add(first_cell, turned), first_cell);
-      octant = hn::Or(octant, hn::IfThenElseZero(hn::RebindMask(du, falls), hn::Set(du, 1U << k)));
+      hn::Store(hn::IfThenElse(is_mirrored, hn::Neg(pitch), pitch), d, clipped.pitch[k].data());
+      hn::Store(inverse, d, clipped.inverse_rate[k].data());
+      hn::Store(by[k], d, clipped.rate[k].data());
+      first_cell = hn::IfThenElse(is_mirrored, hn::Add(first_cell, turned), first_cell);
+      octant = hn::Or(octant, hn::IfThenElseZero(hn::RebindMask(du, is_mirrored), hn::Set(du, 1U << k)));
     }
     const auto fits = hn::And(hn::Le(start_size, hn::Set(d, KernelBound<float>::largest_size / 2)),
                               hn::Le(way_size, hn::Set(d, KernelBound<float>::largest_size)));
@@ -190,30 +190,30 @@ class LaneWalk {
               kernel_paths.d_size.data());
     hn::Store(reach, d, kernel_paths.reach.data());
     auto is_plain = is_near;
-    if (!is_segment) is_plain = hn::And(is_plain, hn::Ge(fastest, hn::Set(d, PlacedPath::slow)));
+    if (!is_segment) is_plain = hn::And(is_plain, hn::Ge(fastest, hn::Set(d, ClippedPath::slow)));
     const auto taken = hn::FirstN(d, count);
     const auto inside = hn::And(hn::And(is_plain, taken), hn::Le(enters, leaves));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Floats last = hn::Set(d, frame_.float_stop[axis] * (1 - 0x1p-24F));
-      // In the grid for every lane: x86 takes the second operand, zero, where a path that is not placed makes it NaN.
+      // In the grid for every lane: x86 takes the second operand, zero, where a path that is not clipped makes it NaN.
       const Floats entered = hn::Min(hn::Max(hn::MulAdd(enters, by[axis], from[axis]), zero), last);
-      hn::Store(entered, d, placed.start[axis].data());
-      hn::Store(hn::Floor(entered), d, placed.finest[axis].data());
+      hn::Store(entered, d, clipped.start[axis].data());
+      hn::Store(hn::Floor(entered), d, clipped.finest[axis].data());
     }
     const Floats last = hn::Set(d, last_t);
     const Floats rounding = hn::MulAdd(hn::Add(hn::Abs(last), hn::Abs(enters)), hn::Set(d, 0x1p-22F),
                                        hn::Set(d, std::numeric_limits<float>::min()));
-    hn::Store(hn::Add(hn::Sub(last, enters), rounding), d, placed.end.data());
-    hn::Store(enters, d, placed.enters.data());
-    hn::Store(first_cell, d, placed.first_cell.data());
-    hn::Store(octant, du, placed.octant.data());
+    hn::Store(hn::Add(hn::Sub(last, enters), rounding), d, clipped.end.data());
+    hn::Store(enters, d, clipped.enters.data());
+    hn::Store(first_cell, d, clipped.first_cell.data());
+    hn::Store(octant, du, clipped.octant.data());
     return {static_cast<std::uint32_t>(bits_of(d, inside)),
             static_cast<std::uint32_t>(bits_of(d, hn::AndNot(is_plain, taken)))};
   }
 
   /// Cuts a path, from some tau on, into pieces, one after the other, one for each lane. To begin a walk at some tau is
   /// to go on with it there: the place is rounded as in any step.
-  HWY_INLINE void cut(const PlacedPath& path, float enters, WalkingPaths& pieces) const {
+  HWY_INLINE void cut(const ClippedPath& path, float enters, WalkingPaths& pieces) const {
     const FloatTag d;
     const std::size_t last_lane = hn::Lanes(d) - 1;
     const Floats from = hn::Set(d, enters);
@@ -224,20 +224,20 @@ class LaneWalk {
     hn::Store(hn::IfThenElse(hn::FirstN(d, last_lane), hn::Min(end, whole), whole), d, pieces.end.data());
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Floats last = hn::Set(d, frame_.float_stop[axis] * (1 - 0x1p-24F));
-      const Floats place = hn::MulAdd(begin, hn::Set(d, path.rate[axis]), hn::Set(d, path.start[axis]));
-      hn::Store(hn::Floor(hn::Min(place, last)), d, pieces.finest[axis].data());
+      const Floats position = hn::MulAdd(begin, hn::Set(d, path.rate[axis]), hn::Set(d, path.start[axis]));
+      hn::Store(hn::Floor(hn::Min(position, last)), d, pieces.finest[axis].data());
     }
     repeat(path, pieces);
   }
 
   /// Whether a path can be spread: in fewer lanes it is walked as fast, and the bound on `Crossings::rate` presupposes
   /// that the place is rounded once.
-  static constexpr bool can_spread = HWY_NATIVE_FMA != 0 && most_lanes >= 8;
+  static constexpr bool can_spread = HWY_NATIVE_FMA != 0 && max_lanes >= 8;
 
   /// The planes that a path crosses from some tau on, numbered from 1: those on x, then those on y and on z. Number 0
   /// is where it begins.
   struct Crossings {
-    HWY_INLINE Crossings(const PlacedPath& any_path, float begins) : path(any_path), enters(begins) {
+    HWY_INLINE Crossings(const ClippedPath& any_path, float begins) : path(any_path), enters(begins) {
       const Float4 first = to_float(to_int(path.start + enters * path.rate));
       const Float4 end = to_float(to_int(path.start + std::min(path.end, path.exit) * path.rate));
       const Float4 planes = end - first;
@@ -247,7 +247,7 @@ class LaneWalk {
       number_zero = first - Float4{0, last_on_x, last_on_y, 0};
       rate = path.rate * (1 + 0x1p-22F);
     }
-    const PlacedPath& path;
+    const ClippedPath& path;
     float enters;
     Float4 rate;         ///< so much greater that no plane crossed by some tau is beyond the place then
     Float4 number_zero;  ///< the plane that would have it if the axis were the first
@@ -257,7 +257,7 @@ class LaneWalk {
   };
 
   /// Makes lanes ready to `stand`.
-  HWY_INLINE void spread(const PlacedPath& path, WalkingPaths& cells) const {
+  HWY_INLINE void spread(const ClippedPath& path, WalkingPaths& cells) const {
     const FloatTag d;
     hn::Store(hn::Set(d, path.end), d, cells.end.data());
     repeat(path, cells);
@@ -267,7 +267,7 @@ class LaneWalk {
   /// Returns the lanes that it takes. Over all numbers no cell is left out, as is argued in grid_traversal.cpp.
   HWY_INLINE std::uint32_t stand(const Crossings& crossings, float from, WalkingPaths& cells) const {
     const FloatTag d;
-    const PlacedPath& path = crossings.path;
+    const ClippedPath& path = crossings.path;
     const Floats number = hn::Add(hn::Iota(d, 0.0F), hn::Set(d, from));
     Floats crossed[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -328,9 +328,9 @@ class LaneWalk {
         if (hn::AllFalse(du, divided)) break;
         Words cell = hn::ShiftLeft<6>(hn::ShiftRight<5>(cells.word));
         for (int axis = 0; axis < 3; ++axis) {
-          const Words place = hn::BitCast(du, hn::ShiftRightSame(finest[axis], static_cast<int>(2 * level)));
+          const Words position = hn::BitCast(du, hn::ShiftRightSame(finest[axis], static_cast<int>(2 * level)));
           const Words turned = hn::Sub(hn::Zero(du), hn::And(hn::ShiftRightSame(octant, axis), hn::Set(du, 1U)));
-          cell = hn::Add(cell, hn::ShiftLeftSame(hn::And(hn::Xor(place, turned), hn::Set(du, 3U)), 2 * axis));
+          cell = hn::Add(cell, hn::ShiftLeftSame(hn::And(hn::Xor(position, turned), hn::Set(du, 3U)), 2 * axis));
         }
         const auto* bricks = reinterpret_cast<const std::uint32_t*>(grid_.bricks().data());
         const Words inner = hn::GatherIndex(du, bricks, hn::BitCast(di, hn::IfThenElseZero(divided, cell)));
@@ -371,19 +371,19 @@ class LaneWalk {
     Floats leaves = hn::Load(d, paths.end.data());
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
-      const auto falls = hn::Ne(hn::And(octant, hn::Set(du, 1U << axis)), hn::Zero(du));
+      const auto is_mirrored = hn::Ne(hn::And(octant, hn::Set(du, 1U << axis)), hn::Zero(du));
       const Words low = hn::And(hn::ShiftRightSame(box, 10 * axis), last_part);
       const Words high = hn::And(hn::ShiftRightSame(box, 10 * axis + 5), last_part);
-      const Words first = hn::IfThenElse(falls, hn::Xor(high, last_part), low);
-      const Words last = hn::IfThenElse(falls, hn::Xor(low, last_part), high);
-      const auto place = [&](Words sides, Floats from) {
+      const Words first = hn::IfThenElse(is_mirrored, hn::Xor(high, last_part), low);
+      const Words last = hn::IfThenElse(is_mirrored, hn::Xor(low, last_part), high);
+      const auto side = [&](Words sides, Floats from) {
         return hn::MulAdd(hn::ConvertTo(d, hn::BitCast(di, sides)), part, from);
       };
       const Floats padding = hn::Set(d, GridFrame::padding_share * frame_.float_stop[k]);
       const Floats start = hn::Load(d, paths.start[k].data());
       const Floats inverse = hn::Load(d, paths.inverse_rate[k].data());
-      const Floats near = place(first, hn::Sub(cells.low[k], padding));
-      const Floats far = place(last, hn::Add(cells.low[k], hn::Add(part, padding)));
+      const Floats near = side(first, hn::Sub(cells.low[k], padding));
+      const Floats far = side(last, hn::Add(cells.low[k], hn::Add(part, padding)));
       enters = hn::Max(enters, hn::Mul(hn::Sub(near, start), inverse));
       leaves = hn::Min(leaves, hn::Mul(hn::Sub(far, start), inverse));
     }
@@ -414,16 +414,16 @@ class LaneWalk {
     const auto walks = mask_of(d, walking);
     Floats finest[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Floats place =
+      const Floats position =
           hn::Floor(hn::MulAdd(tau, hn::Load(d, paths.rate[axis].data()), hn::Load(d, paths.start[axis].data())));
-      const Floats least = hn::Load(d, paths.finest[axis].data());
-      finest[axis] = hn::IfThenElse(hn::Eq(crossing[axis], tau), plane[axis], hn::Max(place, least));
+      const Floats current = hn::Load(d, paths.finest[axis].data());
+      finest[axis] = hn::IfThenElse(hn::Eq(crossing[axis], tau), plane[axis], hn::Max(position, current));
       inside = hn::And(inside, hn::Lt(finest[axis], hn::Set(d, frame_.float_stop[axis])));
     }
     inside = hn::And(inside, walks);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Floats least = hn::Load(d, paths.finest[axis].data());
-      hn::Store(hn::IfThenElse(inside, finest[axis], least), d, paths.finest[axis].data());
+      const Floats current = hn::Load(d, paths.finest[axis].data());
+      hn::Store(hn::IfThenElse(inside, finest[axis], current), d, paths.finest[axis].data());
     }
     return static_cast<std::uint32_t>(bits_of(d, inside));
   }
@@ -445,7 +445,7 @@ class LaneWalk {
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
       const Floats component = hn::ConvertTo(d, hn::ShiftRight<27>(hn::ShiftLeftSame(slab, 27 - 5 * axis)));
-      // Its sign is turned where the path falls.
+      // Its sign is turned where the path is mirrored.
       const Floats turned = hn::BitCast(d, hn::ShiftLeftSame(hn::And(octant, hn::Set(du, 1U << axis)), 31 - axis));
       const Floats normal = hn::Xor(component, turned);
       const Floats to_start = hn::Sub(hn::Load(d, paths.start[k].data()), hn::Add(cells.low[k], half));
@@ -465,7 +465,7 @@ class LaneWalk {
   }
 
   /// Puts one path into all lanes, but for where each stands and ends.
-  HWY_INLINE void repeat(const PlacedPath& path, WalkingPaths& paths) const {
+  HWY_INLINE void repeat(const ClippedPath& path, WalkingPaths& paths) const {
     const FloatTag d;
     const GridFrame::TopOrder& order = frame_.top_orders[path.octant];
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -28,10 +28,10 @@ void visit_list_cells(const Grid& grid, const ListCell& cell, const Visit& visit
   const std::uint32_t size = cell.size / edge;
   const std::size_t brick = std::size_t{cell.word.number()} * Grid::brick_size;
   for (std::uint32_t i = 0; i < Grid::brick_size; ++i) {
-    const std::array<std::uint32_t, 3> place = {i % edge, i / edge % edge, i / (edge * edge)};
+    const std::array<std::uint32_t, 3> part = {i % edge, i / edge % edge, i / (edge * edge)};
     visit_list_cells(grid,
                      {grid.bricks()[brick + i],
-                      {cell.low[0] + place[0] * size, cell.low[1] + place[1] * size, cell.low[2] + place[2] * size},
+                      {cell.low[0] + part[0] * size, cell.low[1] + part[1] * size, cell.low[2] + part[2] * size},
                       size},
                      visit);
   }
@@ -45,9 +45,9 @@ void visit_list_cells(const Grid& grid, std::size_t first, std::size_t last, con
   for (std::size_t top = first; top < last; ++top) {
     const CellWord word = grid.top()[top];
     if (word.is_empty()) continue;
-    const auto place = static_cast<std::uint32_t>(top);
+    const auto index = static_cast<std::uint32_t>(top);
     visit_list_cells(
-        grid, {word, {place % columns * size, place / columns % rows * size, place / columns / rows * size}, size},
+        grid, {word, {index % columns * size, index / columns % rows * size, index / columns / rows * size}, size},
         visit);
   }
 }

@@ -89,10 +89,10 @@ struct OnDemand {
 };
 
 /// Whether a path has so many cells before it, from some tau on.
-HWY_INLINE bool is_long(float least_cells, const Grid& grid, const PlacedPath& placed, float enters) {
-  const float rate = placed.rate[0] + placed.rate[1] + placed.rate[2];
-  const float way = (std::min(placed.end, placed.exit) - enters) * rate;
-  return way >= least_cells * static_cast<float>(grid.frame().division) && way < 0x1p20F;
+HWY_INLINE bool is_long(float min_cells, const Grid& grid, const ClippedPath& clipped, float enters) {
+  const float rate = clipped.rate[0] + clipped.rate[1] + clipped.rate[2];
+  const float way = (std::min(clipped.end, clipped.exit) - enters) * rate;
+  return way >= min_cells * static_cast<float>(grid.frame().division) && way < 0x1p20F;
 }
 
 #if HWY_TARGET != HWY_SCALAR
@@ -106,7 +106,7 @@ HWY_INLINE void meet_cells(const Query<float>& query, const PathRange<float>& ra
   std::uint32_t arriving = LaneWalk::in_lists(cells, standing);
   if (arriving != 0) arriving = lanes.meet_lists(cells, arriving, paths);
   if (arriving == 0) return;
-  alignas(most_lanes * sizeof(float)) std::array<std::uint32_t, most_lanes> words;
+  alignas(max_lanes * sizeof(float)) std::array<std::uint32_t, max_lanes> words;
   hn::Store(cells.word, BitsTag(), words.data());
   for (; arriving != 0 && !visitor.is_done(); arriving &= arriving - 1) {
     const TriangleList<float> list =
@@ -122,10 +122,10 @@ HWY_INLINE void meet_cells(const Query<float>& query, const PathRange<float>& ra
 /// Walks a path in pieces, one in each lane.
 template <bool has_levels, typename Visitor>
 HWY_NOINLINE void walk_in_pieces(float enters, const Query<float>& query, const Path<float>& path,
-                                 const PathRange<float>& range, const PlacedPath& placed, Visitor& visitor) {
+                                 const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
   const LaneWalk lanes(query.grid, query.mesh.slabs());
   WalkingPaths pieces;
-  lanes.cut(placed, enters, pieces);
+  lanes.cut(clipped, enters, pieces);
   const ForKernel<float> for_kernel(path, range, query.grid.frame());
   auto walking = static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(BitsTag())) - 1);
   while (walking != 0) {
@@ -140,11 +140,11 @@ HWY_NOINLINE void walk_in_pieces(float enters, const Query<float>& query, const 
 /// leapt over.
 template <typename Visitor>
 HWY_NOINLINE void stand_in_cells(float enters, const Query<float>& query, const Path<float>& path,
-                                 const PathRange<float>& range, const PlacedPath& placed, Visitor& visitor) {
+                                 const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
   const LaneWalk lanes(query.grid, query.mesh.slabs());
-  const LaneWalk::Crossings crossings(placed, enters);
+  const LaneWalk::Crossings crossings(clipped, enters);
   WalkingPaths paths;
-  lanes.spread(placed, paths);
+  lanes.spread(clipped, paths);
   const ForKernel<float> for_kernel(path, range, query.grid.frame());
   float from = 0;
   do {
@@ -160,20 +160,20 @@ HWY_NOINLINE void stand_in_cells(float enters, const Query<float>& query, const 
 /// in pieces, and lines of sight 0.89; in one of which a tenth do, where a piece leaps over most cells, 1.06 and 1.11.)
 template <typename Visitor>
 HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const Path<float>& path,
-                              const PathRange<float>& range, const PlacedPath& placed, Visitor& visitor) {
-  constexpr float least_in_pieces = 12;
-  constexpr float least_in_cells = 4;
-  constexpr std::size_t least_full = 4;  // one cell in as many lists triangles
+                              const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
+  constexpr float min_in_pieces = 12;
+  constexpr float min_in_cells = 4;
+  constexpr std::size_t min_full = 4;  // one cell in as many lists triangles
   const Grid& grid = query.grid;
   const bool has_levels = grid.levels() > 0;
-  const bool is_spread = LaneWalk::can_spread && !has_levels && grid.lists().size() * least_full > grid.top().size();
-  if (!is_long(is_spread ? least_in_cells : least_in_pieces, grid, placed, enters)) return false;
+  const bool is_spread = LaneWalk::can_spread && !has_levels && grid.lists().size() * min_full > grid.top().size();
+  if (!is_long(is_spread ? min_in_cells : min_in_pieces, grid, clipped, enters)) return false;
   if (is_spread) {
-    stand_in_cells(enters, query, path, range, placed, visitor);
+    stand_in_cells(enters, query, path, range, clipped, visitor);
   } else if (has_levels) {
-    walk_in_pieces<true>(enters, query, path, range, placed, visitor);
+    walk_in_pieces<true>(enters, query, path, range, clipped, visitor);
   } else {
-    walk_in_pieces<false>(enters, query, path, range, placed, visitor);
+    walk_in_pieces<false>(enters, query, path, range, clipped, visitor);
   }
   return true;
 }
@@ -196,14 +196,14 @@ HWY_NOINLINE void meet_all(const Query<Scalar>& query, const Path<Scalar>& path,
 /// ends.
 template <template <typename> class When, typename Scalar, typename Visitor>
 HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<Scalar>& path,
-                          const PathRange<Scalar>& range, const PlacedPath& placed, Visitor& visitor) {
+                          const PathRange<Scalar>& range, const ClippedPath& clipped, Visitor& visitor) {
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (std::is_same_v<Visitor, AnyHit<float>>) {
-    if (walk_in_lanes(enters, query, path, range, placed, visitor)) return;
+    if (walk_in_lanes(enters, query, path, range, clipped, visitor)) return;
   }
 #endif
   When<Scalar> when(path, range, query.grid.frame());
-  for (GridTraversal traversal(query.grid, placed, enters); !traversal.at_end(); traversal.advance()) {
+  for (GridTraversal traversal(query.grid, clipped, enters); !traversal.at_end(); traversal.advance()) {
     ++query.statistics.cells;
     if (traversal.word().is_empty() || !traversal.meets_box()) continue;
     if (query.mesh.has_slabs() && !traversal.meets(query.mesh.slab(traversal.word()))) continue;
@@ -222,11 +222,12 @@ HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<S
 /// The same for a long path, from where it enters the grid's cover to where it leaves that.
 template <typename Visitor>
 HWY_NOINLINE void walk_in_cover(const Query<float>& query, const Path<float>& path, const PathRange<float>& range,
-                                PlacedPath& placed, Visitor& visitor) {
-  const GridCover::Part part = query.grid.cover().part_of(placed.start, placed.inverse_rate, placed.octant, placed.end);
+                                ClippedPath& clipped, Visitor& visitor) {
+  const GridCover::Part part =
+      query.grid.cover().part_of(clipped.start, clipped.inverse_rate, clipped.octant, clipped.end);
   if (part.enters > part.leaves) return;
-  placed.end = part.leaves;
-  walk_from<AtOnce>(part.enters, query, path, range, placed, visitor);
+  clipped.end = part.leaves;
+  walk_from<AtOnce>(part.enters, query, path, range, clipped, visitor);
 }
 
 /// Shows the visitor the triangles that the path may meet, until it is done.
@@ -235,29 +236,29 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
                      Visitor& visitor) {
   ++query.statistics.paths;
   if (range.is_empty()) return;
-  PlacedPath placed(query.grid, path, range.first, range.last);
-  if (placed.place == PlacedPath::Place::outside) return;
-  if (placed.place == PlacedPath::Place::unclipped) {
+  ClippedPath clipped(query.grid, path, range.first, range.last);
+  if (clipped.status == ClippedPath::Status::miss) return;
+  if (clipped.status == ClippedPath::Status::too_far) {
     meet_all(query, path, range, visitor);
     return;
   }
   constexpr float few_cells = 4;
-  const bool is_far = is_long(few_cells, query.grid, placed, 0);
-  if (!is_far && placed.stays_in_empty_space(query.grid)) {
+  const bool is_far = is_long(few_cells, query.grid, clipped, 0);
+  if (!is_far && clipped.stays_in_empty_space(query.grid)) {
     ++query.statistics.cells;
     return;
   }
   if constexpr (std::is_same_v<Scalar, float>) {  // for double, more than one walk would take too much stack
     if (is_far) {
       if (query.grid.cover().is_useful()) {
-        walk_in_cover(query, path, range, placed, visitor);
+        walk_in_cover(query, path, range, clipped, visitor);
       } else {
-        walk_from<AtOnce>(0, query, path, range, placed, visitor);
+        walk_from<AtOnce>(0, query, path, range, clipped, visitor);
       }
       return;
     }
   }
-  walk_from<OnDemand>(0, query, path, range, placed, visitor);
+  walk_from<OnDemand>(0, query, path, range, clipped, visitor);
 }
 
 template <typename Scalar>
