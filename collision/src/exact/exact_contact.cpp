@@ -25,7 +25,7 @@ std::optional<Contact> exact_contact(const Path<Scalar>& path, const Triangle<Sc
   std::optional<Contact> contact = ExactPair<Scalar>(path, triangle, scale).find(range, t, nullptr);
   if (contact) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    // The nearest double is at most half an ulp from the exact t, so its neighbors enclose it.
+    // The nearest double is at most half an ulp from the exact t, so its neighbours enclose it.
     const double nearest = rounded_quotient<double>(t.num, t.den, scale.t_exponent);
     contact->t_lower = std::nextafter(nearest, -infinity);
     contact->t_upper = std::nextafter(nearest, infinity);

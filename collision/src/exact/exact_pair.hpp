@@ -239,7 +239,7 @@ class ExactPair {
     bool has_first = false;
     bool has_last = false;
 
-    /// Adds the condition s + t d >= 0. Returns false if no t fulfills it. All three weights together set both ends:
+    /// Adds the condition s + t d >= 0. Returns false if no t satisfies it. All three weights together set both ends:
     /// their d sum to zero, and they are not all zero, so one is positive and one is negative.
     bool bound(PlaneTerm& s, PlaneTerm& d) {
       if (d.is_zero()) return s.sign() >= 0;

@@ -1,4 +1,4 @@
-// The kernel: one path against a list of triangles, for the instruction set that Highway compiles it for.
+// The kernel tests one path against a list of triangles. Highway compiles it for each instruction set.
 
 #if defined(SUREHIT_BLOCK_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREHIT_BLOCK_KERNEL_INL
@@ -23,35 +23,35 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A cell's triangles, as the kernel loads them: coordinate k of triangle i is at corners[k count + i], and a vector
-/// may be loaded from beyond the last.
+/// A cell's triangles in the layout that the kernel loads. Coordinate k of triangle i is corners[k count + i]. A vector
+/// load may read beyond the last coordinate.
 template <typename Scalar>
 struct TriangleList {
-  const Scalar* corners;
-  std::size_t count;
-  std::size_t first_entry;  ///< among the grid's
-  Scalar edge_size;         ///< the greatest component of any b - a and c - a; infinite where they are too large
+  const Scalar* corners;    ///< The coordinates of all corners.
+  std::size_t count;        ///< The number of triangles.
+  std::size_t first_entry;  ///< The index of the first triangle among the grid's entries.
+  Scalar edge_size;         ///< The largest component of any b - a and c - a, or infinity if coordinates are too large.
 };
 
-/// Some triangles of a list, a bit for each.
+/// The verdicts on the triangles of one vector. Bit k of each mask is for lane k.
 struct Lanes {
-  std::uint64_t possible;  ///< all but the certain misses
-  std::uint64_t certain;   ///< of these, the certain hits
+  std::uint64_t possible;  ///< All lanes except the certain misses.
+  std::uint64_t certain;   ///< All certain hits. They are possible too.
 };
 
-/// Of certain hits, those that may be the first one.
+/// The certain hits that may be the first one.
 template <typename Scalar>
 struct FirstLanes {
-  std::uint64_t lanes;
-  Scalar t_lower;  ///< their first t is in [t_lower, t_upper]
-  Scalar t_upper;  //
+  std::uint64_t lanes;  ///< The mask of their lanes.
+  Scalar t_lower;       ///< The first exact t is at least this.
+  Scalar t_upper;       ///< The first exact t is at most this.
 };
 
-/// What each determinant is a sum of: six products, or the sizes of these, which bound what it is off by.
+/// The terms that each determinant sums: its six products, or their absolute values for an error bound (K6).
 enum class Products : std::uint8_t { as_they_are, by_size };
 
-/// Möller and Trumbore's determinants (1997) in working precision: one path against the triangles of a list from `from`
-/// on, as many as a vector has lanes.
+/// The determinants of Möller and Trumbore (1997) in working precision. Each lane of a vector has its own triangle of
+/// the list. The first lane has triangle `from`.
 template <typename Scalar, Products products = Products::as_they_are>
 class BlockDeterminants {
  protected:
@@ -95,11 +95,11 @@ class BlockDeterminants {
   HWY_INLINE static V all(Scalar x) { return hn::Set(Tag(), x); }
 
   [[no_unique_address]] Tag d_;
-  std::size_t left_;  ///< triangles, and more lanes than these count for nothing
+  std::size_t left_;  ///< The number of triangles from `from` on. Lanes after them are ignored.
   V det_, height_, u_, v_;
 };
 
-/// `ListBounds` for each triangle alone.
+/// The same bounds as in `ListBounds`, for each triangle by itself (K6).
 template <typename Scalar>
 class BlockBounds : BlockDeterminants<Scalar, Products::by_size> {
   using Base = BlockDeterminants<Scalar, Products::by_size>;
@@ -111,7 +111,7 @@ class BlockBounds : BlockDeterminants<Scalar, Products::by_size> {
                          const RangeWeights<Scalar>& weights)
       : Base(path, list, from) {
     using Bound = KernelBound<Scalar>;
-    const V share = all(Bound::relative / 6);  // each product of sizes stands for six products
+    const V share = all(Bound::relative / 6);  // K6: this is 11 eps.
     const V underflow = all(Bound::underflow);
     side = hn::MulAdd(hn::Add(hn::Add(this->u_, this->v_), this->det_), share, underflow);
     det = hn::MulAdd(this->det_, share, underflow);
@@ -124,8 +124,32 @@ class BlockBounds : BlockDeterminants<Scalar, Products::by_size> {
   V side, range, det, height, min_side, min_end;
 };
 
-/// The determinants as their own filter: the bound stands in kernel_bound.hpp. Verdicts are certain, fused or not; what
-/// they cannot tell stays possible.
+/// A filter made of the determinants and their error bounds. Its verdicts are certain, with fused operations or
+/// without. What the bounds do not decide stays possible.
+///
+/// Lemmas K1 to K10 are in kernel_bound.hpp. A side is U, V or W, and an end is one of the two conditions of the range.
+/// Let sigma be the sign of the computed det, and let r be the bound of det.
+///
+/// K11. The exact sigma det is at least -r.
+/// Proof. The computed sigma det is |det| >= 0, and the error is at most r.
+///
+/// K12. The pair is a hit if each computed side and end, times sigma, is above its bound.
+/// Proof. Then the exact ones, times sigma, are above zero. The sides sum to det, so the exact sigma det is above zero.
+///     So det is not zero, and the line crosses the plane at T / det, with weights U / det, V / det and W / det.
+///     These weights are positive, and the ends show that T / det is in the range.
+///
+/// K13. The pair is a miss if a computed side, times sigma, is below -(its bound + r).
+/// Proof. Then the exact side, times sigma, is below -r. The three sides sum to det, so by K11 they sum to at least -r.
+///     So the other two sum to more than zero, and one of them is positive. Two sides thus have opposite signs.
+///     This is impossible at a hit. By K1, the sides are weights times det there, and no weight is negative.
+///
+/// K14. For the range [0, 1], K13 also holds with an end in place of the side.
+/// Proof. The ends T and det - T sum to det. As in K13, the other end is positive, and the two have opposite signs.
+///     At a hit they are t det and (1 - t) det by K1. Both t and 1 - t are at least zero there.
+///
+/// K15. For any range, the pair is a miss if an end, times sigma, is below -(its bound) and |det| is above r.
+/// Proof. Then sigma is the sign of the exact det, and the exact end, times sigma, is negative.
+///     At a hit the ends are (t - first) det and (last - t) det by K1. Times sigma, they are at least zero.
 template <typename Scalar>
 class BlockKernel : BlockDeterminants<Scalar> {
   using Base = BlockDeterminants<Scalar>;
@@ -140,7 +164,7 @@ class BlockKernel : BlockDeterminants<Scalar> {
   using typename Base::V;
 
  public:
-  /// What any of the list's triangles are weighed with, in scalars that the kernel loads into all lanes.
+  /// The bounds for all triangles of a list. They are scalars, which the kernel loads into all lanes.
   using Bounds = ListBounds<Scalar>;
   HWY_INLINE static Bounds bounds(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
                                   const TriangleList<Scalar>& list) {
@@ -150,22 +174,9 @@ class BlockKernel : BlockDeterminants<Scalar> {
   HWY_INLINE BlockKernel(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list, std::size_t from)
       : Base(path, list, from) {}
 
-  /// For a hit, U, V, W and the two ends that the range asks for must each be at least zero with det's sign taken out.
-  /// Here the computed det's is, which is the wrong one perhaps where det is within its bound, r, of zero.
-  ///
-  /// All certainly above zero are a hit: det = U + V + W is too, so that its sign was right.
-  ///
-  /// A side that is below zero by its bound and r more is exactly below -r. The three sum to det, which is not: the two
-  /// others sum to more than zero, and one of them is above it. Of two of opposite signs one speaks against a hit,
-  /// whatever det's sign is; and were det zero, a path that meets the triangle would lie in its plane and all of them
-  /// would vanish. So that is a miss. (A bound for each sign, with none of them taken out, takes twice the comparisons:
-  /// on AVX2 and AVX-512 1.03 and 1.01 of the time.)
-  ///
-  /// So it is with the ends of [0, 1], T and det - T, which sum to det. Of other ranges an end that is certainly below
-  /// zero is a miss where det's sign is certain.
-  ///
-  /// Comparisons accept what is certain, and where sizes might overflow, the bound is infinite or NaN, so that nothing
-  /// is.
+  /// Returns the certain misses and hits, by K12 to K15. A separate bound for each sign of det would need twice as many
+  /// comparisons. Each comparison is true only for a certain verdict. If sizes might overflow, the bounds are infinite
+  /// or NaN. Then all comparisons are false, and nothing is certain.
   [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<Scalar>& range, const Bounds& bounds) const {
     const struct {
       V side, range, det, min_side, min_end;
@@ -173,21 +184,21 @@ class BlockKernel : BlockDeterminants<Scalar> {
     return classify_by(range, in_all_lanes);
   }
 
-  /// Where the path crosses the triangles' planes: t = height / det.
+  /// The path crosses the triangles' planes at t = height / det.
   struct Crossing {
     V height, det;
   };
   [[nodiscard]] HWY_INLINE Crossing crossing() const { return {height_, det_}; }
 
-  /// Of `certain` hits those that may be the first, if none that begins after t = `limit` can be. The interval of t is
-  /// derived below.
+  /// Returns the lanes of `certain` that may be the first hit. Lanes with t certainly above `limit` are left out. The
+  /// interval of t is that of K16.
   [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(const Bounds& bounds, const Crossing& crossing,
                                                               std::uint64_t certain, Scalar limit) {
     return first_of(all(bounds.det), all(bounds.height), crossing, certain, limit);
   }
 
-  /// The same of a hit that alone is certain, whose crossing this is: it waits for no other lane. It is named whatever
-  /// the limit is, for `t_lower` tells as well whether it lies beyond.
+  /// The same for the only certain hit, with its crossing. It does not wait for other lanes. It has no limit, because
+  /// the caller can compare `t_lower` with a limit.
   [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> lone_first(const Bounds& bounds, Scalar height, Scalar det,
                                                                 std::uint64_t certain) {
     using One = hn::CappedTag<Scalar, 1>;
@@ -196,8 +207,8 @@ class BlockKernel : BlockDeterminants<Scalar> {
     return {certain, hn::GetLane(t.lower), hn::GetLane(t.upper)};
   }
 
-  /// Of these triangles' certain hits: of several as above, of one alone as `lone_first` says, which is the usual case
-  /// and spares single first hits 2 to 5% of their time.
+  /// Returns the lanes of `certain` that may be the first hit of this vector. The usual case is one certain hit, and
+  /// `lone_first` is faster for it.
   [[nodiscard]] HWY_INLINE FirstLanes<Scalar> first_of(const Bounds& bounds, std::uint64_t certain,
                                                        Scalar limit) const {
     if (!std::has_single_bit(certain)) return first_of(bounds, crossing(), certain, limit);
@@ -210,10 +221,10 @@ class BlockKernel : BlockDeterminants<Scalar> {
     return lone_first(bounds, height[lane], det[lane], certain);
   }
 
-  /// Weighs the triangles of a list that the path may meet once more, each by its own products: the list's longest edge
-  /// may be that of one large triangle among small ones, and of six products most are small where an edge or the path
-  /// runs along an axis. (A half of what the list's bounds leave open goes without the narrowphase then.) Apart, for
-  /// few lists ask for it.
+  /// Classifies the possible triangles again, each by its own products (K6). A list's bounds are too large if it has
+  /// one large triangle among small ones. They are also too large if an edge or the path is along an axis, because most
+  /// of the six products are small then. Fewer pairs need the narrowphase after this. It is not inlined, because few
+  /// lists need it.
   HWY_NOINLINE static void weigh_each(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list,
                                       std::size_t from, const RangeWeights<Scalar>& range, Scalar limit, Lanes& lanes,
                                       FirstLanes<Scalar>& first) {
@@ -228,25 +239,25 @@ class BlockKernel : BlockDeterminants<Scalar> {
   }
 
  private:
-  /// By `BlockBounds` or what has the same names.
+  /// Classifies by `BlockBounds`, or by any limits with the same member names.
   template <typename Limits>
   [[nodiscard]] HWY_INLINE Lanes classify_by(const RangeWeights<Scalar>& range, const Limits& limits) const {
     const V sign = hn::And(det_, all(Scalar{-0.0}));
     const V det = hn::Abs(det_), height = hn::Xor(height_, sign);
     const V u = hn::Xor(u_, sign), v = hn::Xor(v_, sign), w = hn::Sub(hn::Sub(det, u), v);
     const V side = hn::Min(hn::Min(u, v), w);
-    auto misses = hn::Lt(side, limits.min_side);
+    auto misses = hn::Lt(side, limits.min_side);  // K13
     V end;
     if (range.is_whole) [[likely]] {
       end = hn::Min(height, hn::Sub(det, height));
-      misses = hn::Or(misses, hn::Lt(end, limits.min_end));
+      misses = hn::Or(misses, hn::Lt(end, limits.min_end));  // K14
     } else {
       const V first = hn::MulAdd(height, all(range.t_first), hn::Mul(det, all(range.det_first)));
       const V last = hn::MulAdd(height, all(range.t_last), hn::Mul(det, all(range.det_last)));
       end = hn::Min(first, last);
-      misses = hn::Or(misses, hn::And(hn::Lt(end, hn::Neg(limits.range)), hn::Gt(det, limits.det)));
+      misses = hn::Or(misses, hn::And(hn::Lt(end, hn::Neg(limits.range)), hn::Gt(det, limits.det)));  // K15
     }
-    const auto hits = hn::And(hn::Gt(side, limits.side), hn::Gt(end, limits.range));
+    const auto hits = hn::And(hn::Gt(side, limits.side), hn::Gt(end, limits.range));  // K12
     const std::uint64_t possible = bits_of(d_, hn::AndNot(misses, hn::FirstN(d_, left_)));
     return {possible, range.decides ? possible & bits_of(d_, hits) : 0};
   }
@@ -256,13 +267,27 @@ class BlockKernel : BlockDeterminants<Scalar> {
     hn::Vec<D> lower, upper;
   };
 
-  /// t is within (r_height + |t| r_det) / (|det| - r_det) of the quotient of what is computed, where r_height and r_det
-  /// are the determinants' bounds. The det of a certain hit is the sum of U, V and W, each beyond r_det and of its
-  /// sign: |det| - r_det is at least 2 / 3 |det| but for roundings, so that its inverse, a second division, is not
-  /// needed. Of their 66 u, 48 u hold what either may be off (of a triangle's own products, 8 u of 11 u). The other
-  /// 18 u of d e f or of f s e, 3 u of the most that det or height may be, make 3 u |t| each: room for the two
-  /// roundings of the quotient, and four more. 2^-17 is far more than the radius needs for its own. A certain det is no
-  /// denormal, so that its inverse is finite. Where t or the radius overflows, nothing is known.
+  /// Returns an interval that contains the exact t of a certain hit.
+  ///
+  /// Here r_det and r_height are the bounds of det and T, and t is the computed height / det.
+  ///
+  /// K16. The exact t is within 1.5 (r_height + |t| r_det) / |det| of t. This includes the roundings of t.
+  /// Proof. By K10, it is within (r_height + |t| r_det) / (|det| - r_det) of the quotient of the computed numbers.
+  ///     By K12, the three sides of a certain hit have the sign of det, and each is above its bound.
+  ///     This bound is at least r_det, and the sides sum to det. So |det| > 3 r_det, up to roundings.
+  ///     Then |det| - r_det > 2/3 |det|, which saves a second division.
+  ///     Of the 66 eps in a bound, K2 uses 48 eps. The other 18 eps times the product of sizes are spare.
+  ///     By K3, they are at least 3 eps |det| in r_det, and at least 3 eps |height| in r_height.
+  ///     Together, they are 6 eps |t|. For a triangle's own products, K6 has the same 3 eps of 11 eps.
+  ///     The inverse, t, and the sum of t and the bound are rounded once each. So 3 eps |t| stay spare.
+  ///
+  /// K17. The factor 1.5 + 2^-17 and the term `min` cover the roundings and the underflow of the bound itself.
+  /// Proof. The bound has fewer than 16 roundings, and |det| > 3 r_det adds a few. All are below 2^-17 in both types.
+  ///     The product |t| r_det may lose eta / 2. This is tiny compared with r_height, which includes 32 eta L (K8).
+  ///     All later products, and t itself, may lose eta / 2 each. The smallest normal number is far larger.
+  ///     The size of a certain det is between 96 eta L (K8) and 6 L^3 (K3). So its inverse is a normal number.
+  ///
+  /// If t or the bound overflows, the interval is infinite.
   template <class D>
   [[nodiscard]] HWY_INLINE static Interval<D> interval_of_t(D d, hn::Vec<D> det_bound, hn::Vec<D> height_bound,
                                                             hn::Vec<D> det, hn::Vec<D> height) {
@@ -270,6 +295,7 @@ class BlockKernel : BlockDeterminants<Scalar> {
     const auto inverse = hn::Div(hn::Set(d, 1), det);
     const auto t = hn::Mul(height, inverse);
     const auto radius = hn::Mul(hn::MulAdd(hn::Abs(t), det_bound, height_bound), hn::Abs(inverse));
+    // K16 and K17
     const auto bound =
         hn::MulAdd(radius, hn::Set(d, Scalar(1.5) + Scalar(0x1p-17)), hn::Set(d, std::numeric_limits<Scalar>::min()));
     const auto known = hn::And(hn::Ge(bound, hn::Zero(d)), hn::Lt(bound, infinity));
@@ -290,17 +316,17 @@ class BlockKernel : BlockDeterminants<Scalar> {
   }
 };
 
-// Not inlined: their frames are gone when the exact stage needs the stack, and the call costs nothing that can be
-// measured.
+// These functions are not inlined, so that their stack frames are gone when the exact stage needs the stack.
 
+/// Returns the verdicts on the triangles of one vector, which begins with triangle `from`.
 template <typename Kernel, typename Scalar>
 HWY_NOINLINE Lanes classify(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
                             const TriangleList<Scalar>& list, const ListBounds<Scalar>& bounds, std::size_t from) {
   return Kernel(path, list, from).classify(range, bounds);
 }
 
-/// Says of the certain hits too which may be the first, if none beyond t = `limit` can be; of one alone, whatever the
-/// limit is.
+/// Does the same, and sets `first` to the certain hits that may be the first one. Several of them are cut at `limit`. A
+/// single one is not.
 template <typename Kernel, typename Scalar>
 HWY_NOINLINE Lanes classify(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
                             const TriangleList<Scalar>& list, const ListBounds<Scalar>& bounds, std::size_t from,

@@ -6,17 +6,19 @@
 
 namespace surehit::detail {
 
-/// A double and a bound on its distance from the true value: running error analysis (Wilkinson 1986; Higham, "Accuracy
-/// and Stability of Numerical Algorithms", section 3.3), made exact where it can be: the rounding error of each sum and
-/// product is itself computed without error (Knuth's two-sum; a fused multiply-add), so that a chain of exact
-/// operations keeps radius 0 and even a zero is certain. Round-to-nearest without flush-to-zero is presupposed.
+/// A double with a bound of its error. This is running error analysis (Wilkinson 1986). See Higham, "Accuracy and
+/// Stability of Numerical Algorithms", section 3.3.
 ///
-/// An overflow makes the radius infinite or NaN, and then nothing is certain.
+/// The rounding error of a sum is computed by Knuth's two-sum, and that of a product by a fused multiply-add. Both are
+/// exact. So exact operations keep the radius 0, and even a zero can be certain. The rounding mode must be
+/// round-to-nearest, without flush-to-zero.
+///
+/// After an overflow the radius is infinite or NaN, and nothing is certain.
 struct Bounded {
-  double value = 0;
-  double radius = 0;
+  double value = 0;   ///< The computed value.
+  double radius = 0;  ///< The exact value is at most this far from `value`.
 
-  /// The sign, if it is certain: 0 only for an exact zero.
+  /// Returns the sign if it is certain. Returns 0 only for an exact zero.
   [[nodiscard]] std::optional<int> sign() const {
     if (value > radius) return 1;
     if (value < -radius) return -1;
@@ -25,14 +27,17 @@ struct Bounded {
   }
 };
 
-/// The radius of an operation is a sum of at most four terms that are not negative, each a product rounded once: what
-/// is computed is at least (1 - u)^5 of what it should be, u = 2^-53. This factor makes up for it, its own rounding
-/// included.
+/// B1. This factor covers the roundings of a computed radius, where eps = 2^-53.
+/// Proof. A radius is a sum of at most four terms, and none is negative. A term has at most four roundings, since a
+///     product and three sums take part. This factor and `radius_underflow` add one each. Finally,
+///     (1 + 16 eps) (1 - eps)^6 > 1.
 inline constexpr double radius_growth = 1 + 0x1p-49;
-/// What underflow in such products, and in the error that a fused multiply-add returns, can hide: below 2^-1074 each.
+/// B2. This term covers what a radius loses by underflow.
+/// Proof. The radius of a product has four products, and one error from a fused multiply-add. Each loses less than
+///     2^-1074, and this is 16 times as much.
 inline constexpr double radius_underflow = 0x1p-1070;
-/// A product from here on has an error that is a double itself: its last place is at least 2^-1074 (2^-960 leaves
-/// 2^-1066).
+/// B3. From this size on, the error of a product is a double.
+/// Proof. The exact product has at most 106 bits. So its last bit is worth 2^-1066 or more, which a double can hold.
 inline constexpr double min_exact_product = 0x1p-960;
 
 [[nodiscard]] inline Bounded exact(double x) { return {x, 0}; }

@@ -25,20 +25,25 @@ BoundedVector cross(const BoundedVector& x, const BoundedVector& y) {
 
 Bounded dot(const BoundedVector& x, const BoundedVector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
-/// The five numbers whose signs decide, and det.
+/// The determinants. The signs of the last five decide.
 struct Determinants {
   Bounded det;
   Bounded height;
   Bounded u;
   Bounded v;
   Bounded w;
-  Bounded above_first;  ///< T - first det
-  Bounded below_last;   ///< last det - T
+  Bounded above_first;  ///< The lower end of the range: T - first det.
+  Bounded below_last;   ///< The upper end of the range: last det - T.
 };
 
-// With det's sign taken out, each of these must be at least zero for a hit. So two of certain and opposite signs are a
-// miss, whatever det is: were it zero, a path that meets the triangle would lie in its plane and all of them would
-// vanish.
+/// Returns the verdict, and the contact of a hit. The five numbers are U, V, W and the two ends of the range.
+///
+/// B4. The pair is a miss if two of the five numbers have certain and opposite signs. This holds for any det.
+/// Proof. At a hit, K1 gives u det, v det, w det, (t - first) det and (last - t) det. No factor of det is negative.
+///
+/// B5. The pair is a hit if all five signs and that of det are certain, det is not zero, and B4 does not hold.
+/// Proof. U, V and W sum to det, so one of them has the sign of det. Without B4, all five have this sign or are zero.
+///     So U / det, V / det and W / det are not negative, and T / det is in the range.
 template <typename Scalar>
 BoundedContact decide(const Determinants& of, const Path<Scalar>& path, const PathRange<Scalar>& range) {
   BoundedContact result;
@@ -59,16 +64,17 @@ BoundedContact decide(const Determinants& of, const Path<Scalar>& path, const Pa
   const bool has_last = range.last < PathRange<Scalar>::infinity;
   if (has_first) weigh(of.above_first);
   if (has_last) weigh(of.below_last);
-  if (any_positive && any_negative) {
+  if (any_positive && any_negative) {  // B4
     result.verdict = Verdict::miss;
     return result;
   }
   const bool front = of.det.value > of.det.radius;
   const bool back = of.det.value < -of.det.radius;
-  if (!all_certain || !(front || back)) return result;
+  if (!all_certain || !(front || back)) return result;  // Otherwise it is a hit by B5.
   result.by_det = BoundedQuotients(of.det);
   const auto [lower, upper] = result.by_det.of(of.height);
   if (!std::isfinite(lower) || !std::isfinite(upper)) return result;
+  // All signs are certain here, so a value of 0 is exact.
   const auto vanishes = [](const Bounded& x) { return x.value == 0; };
   result.verdict = Verdict::hit;
   result.contact.t_lower = lower;
@@ -79,7 +85,7 @@ BoundedContact decide(const Determinants& of, const Path<Scalar>& path, const Pa
   return result;
 }
 
-/// One pair at a time: a lane of the baseline's.
+/// A vector of one lane, since these stages have one pair at a time.
 using OneLane = hn::CappedTag<double, 1>;
 using OneVector = HWY_NAMESPACE::Vectors<OneLane>;
 

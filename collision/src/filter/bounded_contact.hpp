@@ -11,38 +11,38 @@
 
 namespace surehit::detail {
 
-/// Quotients by one denominator, whose sign is certain: two divisions for all of them.
+/// Quotients by one denominator. Its sign must be certain. All quotients share two divisions.
 class BoundedQuotients {
  public:
   BoundedQuotients() = default;
   explicit BoundedQuotients(const Bounded& denominator);
 
-  /// [lower, upper] around numerator / denominator; not finite where that cannot be told.
+  /// Returns [lower, upper], which contains the exact quotient. Both are finite only if the bound is known.
   [[nodiscard]] std::array<double, 2> of(const Bounded& numerator) const;
 
  private:
-  double inverse_ = 0;
-  double radius_ = 0;
-  double max_inverse_ = 0;  ///< of what the denominator may be, by size
+  double inverse_ = 0;      ///< The inverse of the denominator.
+  double radius_ = 0;       ///< The radius of the denominator.
+  double max_inverse_ = 0;  ///< The largest size that the exact inverse may have.
 };
 
-/// What doubles with error bounds say of a path and a triangle.
+/// The answer of doubles with error bounds about a path and a triangle.
 struct BoundedContact {
-  Verdict verdict = Verdict::undecided;
-  Contact contact = {};     ///< of a hit
-  BoundedQuotients by_det;  ///< of a hit, as are the rest: t = height / det, u = u_scaled / det, v = v_scaled / det
-  Bounded u_scaled;
-  Bounded v_scaled;
+  Verdict verdict = Verdict::undecided;  ///< The other members have a meaning only for a hit.
+  Contact contact = {};                  ///< The contact, with an interval of t.
+  BoundedQuotients by_det;               ///< The quotients by det, such as t = T / det.
+  Bounded u_scaled;                      ///< The determinant U = u det.
+  Bounded v_scaled;                      ///< The determinant V = v det.
 };
 
-/// The second stage: Möller-Trumbore in double, with bounds that are known beforehand. Some 15 ns; for float
-/// coordinates it settles nearly everything.
+/// The second stage: Möller-Trumbore in double, with the error bounds of kernel_bound.hpp. It is fast, and decides
+/// nearly all pairs of float coordinates.
 template <typename Scalar>
 [[nodiscard]] BoundedContact double_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
                                             const PathRange<Scalar>& range);
 
-/// The third stage: the same with running error bounds, which exact operations do not enlarge. What lies in the
-/// triangle's plane, and what double cannot tell apart, stays undecided. Nothing undecided is ever guessed.
+/// The third stage: the same with running error bounds, which exact operations do not enlarge. A path in the triangle's
+/// plane stays undecided. So does any pair that double cannot decide with certainty.
 template <typename Scalar>
 [[nodiscard]] BoundedContact bounded_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
                                              const PathRange<Scalar>& range);

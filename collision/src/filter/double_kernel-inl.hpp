@@ -1,4 +1,4 @@
-// The determinants in double, for the instruction set that Highway compiles this for.
+// The determinants in double. Highway compiles this for each instruction set.
 
 #if defined(SUREHIT_DOUBLE_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREHIT_DOUBLE_KERNEL_INL
@@ -19,14 +19,15 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A vector of three components for each lane.
+/// A geometric vector in each lane.
 template <class D>
 struct Vectors {
   hn::Vec<D> x, y, z;
 };
 
-/// Möller and Trumbore's determinants of a path and a triangle in each lane, and the products of sizes that their
-/// bounds are shares of (kernel_bound.hpp). Where a size is beyond what the bound allows for, the radius is infinite.
+/// The determinants of Möller and Trumbore, for a path and a triangle in each lane. Each has its product of sizes,
+/// which gives its error bound (K4 in kernel_bound.hpp). If a size is above `largest_size`, the radius is infinite or
+/// NaN.
 template <class D>
 class DoubleDeterminants {
   using V = hn::Vec<D>;
@@ -54,20 +55,21 @@ class DoubleDeterminants {
     v_size = hn::Mul(hn::Mul(s_size, d_size), e1_size);
     const V largest = hn::Max(hn::Max(d_size, s_size), hn::Max(e1_size, e2_size));
     const V one = hn::Set(d, 1);
-    // Far more than 12 eta (1 + largest) (1 + |first|), and for small sizes far less than one constant for all is.
+    // K7 asks for 12 eta (1 + largest) (1 + |first|), and the smallest normal number is far above 12 eta (1 + |first|).
+    // The constant of K8 would be too large for small sizes.
     underflow_ = hn::IfThenElse(hn::Le(largest, hn::Set(d, Bound::largest_size)),
                                 hn::Mul(hn::Add(one, largest), hn::Set(d, std::numeric_limits<double>::min())),
                                 hn::Set(d, std::numeric_limits<double>::infinity()));
   }
 
-  /// The bound on what a determinant, or a sum of some, is off by.
+  /// Returns the error bound of a determinant, or of a sum of some, from its products of sizes (K5).
   [[nodiscard]] HWY_INLINE V radius(V sizes) const {
     return hn::MulAdd(sizes, hn::Set(d_, Bound::relative), underflow_);
   }
 
   V det, height, u, v;
   V det_size, height_size, u_size, v_size;
-  V d_size;  ///< the largest component of the direction
+  V d_size;  ///< The largest component of the direction.
 
  private:
   HWY_INLINE static Vectors<D> difference(const Vectors<D>& x, const Vectors<D>& y) {
@@ -86,15 +88,26 @@ class DoubleDeterminants {
   V underflow_;
 };
 
-/// Quotients by one denominator in each lane, whose sign is certain: two divisions for all of them.
+/// Quotients by one denominator in each lane. Its sign must be certain. All quotients share two divisions.
 ///
-/// With n, r_n and d, r_d the values and radii: |N/D - n/d| <= (r_n + |n/d| r_d) / (|d| - r_d). The inverse of d is off
-/// by u of itself, q = n (1/d) by 2 u |q|, the sums and the other inverse by a few u of themselves, and q - e and q + e
-/// by u (|q| + e), all of which the factor and the term 2^-51 |q| cover. A q that underflows is off by 2^-1075 besides,
-/// which r_d / (|d| - r_d) may enlarge, so it counts with |q|; its product with r_d may underflow, which 1 / (|d| -
-/// r_d) may enlarge, so that counts with r_n; a few times as much is for what underflows after it. The least normal
-/// number stands for each: a denormal operand costs some machines a hundred cycles. The inverse itself must not
-/// underflow: beyond `largest_denominator` nothing is told.
+/// Let n and m be the values of numerator and denominator, with the radii r_n and r_m. Let q = n (1 / m) as computed,
+/// and eps = 2^-53. Let E = (r_n + |q| r_m) / (|m| - r_m), which is the bound of K10.
+///
+/// Q1. Without underflow, [q - B, q + B] contains the exact quotient, where B = (1 + 16 eps) E + 4 eps |q|.
+/// Proof. The inverse and the product are rounded, so q is off by 2 eps |q|. The ends q - B and q + B are rounded too,
+///     by eps (|q| + B). Together, the terms in |q| are 3 eps |q|, and 4 eps |q| covers them.
+///     The computed E has at most 10 roundings, and eps B is one more. The factor 1 + 16 eps covers them.
+///
+/// Q2. The term `underflow` covers underflow. Each of these numbers may lose 2^-1075:
+///
+///     q                   In E, r_m / (|m| - r_m) may enlarge this. So `underflow` is added to |q|.
+///     |q| r_m             In E, 1 / (|m| - r_m) may enlarge this. So `underflow` is added to r_n.
+///     what comes later    Nothing enlarges this. So `underflow` is added to B, which covers q itself too.
+///
+/// Proof. It is the smallest normal number, which is far above a few times 2^-1075. A denormal number would be enough,
+///     but denormal operands are slow on some machines.
+///
+/// Q3. The inverse does not underflow. Above `largest_denominator` the bound is infinite, so nothing is certain.
 template <class D>
 struct Quotients {
   using V = hn::Vec<D>;
@@ -104,28 +117,30 @@ struct Quotients {
     const V one = hn::Set(d, 1);
     const V size = hn::Abs(denominator);
     const V infinity = hn::Set(d, std::numeric_limits<double>::infinity());
+    // Q3
     return {
         hn::Div(one, denominator), radius,
         hn::IfThenElse(hn::Le(size, hn::Set(d, largest_denominator)), hn::Div(one, hn::Sub(size, radius)), infinity)};
   }
 
   struct Interval {
-    V lower, upper;  ///< not finite where that cannot be told
+    V lower, upper;  ///< Both are finite only if the bound is known.
   };
   [[nodiscard]] HWY_INLINE Interval of(V numerator, V numerator_radius) const {
     const D d;
     const V quotient = hn::Mul(numerator, inverse);
     const V size = hn::Abs(quotient);
     const V underflow = hn::Set(d, std::numeric_limits<double>::min());
+    // Q1 and Q2
     const V error =
         hn::Mul(hn::MulAdd(hn::Add(size, underflow), radius, hn::Add(numerator_radius, underflow)), max_inverse);
     const V bound = hn::MulAdd(error, hn::Set(d, radius_growth), hn::MulAdd(size, hn::Set(d, 0x1p-51), underflow));
     return {hn::Sub(quotient, bound), hn::Add(quotient, bound)};
   }
 
-  V inverse;
-  V radius;
-  V max_inverse;  ///< of what the denominator may be, by size
+  V inverse;      ///< The inverse of the denominator.
+  V radius;       ///< The radius of the denominator.
+  V max_inverse;  ///< The largest size that the exact inverse may have.
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

@@ -1,4 +1,4 @@
-// The last step to a hit, for the instruction set that Highway compiles this for.
+// The last step to a hit is to round it. Highway compiles this for each instruction set.
 
 #if defined(SUREHIT_HIT_ROUNDING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREHIT_HIT_ROUNDING_INL
@@ -18,19 +18,34 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// Of triangles that the paths are known to meet, coordinates all floats, one in each lane: where t, u and v are, with
-/// one division for all of them.
+/// Intervals of t, u and v for a certain hit in each lane. All coordinates are floats, and the arithmetic is in double.
+/// All three quotients share one division.
 ///
-/// Here u is the unit roundoff, and x and y are the coordinates u and v; d is the largest component of D, e that of E1
-/// and E2 but for a rounding to float. By kernel_bound.hpp, the computed det is off by at most 48 u d e e, U and V by
-/// 48 u s d e, T by 48 u s e e; of floats, no product here underflows or overflows. How large S may be follows from the
-/// hit: S = x E1 + y E2 - t D, where x and y are not negative and together at most 1, so that s <= |t| d + e. With q
-/// the exact quotient of N and det, and n and m what is computed of these,
-///     |q - n / m| = |(N - n) - q (det - m)| / |m|,
-/// and |q| <= 1 for x and y: these are off by no more than 48 u d e (|t| d + 2 e) / |m|, t by no more than
-/// 48 u e e (2 |t| d + e) / |m|. The inverse, its product and the sum with the bound are each rounded once, by u |q|.
-/// No |m| exceeds 6 d e e but for roundings, so that 12 u in the place of the 48 u are 4 u |q| or more: 60 u hold all,
-/// and 66 u what d, e and the bound itself are rounded by.
+/// The names are those of kernel_bound.hpp, with eps = 2^-53. Here e is the largest component of E1 and E2, rounded to
+/// float, and m is the computed det.
+///
+/// R1. At a hit, s <= |t| d + e.
+/// Proof. S = u E1 + v E2 - t D, as in K1. The weights u and v are not negative, and their sum is at most 1.
+///
+/// R2. The computed quotients of the computed determinants are off by at most:
+///
+///     u and v    48 eps d e (|t| d + 2 e) / |m|;
+///     t          48 eps e e (2 |t| d + e) / |m|.
+///
+///     This leaves out the roundings of the quotients.
+/// Proof. By K2, det is off by 48 eps d e e, U and V by 48 eps s d e, and T by 48 eps s e e.
+///     Products of three floats neither overflow nor underflow in double.
+///     The second form of K10 gives the error of each quotient, with the exact u, v or t as N / M.
+///     For u and v it is 48 eps d e (s + e) / |m|, because |u| <= 1 and |v| <= 1.
+///     For t it is 48 eps e e (s + |t| d) / |m|. R1 replaces s.
+///
+/// R3. If 60 eps replace 48 eps, the roundings of the quotients are included.
+/// Proof. The inverse, its product, and the sum with the bound are rounded once each. This is 3 eps times the quotient.
+///     By K3, |m| <= 6 d e e. So 12 eps d e (2 e) / |m| >= 4 eps >= 4 eps |u|, and the same holds for v.
+///     Also, 12 eps e e (2 |t| d) / |m| >= 4 eps |t|.
+///
+/// R4. If 66 eps replace 60 eps, the roundings of d, e and the bound are included.
+/// Proof. They are a few eps, and e is off by 2^-24. The step from 60 to 66 is a tenth.
 template <class D>
 struct HitIntervals {
   using V = hn::Vec<D>;
@@ -38,15 +53,15 @@ struct HitIntervals {
     V lower, upper;
   };
 
-  /// `t_size` is no less than any |t|, or infinite, and then nothing is known.
+  /// `t_size` must be at least |t| in each lane. If it is infinite, the intervals are too. `edge_size` is the e above.
   HWY_INLINE HitIntervals(D d, const Vectors<D>& start, const Vectors<D>& direction, const Vectors<D>& a,
                           const Vectors<D>& b, const Vectors<D>& c, V t_size, V edge_size) {
     const DoubleDeterminants<D> of(d, start, direction, a, b, c);
     det = of.det;
     const V way = hn::Mul(t_size, of.d_size);
     const V share = hn::Mul(edge_size, hn::Set(d, KernelBound<double>::relative));
-    const V of_side = hn::Mul(hn::Mul(share, of.d_size), hn::Add(way, hn::Add(edge_size, edge_size)));
-    const V of_height = hn::Mul(hn::Mul(share, edge_size), hn::Add(hn::Add(way, way), edge_size));
+    const V of_side = hn::Mul(hn::Mul(share, of.d_size), hn::Add(way, hn::Add(edge_size, edge_size)));  // R4
+    const V of_height = hn::Mul(hn::Mul(share, edge_size), hn::Add(hn::Add(way, way), edge_size));      // R4
     const V inverse = hn::Div(hn::Set(d, 1), det);
     const V inverse_size = hn::Abs(inverse);
     const V side_bound = hn::Mul(of_side, inverse_size);
@@ -61,7 +76,10 @@ struct HitIntervals {
   V det;
 };
 
-/// The same hits, rounded: those of which all three intervals round to one float each (Ziv 1991).
+/// The rounded hits. A hit is rounded if both ends of each interval round to the same float (Ziv 1991).
+///
+/// R5. Then the exact value rounds to this float too.
+/// Proof. Rounding is monotonic, and the exact value is between the ends.
 template <class D>
 struct RoundedHits {
   using FloatTag = hn::Rebind<float, D>;
@@ -70,8 +88,8 @@ struct RoundedHits {
   HWY_INLINE RoundedHits(D d, const HitIntervals<D>& hits) {
     const FloatTag df;
     const auto round = [&](const typename HitIntervals<D>::Interval& interval, Floats& rounded_value) {
-      rounded_value = hn::Add(hn::DemoteTo(df, interval.upper), hn::Zero(df));  // a zero is +0
-      return hn::Eq(hn::DemoteTo(df, interval.lower), rounded_value);
+      rounded_value = hn::Add(hn::DemoteTo(df, interval.upper), hn::Zero(df));  // This turns -0 into +0.
+      return hn::Eq(hn::DemoteTo(df, interval.lower), rounded_value);           // R5
     };
     const auto is_t = round(hits.t, t);
     const auto is_u = round(hits.u, u);
@@ -81,11 +99,12 @@ struct RoundedHits {
   }
 
   Floats t, u, v;
-  std::uint64_t rounded;  ///< lanes in which these are right
-  std::uint64_t front;    ///< lanes whose path arrives in front
+  std::uint64_t rounded;  ///< The mask of the lanes in which t, u and v are right.
+  std::uint64_t front;    ///< The mask of the lanes whose path arrives at the front.
 };
 
-/// Of a triangle that the path is known to meet, with sizes as above. All but its id.
+/// Tries to round one certain hit. Returns whether `hit` is right, without its triangle's id. The sizes are those of
+/// `HitIntervals`.
 HWY_INLINE bool try_round(const Path<float>& path, const Triangle<float>& triangle, float t_size, float edge_size,
                           Hit<float>& hit) {
   using Tag = hn::CappedTag<double, 1>;

@@ -64,8 +64,7 @@ namespace surehit::detail {
 //     K2 and K4 left out a few eps. The distance s may be too small by a factor 1 - 2^-21 (P1).
 //     All of this is below 2^-18 of the bound. The step from 60 to 66 is a tenth of it.
 //
-// K6. A triangle's own products give a closer bound. Let M be the computed sum of the absolute values of the six
-// products.
+// K6. A triangle's own six products give a closer bound. Let M be the computed sum of their absolute values.
 //     Then 11 eps M may replace 66 eps times the product of sizes.
 // Proof. By K2, a determinant is off by 8 eps M. It is at most M, so the two roundings of K4 add 2 eps M.
 //     The sum is 10 eps M, and 11 leaves a tenth of it. A term of M passes through at most 8 roundings.
@@ -160,7 +159,7 @@ struct ListBounds {
     using Bound = KernelBound<Scalar>;
     const Scalar d_edge = d * edge * Bound::relative;
     const Scalar s_edges = s * (edge * edge);
-    side = d_edge * (2 * s + edge) + Bound::underflow;
+    side = d_edge * (2 * s + edge) + Bound::underflow;  // K5, K8
     det = d_edge * edge + Bound::underflow;
     height = s_edges * Bound::relative + det;
     range = s_edges * weights.t_bound + det * weights.det_size;

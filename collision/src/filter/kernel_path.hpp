@@ -13,31 +13,37 @@
 
 namespace surehit::detail {
 
-/// How far from the start the corner a of a triangle may be on any axis, if the path comes to a list in which the
-/// triangle is: no farther than this and the list's longest edge.
+/// Returns the reach of the path: the part of |S| that does not depend on the list.
 ///
-/// In the list's cell, but for paddings, are a point X of the path and a point Y of the triangle's box, which is no
-/// farther from a than the longer of b - a and c - a. X is no farther from a segment's start than its end is, but for
-/// the 2^-21 of it by which a walk may go on. And a is in the mesh's box, however thick the cells of a flat mesh are
-/// and however long the path.
+/// P1. Let the path come to a list. For any of its triangles, no component of S exceeds the reach plus the list's
+///     longest edge. This leaves out 2^-21 |D| of a segment, which K5 includes.
+/// Proof. The corner a is in the mesh's box. So it is at most as far from the start as the farther side of the box.
+///     A segment has a second bound. The list's cell, with its paddings, has a point X of the path in it.
+///     It also has a point Y of the triangle's bounding box. On one axis, the distances are:
+///
+///     from start to X    at most |D|, and a walk may go 2^-21 |D| beyond the end;
+///     from X to Y        at most the size of the cell;
+///     from Y to a        at most the longer one of b - a and c - a.
+///
+///     The first bound is the smaller one for long segments, and where a flat mesh has thick cells.
 [[nodiscard]] inline double reach_of(const Path<double>& path, const double (&d)[3], const GridFrame& frame) {
   double reach = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double start = path.start[static_cast<Eigen::Index>(axis)];
     double way = std::max(std::fabs(start - frame.low[axis]), std::fabs(start - frame.high[axis]));
-    if (path.has_end()) way = std::min(way, std::fabs(d[axis]) + frame.cell_size[axis]);
+    if (path.has_end()) way = std::min(way, std::fabs(d[axis]) + frame.cell_size[axis]);  // P1
     reach = std::max(reach, way);
   }
   return reach;
 }
 
-/// A path as the kernel takes it: plain numbers, in the order of two vectors.
+/// A path in the form that the kernel uses. Its members have the layout of two vectors.
 template <typename Scalar>
 struct KernelPath {
-  Scalar start[3];
-  Scalar reach;  ///< S of any triangle of a list is at most this and the list's longest edge
-  Scalar d[3];
-  Scalar d_size;  ///< D's largest component; infinite where sizes might overflow, so that nothing is certain
+  Scalar start[3];  ///< The start of the path.
+  Scalar reach;     ///< No component of S exceeds this plus the list's longest edge (P1).
+  Scalar d[3];      ///< The computed D.
+  Scalar d_size;    ///< The largest component of D. It is infinite if sizes might overflow, so that nothing is certain.
 
   KernelPath() = default;
   KernelPath(const Path<Scalar>& path, const GridFrame& frame);
@@ -53,7 +59,7 @@ struct KernelPath {
   }
 
  private:
-  /// With the start and all vertices below half of it, S stays below `largest_size`.
+  /// S is at most `largest_size` if the start and all vertices are at most half of it.
   static bool are_small(Scalar start_size, Scalar any_d_size) {
     return start_size <= KernelBound<Scalar>::largest_size / 2 && any_d_size <= KernelBound<Scalar>::largest_size;
   }
@@ -64,8 +70,7 @@ inline KernelPath<double>::KernelPath(const Path<double>& path, const GridFrame&
   reach = reach_of(path, d, frame);
 }
 
-/// The same, `reach_of` too, with the axes side by side: with the numbers one by one, single first hits near surfaces
-/// take 1.02 of the time and short ones 1.05.
+/// The same for floats, `reach_of` included. A vector holds all axes, because scalars are slower on short paths.
 template <>
 inline KernelPath<float>::KernelPath(const Path<float>& path, const GridFrame& frame) {
   Float4 from = {path.start[0], path.start[1], path.start[2], 0};

@@ -1,10 +1,10 @@
 #include "mesh/slab_fitter.hpp"
 
-// Compiled once for each instruction set; the best one is chosen when the first slab is fitted.
+// This file is compiled once for each instruction set. The best one is chosen when the first slab is fitted.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "mesh/slab_fitter.cpp"
 #include <hwy/foreach_target.h>
-// Behind foreach_target.h.
+// This one must come after foreach_target.h.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -17,12 +17,27 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// With u = 2^-24 and R the resolution on an axis, R taken times |n| and summed over the axes, a corner's height along
-// the normal n, counted from the cell's centre, is off by 10 u R: for the difference, the weight, their product, the
-// three sums, and four for that of the low end of the mesh. The slack and the sum with that make 2 u R more. Counted in
-// steps, what is not beyond the last one is off by 2 u of 128 steps, which is 48 u edges of the cell: less than 4 u R,
-// since the longest component is 15 and a cell no wider than the grid. In all that is 16 u R, and a slab is wider by a
-// padding, 32 u R, on either side.
+/// Fits a slab to a list.
+///
+/// Let eps = 2^-24, and let n be the slab's normal. Let R be the sum of |n| times the grid's resolution over the axes.
+/// A height is a corner's place along n, counted from the cell's centre.
+///
+/// F1. A computed height is off by at most 10 eps R.
+/// Proof. Each rounding below is at most eps R, because no corner and no cell is outside the grid:
+///
+///     difference of the corner and `low`          1;
+///     weight                                      1;
+///     their product                               1;
+///     sums over three axes                        3;
+///     height of the low end of the mesh's box     4.
+///
+/// F2. The slab contains its triangles, with half a padding to spare on each side.
+/// Proof. F1 gives 10 eps R. The slack, and its sum with the height, add 2 eps R.
+///     A place is at most 128 steps from the centre, and two roundings turn a height into steps.
+///     So they are off by 256 eps steps, which are 48 eps edges of the cell. One component of n is 15, and no cell is
+///     wider than the grid. So 48 eps edges are below 4 eps R. All errors together are at most 16 eps R.
+///     A padding is 32 eps R, and the slab is wider than its triangles by a padding on each side. Places beyond 128
+///     steps may be wrong, but the last steps of a slab hold all beyond them (`CellSlab`).
 CellSlab fit_floats(const SlabFitter& fitter, const ListCell& cell, const float* corners, std::size_t count) {
   const hn::CappedTag<float, 8> d;
   using V = hn::Vec<decltype(d)>;
@@ -30,11 +45,11 @@ CellSlab fit_floats(const SlabFitter& fitter, const ListCell& cell, const float*
     return hn::LoadU(d, corners + (coordinate * count + from));
   };
 
-  // The sum of the triangles' normals, all turned to the side of the first one's.
+  // This is the sum of the triangles' normals. All are turned to the side of the first one.
   V sum[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   V first[3];
   for (std::size_t from = 0; from < count; from += hn::Lanes(d)) {
-    V e[3];  // in finest cells, lest their products overflow
+    V e[3];  // Edges are in units of finest cells, so that their products do not overflow.
     V f[3];
     for (std::size_t k = 0; k < 3; ++k) {
       const V scale = hn::Set(d, fitter.axes[k].scale);
@@ -81,7 +96,7 @@ CellSlab fit_floats(const SlabFitter& fitter, const ListCell& cell, const float*
     weight[k] = hn::Set(d, component * axis.scale);
     low_end[k] = hn::Set(d, axis.low);
     of_low_end += component * (axis.margin - centre);
-    slack += std::fabs(component) * axis.slack;
+    slack += std::fabs(component) * axis.slack;  // F2
   }
   V lowest = hn::Set(d, infinity);
   V highest = hn::Set(d, -infinity);
