@@ -7,9 +7,10 @@
 namespace surehit::detail {
 namespace {
 
-/// A triangle that takes more is first parted from as many as can be.
+/// If a triangle's cells take more blocks than this, parts that the triangle misses are removed first.
 constexpr float max_blocks = 16;
 
+/// Returns the number of blocks that cover the cells from `first` to `last`.
 float count_blocks(const PaddedPoint& first, const PaddedPoint& last) {
   const PaddedPoint blocks = to_float(to_int((last - first) * 0.5F)) + 1;
   return blocks[0] * blocks[1] * blocks[2];
@@ -22,7 +23,7 @@ CellLister::CellLister(CellEntries& entries, bool may_grow, const CellRange& cel
     : entries_(entries),
       may_grow_(may_grow),
       size_(static_cast<float>(size)),
-      per_size_(1 / size_),  // a power of two
+      per_size_(1 / size_),  // A power of two.
       cell_padding_(padding),
       padding_{padding[0], padding[1], padding[2], 0},
       order_{cells.length(0), cells.length(0) * cells.length(1)},
@@ -45,7 +46,8 @@ void CellLister::add_range(std::uint32_t triangle, const Corners& corners, const
   add_parts(triangle, corners, first, last, TriangleOverlap(points, cell_padding_));
 }
 
-/// Halves the cells until the triangle misses them or they are few enough. At first it meets them.
+/// Halves the cells until the triangle misses them, or until they are few enough. The caller knows that the triangle
+/// meets them at first.
 void CellLister::add_parts(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last,
                            const TriangleOverlap& overlap) {
   if (count_blocks(first, last) <= max_blocks) {

@@ -12,17 +12,17 @@
 
 namespace surehit::detail {
 
-/// Finds which cells of a box triangles meet, which come one by one. Their boxes are cut into blocks of cells, many of
-/// which are asked at once whether they meet their triangle, where that is not known beforehand.
+/// Finds the cells that triangles meet, in a range of cells. Triangles are added one by one. The box of each is cut
+/// into blocks of cells. Many blocks are tested at once, unless the answer is known before.
 class CellLister {
  public:
   using Corners = std::array<PaddedPoint, 3>;
 
-  /// Of `cells` that are `size` finest cells long. The entries, which outlive this, are complete once it is finished;
-  /// if they may not grow, they are too many as soon as there is no room.
+  /// Lists triangles in `cells`, which are `size` finest cells long. The entries must outlive the lister. They are
+  /// complete after `finish`. If they may not grow and there is no room, their count becomes `too_many`.
   CellLister(CellEntries& entries, bool may_grow, const CellRange& cells, std::uint32_t size, const CellPoint& padding);
 
-  /// A triangle whose box, once it is padded, overlaps some of the cells. Entries keep the order in which triangles are
+  /// Adds a triangle. Its padded box must overlap some of the cells. Entries keep the order in which triangles are
   /// added.
   void add(std::uint32_t triangle, const Corners& corners, const PaddedBox& box) {
     const Cell low = cell_of(box.low - padding_);
@@ -32,8 +32,8 @@ class CellLister {
     const Cell more = last - first;
     assert(!any_lane(more < all_lanes(0.0F)));
     if (sum_of(high - low) <= 1) {
-      // Within one cell, or across one plane between cells: some corner is in each that the box overlaps, but for the
-      // padding and its rounding. All of the box counts: what is beyond a brick may cross other planes.
+      // The box lies within one cell, or across one plane between cells. So each cell that it overlaps holds a corner
+      // of the triangle, but for the padding. The whole box counts, because outside a brick it may cross other planes.
       list(triangle, first, 1 + sum_of(more * Cell{2, 4, 16, 0}));
     } else if (any_lane(more > all_lanes(1.0F))) {
       add_range(triangle, corners, first, last);
@@ -42,16 +42,17 @@ class CellLister {
     }
   }
 
+  /// Completes the entries.
   void finish() { ask(); }
 
  private:
-  /// Whole numbers.
+  /// The index of a cell on each axis, as whole numbers.
   using Cell = PaddedPoint;
 
-  /// Rounded towards 0, where it is not floor that counts: no cell lies below.
+  /// Returns the cell of a point. It rounds towards 0 instead of down, which is enough, because no cell is below 0.
   [[nodiscard]] Cell cell_of(const PaddedPoint& point) const { return to_float(to_int(point * per_size_)); }
 
-  /// Of one more cell on some axes, or none.
+  /// Adds a block. It has one cell more on the axes where `more` is 1.
   void add_block(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& more) {
     const std::size_t lane = filled_++;
     for (std::size_t i = 0; i < 3; ++i) lanes_.corners[i][lane] = corners[i];
@@ -62,8 +63,8 @@ class CellLister {
     if (filled_ == OverlapLanes::count) ask();
   }
 
-  /// A block and the bits of its overlaps, or 0 for what the lanes are yet to tell. Numbers are whole, and exact: cells
-  /// are no more than floats can count.
+  /// Adds a block with the bits of its overlaps. They are 0 if the lanes are not tested yet. All numbers are whole, and
+  /// exact, because floats can count all cells.
   void list(std::uint32_t triangle, const Cell& first, float overlaps) {
     const std::size_t block = block_count_++;
     blocks_.triangles[block] = triangle;
@@ -72,31 +73,34 @@ class CellLister {
     if (block + 1 == ListedBlocks::max_count) ask();
   }
 
+  /// Adds a triangle with any number of cells, from `first` to `last`.
   void add_range(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last);
+  /// The same, but without the parts that the triangle misses.
   void add_parts(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last,
                  const TriangleOverlap& overlap);
+  /// Adds all blocks of the cells from `first` to `last`.
   void add_blocks(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last);
-  /// Asks what is in the lanes, and makes entries of all blocks.
+  /// Tests what is in the lanes, and makes entries from all blocks.
   void ask();
 
-  OverlapLanes lanes_;
-  std::array<std::size_t, OverlapLanes::count> block_of_lane_;
-  std::size_t filled_ = 0;  ///< lanes
-  ListedBlocks blocks_;
-  std::size_t block_count_ = 0;
+  OverlapLanes lanes_;                                          ///< blocks that are to be tested
+  std::array<std::size_t, OverlapLanes::count> block_of_lane_;  ///< the index in `blocks_` of each lane's block
+  std::size_t filled_ = 0;                                      ///< the number of lanes in use
+  ListedBlocks blocks_;                                         ///< blocks that are to become entries
+  std::size_t block_count_ = 0;                                 ///< the number of these blocks
   CellEntries& entries_;
   bool may_grow_;
-  float size_;
-  float per_size_;
+  float size_;      ///< the edge of a cell, in finest cells
+  float per_size_;  ///< 1 / size_
   CellPoint cell_padding_;
-  PaddedPoint padding_;
-  Cell first_;
-  Cell last_;
+  PaddedPoint padding_;  ///< the same padding, with a fourth lane
+  Cell first_;           ///< the first cell of the range
+  Cell last_;            ///< the last cell of the range
   CellOrder order_;
-  Cell pitch_;  ///< from one cell to the next on each axis, in that order
+  Cell pitch_;  ///< the index in this order grows by this to the next cell on each axis
 };
 
-/// Sorts the entries of so many cells into lists, by counting.
+/// Sorts the entries of so many cells into lists. It counts the entries of each cell first.
 void sort_entries(std::span<const CellEntries> parts, std::size_t cell_count, CellLists& lists);
 
 }  // namespace surehit::detail

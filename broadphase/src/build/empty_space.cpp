@@ -12,8 +12,9 @@ namespace {
 constexpr std::uint8_t max_distance = CellWord::max_distance;
 constexpr std::uint32_t octants = 8;
 
-/// What some cells side by side allow, a byte each, in vectors that any target has.
+/// Distances of 16 cells side by side on the x axis, one byte each. Every target has such vectors.
 using Cells = std::uint8_t __attribute__((vector_size(16)));
+/// The two halves of such a vector.
 using Halves = std::uint64_t __attribute__((vector_size(16)));
 constexpr std::size_t row_unit = sizeof(Cells);
 
@@ -28,8 +29,8 @@ constexpr std::size_t row_unit = sizeof(Cells);
 
 [[gnu::always_inline]] inline void store(Cells cells, std::uint8_t* to) { std::memcpy(to, &cells, sizeof cells); }
 
-/// What is `by` cells ahead of each, towards which an octant looks: upward, or downward. `next` are the cells behind
-/// these that way.
+/// Returns, for each cell, what is `by` cells ahead of it: upward or downward, as the octant looks. `next` holds the 16
+/// cells that follow in that direction.
 template <bool is_upward, int by>
 [[gnu::always_inline]] inline Cells ahead(Cells cells, Cells next) {
   const auto near = reinterpret_cast<Halves>(cells);
@@ -44,12 +45,12 @@ template <bool is_upward, int by>
                                               : first << bits | second >> (64 - bits));
 }
 
-/// Distances in each octant, row by row. A cube with a corner in an empty cell is one larger than the least of those
-/// that have it in the seven next cells.
+/// Measures the distances in each octant, row by row. An empty cell has seven neighbours ahead. Its cube is larger by
+/// one than the smallest of their cubes.
 class Octants {
  public:
-  /// Rows are whole vectors: their cells beyond the grid count as empty, and what they are given is read only from
-  /// there.
+  /// Rows are padded to whole vectors. Their cells beyond the grid count as empty. What is stored there is read only by
+  /// other such cells.
   Octants(const std::array<std::uint32_t, 3>& cells, UnsetVector<std::uint8_t>& scratch)
       : cells_(cells), pitch_((cells[0] + row_unit - 1) / row_unit * row_unit) {
     const std::size_t all_rows = std::size_t{cells[1]} * cells[2] * pitch_;
@@ -61,18 +62,19 @@ class Octants {
     std::fill_n(outer_row_, pitch_, max_distance);
   }
 
-  /// Where the cells of a row begin.
+  /// Returns the index of the first cell of a row.
   [[nodiscard]] std::size_t row(std::uint32_t y, std::uint32_t z) const {
     return (std::size_t{z} * cells_[1] + y) * pitch_;
   }
 
+  /// Stores which cells of a row are empty: those whose words are 0.
   void set_row(std::size_t row, const std::uint32_t* words) {
     std::uint8_t* const emptiness = emptiness_ + row;
     std::fill_n(emptiness, pitch_, no_bits_clear);
     for (std::size_t x = 0; x < cells_[0]; ++x) emptiness[x] = words[x] == 0 ? no_bits_clear : 0;
   }
 
-  /// All octants by turns: their rows do not wait for one another.
+  /// Measures a row of each octant in turn, because rows of different octants do not wait for each other.
   void measure() {
     for (std::uint32_t step_z = 0; step_z < cells_[2]; ++step_z) {
       for (std::uint32_t step_y = 0; step_y < cells_[1]; ++step_y) {
@@ -104,8 +106,9 @@ class Octants {
  private:
   static constexpr std::uint8_t no_bits_clear = 0xff;
 
-  /// Along a row a distance is the least of what the rows beside it allow here, one more than they allow in the next
-  /// cell, and so on: looked up among four cells, then among four fours.
+  /// Measures a row. The rows beside it allow some distance in each cell. A distance is the minimum of what they allow
+  /// in this cell, of one more than they allow in the next cell, and so on. The minimum is taken over four cells first,
+  /// then over four groups of four.
   template <bool is_upward>
   [[gnu::always_inline]] void measure_row(std::uint32_t octant, std::uint32_t step_y, std::uint32_t step_z) {
     const std::uint32_t y = (octant & 2) == 0 ? cells_[1] - 1 - step_y : step_y;
@@ -119,7 +122,7 @@ class Octants {
     const std::uint8_t* const emptiness = emptiness_ + row(y, z);
     std::uint8_t* const measured = distances + row(y, z);
 
-    // Of the cells beyond these on the row.
+    // The same values of the cells that follow in the row.
     Cells next_beside = all_cells(max_distance);
     Cells next_begun = all_cells(max_distance);
     Cells next_of_four = all_cells(max_distance);
@@ -138,7 +141,8 @@ class Octants {
     }
   }
 
-  /// The least of a cell and the three ahead of it, `by` apart, each of which allows `by` more than the one before.
+  /// Returns the minimum over a cell and three cells ahead of it, at distances of `by`. Each allows `by` more than the
+  /// one before.
   template <bool is_upward, int by>
   [[gnu::always_inline]] static Cells min_of_four(Cells cells, Cells next) {
     return lesser(
@@ -147,25 +151,26 @@ class Octants {
   }
 
   std::array<std::uint32_t, 3> cells_;
-  std::size_t pitch_;
-  // All in the scratch.
-  std::uint8_t* emptiness_;  ///< all bits set where a cell is empty
-  std::array<std::uint8_t*, octants> distances_;
-  std::uint8_t* outer_row_;
+  std::size_t pitch_;  ///< the length of a row
+  // These point into the scratch.
+  std::uint8_t* emptiness_;                       ///< 0xff where a cell is empty, else 0
+  std::array<std::uint8_t*, octants> distances_;  ///< the distances of each octant
+  std::uint8_t* outer_row_;                       ///< a row outside the grid, where all is empty
 };
 
-/// A brick's cells as bits; the last ones of each axis, upward or downward.
+/// An axis of a brick, whose cells are the bits of one integer.
 struct BrickAxis {
-  int shift;
-  std::uint64_t highest;
-  std::uint64_t lowest;
+  int shift;              ///< from one cell to the next on the axis
+  std::uint64_t highest;  ///< the last cells on the axis
+  std::uint64_t lowest;   ///< the first cells on the axis
 };
 constexpr std::array<BrickAxis, 3> brick_axes = {{{1, 0x8888888888888888, 0x1111111111111111},
                                                   {4, 0xf000f000f000f000, 0x000f000f000f000f},
                                                   {16, 0xffff000000000000, 0x000000000000ffff}}};
 static_assert(Grid::brick_edge == 4);
 
-/// The corners of cubes of one more cell that are not empty, for cubes that are not empty where bits are set.
+/// Takes the corners of all cubes of some size that are not empty, as set bits. Returns the same for cubes that are one
+/// cell larger.
 std::uint64_t grown(std::uint64_t cubes, std::uint32_t octant) {
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
     const BrickAxis& along = brick_axes[axis];
@@ -175,9 +180,10 @@ std::uint64_t grown(std::uint64_t cubes, std::uint32_t octant) {
   return cubes;
 }
 
+/// 32 rows of 32 bits.
 using BitMatrix = std::array<std::uint32_t, 32>;
 
-/// By swapping halves, then quarters, and so on (Warren, Hacker's Delight).
+/// Transposes the matrix by swapping halves, then quarters, and so on (Warren, Hacker's Delight).
 void transpose(BitMatrix& rows) {
   std::uint32_t right_half = 0xffff;
   for (std::uint32_t half = 16; half != 0; half /= 2, right_half ^= right_half << half) {
@@ -210,7 +216,8 @@ void measure_empty_space(std::span<std::uint32_t, Grid::brick_size> words) {
   for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) {
     occupied |= std::uint64_t{words[cell] != 0 ? 1U : 0U} << cell;
   }
-  // Bit b of the distances in an octant is row 4 octant + b, a bit for each cell; so the columns are the words.
+  // Row 4 octant + b holds bit b of the distances in an octant, with one bit for each cell. So the columns are the
+  // words.
   BitMatrix lower = {};
   BitMatrix upper = {};
   for (std::uint32_t octant = 0; octant < octants; ++octant) {
@@ -218,7 +225,8 @@ void measure_empty_space(std::span<std::uint32_t, Grid::brick_size> words) {
     const std::uint64_t two = grown(occupied, octant);
     const std::uint64_t three = grown(two, octant);
     const std::uint64_t four = grown(three, octant);
-    // 1 where a cube of two cells is not empty, else 2 where one of three is not, and so on up to 4.
+    // The distance is 1 if a cube of two cells is not empty. Else it is 2 if a cube of three is not empty, and so on up
+    // to 4.
     const std::array<std::uint64_t, 3> bits = {two | (four & ~three), four & ~two, ~four};
     for (std::size_t b = 0; b < bits.size(); ++b) {
       lower[row + b] = static_cast<std::uint32_t>(bits[b] & ~occupied);

@@ -9,13 +9,13 @@
 
 namespace surehit::detail {
 
-/// Fills the words of the empty top cells, those whose bits are 0: for each octant of directions the edge of the
-/// largest empty cube that has the cell for its corner, up to `CellWord::max_distance`. Beyond the grid all is empty.
-/// Cells of x lie side by side, then y, then z. What `scratch` holds does not matter; its memory is used again.
+/// Fills the words of the empty top cells, which are 0. A word gets a distance for each octant of directions: the edge
+/// of the largest cube of empty cells that begins with this cell. It is at most `CellWord::max_distance`. Beyond the
+/// grid all is empty. x runs fastest, then y, then z. `scratch` may hold anything; only its memory is used.
 void measure_empty_space(std::span<std::uint32_t> words, const std::array<std::uint32_t, 3>& cells,
                          UnsetVector<std::uint8_t>& scratch);
 
-/// The same for a brick, beyond which nothing is known to be empty.
+/// Does the same for a brick. Outside the brick nothing counts as empty.
 void measure_empty_space(std::span<std::uint32_t, Grid::brick_size> words);
 
 }  // namespace surehit::detail

@@ -14,33 +14,37 @@
 namespace surehit {
 namespace {
 
-/// The lists may hold this many entries a triangle: triangles of the size of a cell take about 3.
+/// The budget of the lists: so many entries a triangle. A triangle of the size of a cell takes about 3.
 constexpr std::size_t entries_per_triangle = 8;
-/// Small meshes may be divided as finely as one likes up to here.
+/// The minimum budget of the lists. It allows any resolution for a small mesh.
 constexpr std::size_t free_entries = std::size_t{1} << 18;
-/// Most meshes take fewer than the one and more than the other. Room that is not used is not touched.
+/// Most meshes take fewer entries a triangle than this. Room that is not used is not touched.
 constexpr std::size_t usual_entries = 4;
+/// Most meshes take more entries a triangle than this.
 constexpr std::size_t min_entries = 2;
-/// Vertices or triangles in an executor's task.
+/// The number of vertices or triangles in a task of an executor.
 constexpr std::size_t triangles_in_a_part = std::size_t{1} << 13;
+/// The maximum number of top cells a triangle.
 constexpr double cells_per_triangle_limit = 8;
+/// A mesh of any size may have so many top cells.
 constexpr double free_cells = 0x1p20;
-/// Cells are counted in float, exactly up to here.
+/// The maximum number of top cells. Cells are counted in float, which is exact up to here.
 constexpr double max_cells = 0x1p24;
+/// The maximum number of top cells on an axis.
 constexpr double max_cells_on_an_axis = 0x1p11;
-/// Cells are cubes where the triangles' mean box is no longer on one axis than on another by more than this: the mean
-/// of a sample is no more exact.
+/// Cells are cubes unless the triangles' mean box is longer on one axis than on another by more than this factor. A
+/// lower factor would follow the error of the sample.
 constexpr double min_stretch = 1.5;
-/// Of a cell's edge, over and under the mean of its edges.
+/// The maximum factor between an edge of a cell and the mean of its edges.
 constexpr double max_stretch = 2;
-/// Cells that are less wide, counted in the triangles' mean boxes, are made fewer in proportion. More would be faster
-/// to walk: this is for memory.
+/// The minimum width of a cell, counted in the triangles' mean boxes. Below it, the number of cells is lowered in
+/// proportion. More cells would be faster to walk, but fewer save memory.
 constexpr double wide_cell = 2.55;
-/// Triangles that are looked at to know what they are like.
+/// The number of triangles in the sample for their mean box.
 constexpr std::size_t samples = 256;
 
-/// The edges of the triangles' boxes in the scaled frame: the mean of some triangles, taken from all over the mesh
-/// without a period, which the mesh may well have.
+/// Returns the mean edges of the triangles' boxes in the scaled frame. The sample is spread over the whole mesh. It has
+/// no period, because the mesh may have one.
 template <typename Scalar>
 std::array<double, 3> mean_extent(const GridFrame& frame, const TriangleMeshView<Scalar>& mesh) {
   const std::size_t triangles = mesh.triangle_count();
@@ -63,7 +67,7 @@ std::array<double, 3> mean_extent(const GridFrame& frame, const TriangleMeshView
   return mean;
 }
 
-/// Cubic cells, `cells` of them or fewer, where an axis that is thinner than a cell has just one.
+/// Returns a resolution of cubic cells, at most `cells` of them. An axis that is thinner than a cell has one cell.
 std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, double cells) {
   std::array<double, 3> resolution = {1, 1, 1};
   std::array<bool, 3> divided = {true, true, true};
@@ -81,7 +85,7 @@ std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, doubl
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!divided[axis]) continue;
       resolution[axis] = width[axis] / size;
-      if (!(resolution[axis] >= 1)) {  // NaN for a box of no width at all
+      if (!(resolution[axis] >= 1)) {  // NaN if all widths are 0.
         resolution[axis] = 1;
         divided[axis] = false;
         settled = false;
@@ -92,10 +96,10 @@ std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, doubl
   return resolution;
 }
 
-/// As many cells as are wished a triangle, in the shape of the triangles' mean box: of all cells of a volume these are
-/// the ones that triangles cross least often (the sum of extent / edge over the axes is least, for a given product of
-/// the edges, where all quotients are equal). Where they are narrow for the triangles, so that each is listed again and
-/// again, there are fewer.
+/// Returns the resolution that the options wish for. Cells have the shape of the triangles' mean box: of all cells of
+/// the same volume, triangles cross these least often. This holds because the sum of extent / edge over the axes has
+/// its minimum where all quotients are equal. If cells are narrow for the triangles, each triangle is in many lists.
+/// Then there are fewer cells.
 template <typename Scalar>
 std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar>& box,
                                         const TriangleMeshView<Scalar>& mesh, const GridOptions& options) {
@@ -103,7 +107,7 @@ std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar
   const auto [shortest, longest] = std::minmax({extent[0], extent[1], extent[2]});
   const double mean = (extent[0] + extent[1] + extent[2]) / 3;
   const bool are_stretched = mean > 0 && longest > min_stretch * shortest;
-  std::array<double, 3> width = {};  // stretched so that cells are cubes
+  std::array<double, 3> width = {};  // Stretched so that cells are cubes.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     width[axis] = frame.scaled(box.high[static_cast<Eigen::Index>(axis)]) - frame.origin[axis];
     if (are_stretched) width[axis] /= std::clamp(extent[axis] / mean, 1 / max_stretch, max_stretch);
@@ -111,7 +115,7 @@ std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar
   const auto count = static_cast<double>(mesh.triangle_count());
   const double usual_cells = std::max(1.0, GridOptions().cells_per_triangle * count);
   const std::array<double, 3> usual = cubic_resolution(width, usual_cells);
-  const double usual_edge = *std::max_element(width.begin(), width.end()) /  // that of an axis that is divided
+  const double usual_edge = *std::max_element(width.begin(), width.end()) /  // The edge on an axis that is divided.
                             *std::max_element(usual.begin(), usual.end());
   const double share = mean > 0 ? std::min(1.0, usual_edge / (wide_cell * mean)) : 1;
   std::array<double, 3> wished = cubic_resolution(width, std::max(1.0, share * options.cells_per_triangle * count));
@@ -129,8 +133,8 @@ std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar
 
 }  // namespace
 
-/// Lists the triangles in top cells by counting, prefix sum and scatter; then emits the lists cell by cell, and divides
-/// the crowded ones on the way.
+/// Builds a grid. It sorts the triangles into the lists of the top cells, by counting. Then it emits the lists cell by
+/// cell, and divides the crowded cells.
 template <typename Scalar>
 class GridBuild {
  public:
@@ -160,13 +164,14 @@ class GridBuild {
  private:
   static constexpr std::uint32_t division = Grid::brick_edge * Grid::brick_edge;
   static_assert(Grid::max_levels == 2);
-  /// A cell is left whole if its bricks' lists would be longer than this many times its own.
+  /// A cell is not divided if the lists of its bricks would be more than this many times as long as its own.
   static constexpr std::size_t max_growth = 3;
-  /// With so many, all cells together have no more lists than a word can number.
+  /// The maximum number of cells in bricks. So all cells together have no more lists than a word can number.
   static constexpr std::size_t max_brick_cells = CellWord::max_numbers - static_cast<std::size_t>(max_cells);
-  /// What a vector load may read beyond the last top cell.
+  /// A vector load may read so many words beyond the last top cell.
   static constexpr std::size_t top_slack = 64;
 
+  /// Computes the positions of all vertices in finest cells.
   void place_vertices() {
     const GridFrame& frame = grid_.frame_;
     auto& points = scratch_.points_;
@@ -194,8 +199,8 @@ class GridBuild {
     for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame.padding(axis);
   }
 
-  /// Finds which cells the triangles meet, `id(i)` for each i from `first` to below `last`, unless these are more than
-  /// so many entries. Among the top cells, where each triangle comes once, it writes down their boxes.
+  /// Finds the cells that the triangles meet: `id(i)` for each i from `first` to below `last`. Returns false if there
+  /// are more than `max_entries` entries. Each triangle comes once among the top cells. There its box is stored too.
   template <bool is_top, typename Id>
   bool try_find(std::size_t first, std::size_t last, const Id& id, const detail::CellRange& cells, std::uint32_t size,
                 std::size_t max_entries, detail::CellEntries& entries, bool may_grow) const {
@@ -217,7 +222,7 @@ class GridBuild {
     return entries.count <= max_entries;
   }
 
-  /// Lists all triangles in top cells, unless that takes more entries than the budget. One cell always fits.
+  /// Lists all triangles in top cells. Returns false if that takes more entries than the budget. One cell always fits.
   bool try_list_all(std::size_t budget) {
     const std::array<std::uint32_t, 3>& cells = grid_.frame_.cells;
     const std::size_t cell_count = std::size_t{cells[0]} * cells[1] * cells[2];
@@ -232,6 +237,8 @@ class GridBuild {
     return true;
   }
 
+  /// Finds the top cells that the triangles from `first` to below `last` meet. Returns false if there are too many
+  /// entries.
   bool try_find_top(std::size_t first, std::size_t last, std::size_t max_entries, detail::CellEntries& entries,
                     bool may_grow) const {
     entries.make_room(usual_entries * (last - first), min_entries * (last - first));
@@ -239,7 +246,8 @@ class GridBuild {
     return try_find<true>(first, last, id, {{0, 0, 0}, grid_.frame_.cells}, division, max_entries, entries, may_grow);
   }
 
-  /// The same by the executor's tasks. False as well if some part takes more room than most: tasks cannot ask for it.
+  /// Does the same for all triangles, in tasks of the executor. It also returns false if a part takes unusually much
+  /// room, because a task cannot allocate more.
   bool try_find_in_parts(std::size_t max_entries) {
     constexpr std::size_t size = triangles_in_a_part;
     auto& parts = scratch_.parts_;
@@ -264,7 +272,7 @@ class GridBuild {
     auto& words = scratch_.words_;
     grid_.levels_ = 0;
     grid_.top_count_ = offsets.size() - 1;
-    // Room for bricks that are as long as may be, in half of their cells; those of the second level may need more.
+    // Reserves room for lists of bricks of the maximum length, in half of their cells. The second level may need more.
     std::size_t entries = listed.size();
     std::size_t lists = 1;
     for (std::size_t cell = 0; cell < grid_.top_count_; ++cell) {
@@ -295,7 +303,7 @@ class GridBuild {
     std::transform(words.begin(), words.end(), grid_.top_.begin(), [](std::uint32_t bits) { return CellWord(bits); });
   }
 
-  /// The word of a cell that is not empty, at `place` in cells of its `size`.
+  /// Emits a cell that is not empty, and returns its word. `cell` is its index, counted in cells of its `size`.
   std::uint32_t emit(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& cell, std::uint32_t size,
                      std::uint32_t level) {
     if (ids.size() > crowded_ && level < Grid::max_levels) {
@@ -307,7 +315,8 @@ class GridBuild {
     return CellWord::listing(list).bits();
   }
 
-  /// Of the triangles' boxes and the cell. They are padded as when they were listed, and so each meets the cell.
+  /// Returns the part of the cell that the triangles' boxes take up. The boxes are padded as in listing, so each meets
+  /// the cell (L3 in WALK.md).
   [[nodiscard]] CellBox box_of(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& cell,
                                std::uint32_t size) const {
     using namespace detail;
@@ -318,7 +327,7 @@ class GridBuild {
     }
     constexpr float parts = CellBox::parts;
     const auto edge = static_cast<float>(size);
-    const float per_part = parts / edge;  // a power of two
+    const float per_part = parts / edge;  // A power of two.
     const Float4 corner = to_float(Int4{static_cast<std::int32_t>(cell[0]), static_cast<std::int32_t>(cell[1]),
                                         static_cast<std::int32_t>(cell[2]), 0}) *
                           edge;
@@ -338,7 +347,8 @@ class GridBuild {
     return CellBox::around(first, end);
   }
 
-  /// The word of a cell that is divided into a brick of cells of `size`; 0 if that would not part its triangles.
+  /// Divides a cell into a brick of cells of `size`, and returns its word. Returns 0 if the lists of the brick would be
+  /// too long, or if there would be too many bricks.
   std::uint32_t divide(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& cell, std::uint32_t size,
                        std::uint32_t level) {
     constexpr std::uint32_t edge = Grid::brick_edge;
@@ -349,7 +359,7 @@ class GridBuild {
     }
     detail::CellLists& lists = scratch_.lists_[level];
     const auto id = [&](std::size_t i) { return ids[i]; };
-    // The brick of no number is no one's: a word of zeros would be that of an empty cell not yet measured.
+    // No cell has brick 0, because its word would be 0, and that is the word of an empty cell before it is measured.
     const std::size_t first = std::max<std::size_t>(grid_.bricks_.size(), Grid::brick_size);
     const std::size_t max_entries = std::min(max_growth * ids.size(), ids.size() + spare_entries_);
     if (first >= max_brick_cells ||
@@ -376,7 +386,7 @@ class GridBuild {
     return CellWord::divided(static_cast<std::uint32_t>(first / Grid::brick_size)).bits();
   }
 
-  /// Counts in the finest cells that there are.
+  /// Counts in cells of the finest level that the grid has.
   void shrink_division() {
     for (std::uint32_t level = grid_.levels_; level < Grid::max_levels; ++level) {
       grid_.frame_.coarsen(Grid::brick_edge);
@@ -388,7 +398,7 @@ class GridBuild {
   const TriangleMeshView<Scalar>& mesh_;
   const Executor* executor_;
   std::size_t crowded_;
-  std::size_t spare_entries_ = 0;  ///< that dividing may add before there are more than 32 bits can number
+  std::size_t spare_entries_ = 0;  ///< divisions may add so many entries before 32 bits cannot number them
   detail::CellPoint padding_ = {};
 };
 

@@ -13,40 +13,41 @@ namespace surehit {
 
 namespace detail {
 
-/// A point counted in finest cells, as long as a vector load; its fourth number is 0.
+/// A point counted in finest cells, in the lanes of a vector. The fourth lane is 0.
 using PaddedPoint = Float4;
+/// A box counted in finest cells.
 struct PaddedBox {
   PaddedPoint low, high;
 };
 
-/// Which triangles meet which cells, of all triangles in turn.
+/// Pairs of a cell and a triangle that meet, triangle after triangle.
 struct CellEntries {
   static constexpr std::size_t too_many = std::numeric_limits<std::size_t>::max();
 
-  std::size_t count = 0;             ///< as far as the rest counts; `too_many` if there was no room
-  RoomyVector<std::uint32_t> cells;  ///< as many as there is room for
-  RoomyVector<std::uint32_t> triangles;
+  std::size_t count = 0;                 ///< the number of pairs, or `too_many` if there was no room
+  RoomyVector<std::uint32_t> cells;      ///< the cell of each pair; its size is the room
+  RoomyVector<std::uint32_t> triangles;  ///< the triangle of each pair
 
-  /// So many of the entries are likely to be.
+  /// Makes room for so many entries. The likely ones get their memory pages at once.
   void make_room(std::size_t entries, std::size_t likely = 0) {
     if (cells.size() >= entries) return;
     triangles.resize(entries);
-    cells.resize(entries);  // last: where that throws, they still tell what room there is
+    cells.resize(entries);  // Last: if it throws, its size still tells the room.
     fault_in(triangles.data(), likely * sizeof(std::uint32_t));
     fault_in(cells.data(), likely * sizeof(std::uint32_t));
   }
 };
 
-/// Lists of triangles, one for each of some cells, while they are made.
+/// The triangle lists of some cells during a build.
 struct CellLists {
-  CellEntries entries;
-  UnsetVector<std::uint32_t> offsets;    ///< where each cell's list begins, and one more for the end
-  UnsetVector<std::uint32_t> triangles;  ///< the lists, one behind the other
+  CellEntries entries;                   ///< what the lists are sorted from
+  UnsetVector<std::uint32_t> offsets;    ///< the index where each cell's list begins, and one more for the end
+  UnsetVector<std::uint32_t> triangles;  ///< the lists, one after the other
 };
 
 }  // namespace detail
 
-/// What a build needs besides the grid. Given to the next build, its memory is used again.
+/// The memory that a build needs besides the grid. The next build can use it again.
 class GridScratch {
  public:
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
@@ -56,11 +57,11 @@ class GridScratch {
   friend class GridBuild;
 
   detail::UnsetVector<detail::PaddedPoint> points_;  ///< the vertices
-  detail::UnsetVector<detail::PaddedBox> boxes_;     ///< the triangles'
-  std::array<detail::CellLists, 3> lists_;    ///< of the top cells, and of the brick of each level that is being made
-  std::vector<detail::CellEntries> parts_;    ///< of the top cells, where parts of the mesh are listed at once
-  detail::UnsetVector<std::uint32_t> words_;  ///< the top cells' words
-  detail::UnsetVector<std::uint8_t> distances_;  ///< through empty cells
+  detail::UnsetVector<detail::PaddedBox> boxes_;     ///< the boxes of the triangles
+  std::array<detail::CellLists, 3> lists_;           ///< of the top cells, and of the current brick of each level
+  std::vector<detail::CellEntries> parts_;           ///< of the top cells, one for each task of an executor
+  detail::UnsetVector<std::uint32_t> words_;         ///< the words of the top cells
+  detail::UnsetVector<std::uint8_t> distances_;      ///< the distances through empty cells
 };
 
 }  // namespace surehit

@@ -1,10 +1,10 @@
 #include "build/overlap_lanes.hpp"
 
-// Compiled once for each instruction set; the best one is chosen when the first grid is built.
+// This file is compiled once for each instruction set. The best one is chosen when the first grid is built.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "build/overlap_lanes.cpp"
 #include <hwy/foreach_target.h>
-// Behind foreach_target.h.
+// After foreach_target.h.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -12,16 +12,18 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The axes are those of `TriangleOverlap`, but all is counted from the centre of the first cell, so that the other
-// cells' centres are sums of steps. With u = 2^-24, R the resolution and (l, m) a shadow's axis, rounded, which is as
-// good an axis as any: a corner is off by u R once it is moved; the triangle of the moved corners is tested from here
-// on. Fused or not, its ends on the axis are off by 2 u R (|l| + |m|), half a box, of R or less, by 1.5, their
-// difference by 1.5, and the sum of two steps by 1; steps themselves are exact, for a size is a power of two. In all
-// less than 8 u R (|l| + |m|), as there.
+// The axes are those of `TriangleOverlap`. But everything is counted from the centre of the block's first cell. So the
+// centres of the other cells are sums of steps. Steps are exact, because a size is a power of two.
 //
-// The normal's components are off by less than 10 u E^2, with E the triangle's greatest extent, so the moved triangle
-// is flat along it but for 30 u E^3. A height along it is three products of up to |n| far and three differences with
-// steps, the reach three products of up to |n| (step / 2 + padding): together off by less than 16 u |n| (far + step).
+// The roundings, with eps = 2^-24 (`u` in the code), R the resolution, and L = |l| + |m| for a shadow's axis (l, m). A
+// corner is off by eps R once it is moved. The rest tests the triangle of the moved corners. With or without fused
+// operations, its ends on the axis are off by 2 eps R L. The half length of a box is off by 1.5, the difference of both
+// by 1.5, and the sum of two steps by 1. In sum that is less than 8 eps R L, as in `TriangleOverlap`.
+//
+// The normal's components are off by less than 10 eps E^2, where E is the triangle's maximum extent. So the heights of
+// the moved corners differ by less than 30 eps E^3. A height is three products of up to |normal| far, and three
+// differences with steps. The reach is three products of up to |normal| (step / 2 + padding). Together they are off by
+// less than 16 eps |normal| (far + step).
 void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float size,
                    OverlapLanes::Row<std::int32_t>& overlaps) {
   const hn::CappedTag<float, OverlapLanes::count> d;
@@ -46,7 +48,7 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
     M has_another[3];
     V extent = hn::Zero(d);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const V centre = hn::MulAdd(first[axis], step, hn::Set(d, size / 2));  // exact
+      const V centre = hn::MulAdd(first[axis], step, hn::Set(d, size / 2));  // Exact.
       for (V(&corner)[3] : corners) corner[axis] = hn::Sub(corner[axis], centre);
       const V low = hn::Min(hn::Min(corners[0][axis], corners[1][axis]), corners[2][axis]);
       const V high = hn::Max(hn::Max(corners[0][axis], corners[1][axis]), corners[2][axis]);
@@ -61,7 +63,7 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
       }
     }
 
-    M shadowed[3][4];  // by axis k and by steps on k + 1 and k + 2
+    M shadowed[3][4];  // By axis k, and by the steps on k + 1 and k + 2.
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t on_l = (k + 1) % 3;
       const std::size_t on_m = (k + 2) % 3;
@@ -89,7 +91,7 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
     V reach = hn::Zero(d);
     V length = hn::Zero(d);
     V far = step;
-    V rise[3];  // of the height from a cell to the next
+    V rise[3];  // The height changes by this to the next cell on an axis.
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
       const std::size_t m = (k + 2) % 3;

@@ -5,17 +5,21 @@
 
 namespace surehit::detail {
 
-// The roundings, with u = 2^-24, R the resolution and E the edges' greatest component, both in finest cells.
+// The roundings. eps is the unit roundoff 2^-24 (`u` in the code). R is the resolution, and E the maximum component of
+// the edges, both in finest cells.
 //
-// A shadow's axis has the components of an edge e, rounded once. Its ends p = x_y z - x_z y, and the box's centre s
-// alike, are products and a difference of numbers up to R: each is off by 3 u R (|y| + |z|), as are the half lengths of
-// the box in it by 3 u of themselves, and the edge's own rounding counts as u R (|y| + |z|) once more: it turns the
-// axis, and any axis whatever separates truly if it separates by more than that. In all less than 8 u R (|y| + |z|),
-// which is what a padding greater by 8 u R covers.
+// A shadow's axis (l, m) has the components of an edge, rounded once. It needs no bound: if triangle and box meet,
+// their shadows overlap on any axis. Let L be |l| + |m|. A corner's position on the axis is a sum of two products of
+// numbers up to R, so it is off by 2 eps R L. The position of the box's centre is off by as much. The half length of
+// the box's shadow is at most R L / 2, and has 3 roundings: 1.5 eps R L. The difference of both has one rounding of at
+// most 0.5 eps R L. In sum that is 6 eps R L. A box that is grown by less than 8 eps R covers it.
 //
-// The normal has two roundings of the edges and two of their products: each component is off by 6 u E^2. An axis may be
-// any; but the triangle must be flat along it to be one height, and is so but for 6 u E^2 times its size, 3 E. A height
-// along it is three products of up to R |n|. For a sliver, |n| is far less than E^2; so that is counted apart: `slack`.
+// Each component of the normal is off by 8 eps E^2. Each of its two products has 3 roundings, and their difference has
+// one. On the exact normal all corners have the same height. So on the computed one their heights differ by up to
+// 3 E 8 eps E^2. For a thin triangle, |normal| is much less than E^2. So a term of its own covers this: 64 eps E^3.
+//
+// A height along the normal is three products of up to |normal| times a coordinate, and their sum. The second term of
+// the slack covers these roundings for the triangle's coordinates. The padding covers them for the box's half lengths.
 TriangleOverlap::TriangleOverlap(const std::array<CellPoint, 3>& corners, const CellPoint& padding)
     : padding_(padding) {
   constexpr float u = 0x1p-24F;

@@ -17,30 +17,29 @@ struct CellRange {
   [[nodiscard]] std::uint32_t length(std::size_t axis) const { return high[axis] - low[axis]; }
 };
 
-/// A triangle, made ready to be asked which padded boxes it meets: the test of separating axes (Akenine-Möller 2001),
-/// with every rounding on the side of an overlap.
+/// A triangle that is prepared for tests against padded boxes. This is the test of separating axes (Akenine-Möller
+/// 2001). Roundings may only cause an overlap too many.
 class TriangleOverlap {
  public:
-  /// Corners within [0, 2^15] on each axis; boxes grow by `padding` on each side.
+  /// Corners must lie in [0, 2^15] on each axis. Boxes grow by `padding` on each side.
   TriangleOverlap(const std::array<CellPoint, 3>& corners, const CellPoint& padding);
 
-  /// Whether it meets the padded box from `low` to `high`, which must overlap the triangle's own. Never false if it
-  /// does; true for others only if they miss it by rounding.
+  /// Returns whether the triangle meets the padded box from `low` to `high`. The box must overlap the triangle's own
+  /// box. The result is never false if they meet. It is true for a box that is missed only because of rounding.
   [[nodiscard]] bool meets(const CellPoint& low, const CellPoint& high) const;
 
  private:
-  /// What the triangle covers of an axis that is square to an edge and to a coordinate axis k; the axis has the
-  /// components `l` on k + 1 and `m` on k + 2.
+  /// The interval that the triangle covers on an axis. This axis is normal to an edge and to a coordinate axis k.
   struct Shadow {
-    float l, m;
-    float low, high;
+    float l, m;       ///< the components of the axis on k + 1 and k + 2
+    float low, high;  ///< the interval
   };
 
   CellPoint padding_;
   std::array<Shadow, 9> shadows_;
   CellPoint normal_ = {};
-  float height_ = 0;        ///< of the triangle's plane along the normal
-  float height_slack_ = 0;  ///< by which that may be off
+  float height_ = 0;        ///< the height of the triangle's plane along the normal
+  float height_slack_ = 0;  ///< a bound on the error of that height
 };
 
 }  // namespace surehit::detail

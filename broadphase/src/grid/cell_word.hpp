@@ -6,42 +6,50 @@
 
 namespace surehit {
 
-/// What a cell holds, in 32 bits. An empty cell has a nibble for each octant of directions: how many cells a path of
-/// that octant may cross at once on every axis, this one included, since all of them are empty. The first nibble of any
-/// other cell is 0, the fifth bit tells a list from a brick, and the rest is its number.
+/// What a cell holds, in 32 bits.
+///
+/// An empty cell has a distance of 4 bits for each octant of directions: the edge, in cells, of a cube of empty cells
+/// that begins with this cell. A path of that octant may leap over the whole cube. In any other cell the first 4 bits
+/// are 0. The fifth bit is 1 for a list and 0 for a brick. The rest is the number of the list or brick.
 class CellWord {
  public:
   CellWord() = default;
   explicit CellWord(std::uint32_t bits) : bits_(bits) {}
 
+  /// So many lists, and so many bricks, can have a number.
   static constexpr std::uint32_t max_numbers = std::uint32_t{1} << 27;
-  static constexpr std::uint32_t max_distance = 15;    ///< a nibble's
-  static constexpr std::uint32_t divided_bits = 0x1f;  ///< all 0 in the word of a divided cell
+  static constexpr std::uint32_t max_distance = 15;    ///< what 4 bits can hold
+  static constexpr std::uint32_t divided_bits = 0x1f;  ///< these bits are all 0 in the word of a divided cell
 
+  /// Returns the word of a cell with a list.
   static CellWord listing(std::uint32_t list) { return CellWord(list << 5 | 1U << 4); }
+  /// Returns the word of a cell that is divided into a brick.
   static CellWord divided(std::uint32_t brick) { return CellWord(brick << 5); }
 
   [[nodiscard]] std::uint32_t bits() const { return bits_; }
   [[nodiscard]] bool is_empty() const { return (bits_ & 15) != 0; }
   [[nodiscard]] bool is_divided() const { return (bits_ & divided_bits) == 0; }
-  /// Of the list; of a divided cell, of its brick.
+  /// Returns the number of the list, or of the brick if the cell is divided.
   [[nodiscard]] std::uint32_t number() const { return bits_ >> 5; }
+  /// Returns the edge of the cube of empty cells that begins with this empty cell.
   [[nodiscard]] std::uint32_t distance(std::uint32_t octant) const { return bits_ >> 4 * octant & 15; }
 
  private:
   std::uint32_t bits_ = 0;
 };
 
-/// The box of what a list's triangles take up of their cell, in 32nds of the cell's edge, in 32 bits: on each axis five
-/// bits for the low side and five for the high one. Rounded outward, and to the cell where they reach beyond it.
+/// A box around the part of a cell that the triangles of its list take up, in 32 bits. Its sides are counted in parts
+/// of the cell's edge. Each axis has 5 bits for the low side and 5 for the high side. The box is rounded outward, but
+/// not beyond the cell.
 class CellBox {
  public:
-  static constexpr std::uint32_t parts = 32;  ///< of an edge
+  static constexpr std::uint32_t parts = 32;  ///< so many make an edge of the cell
 
   CellBox() = default;
   explicit CellBox(std::uint32_t bits) : bits_(bits) {}
 
-  /// Of a box in such parts, above the cell's low corner: sides in [0, parts], low ones below high ones.
+  /// Returns the box with these sides. They are counted in parts from the cell's low corner, and lie in [0, parts].
+  /// Each low side must be below the high side.
   static CellBox around(const std::array<std::uint32_t, 3>& low, const std::array<std::uint32_t, 3>& high) {
     std::uint32_t bits = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) bits |= (low[axis] | (high[axis] - 1) << 5) << 10 * axis;
@@ -56,22 +64,25 @@ class CellBox {
   std::uint32_t bits_ = 0;
 };
 
-/// Two parallel planes that have between them what of a list's triangles may be met in its cell, in 32 bits: their
-/// normal in whole numbers, five bits for each component, and two places along it, eight bits for each, in steps of
-/// 3/16 of the cell's edge from the cell's centre. No point of the cell grown by half a padding, 1/32 of its edge or
-/// less, is more than 127.5 steps from there; so the last places hold all beyond them too.
+/// Two parallel planes, in 32 bits. All points where a path may meet the list's triangles in the cell lie between them
+/// (L4 in WALK.md).
+///
+/// Each component of the normal is a whole number of 5 bits. The two heights along the normal have 8 bits each. They
+/// are counted from the cell's centre, in steps of 3/16 of the cell's edge. No point of the cell, grown by half a
+/// padding, is more than 127.5 steps from the centre. So the lowest and the highest height stand for all heights beyond
+/// them.
 class CellSlab {
  public:
-  static constexpr std::int32_t longest = 15;   ///< component of a normal
-  static constexpr std::int32_t lowest = -128;  ///< place,
-  static constexpr std::int32_t highest = 127;  //
-  static constexpr float step = 3.0F / 16;      ///< from one to the next, in edges of the cell
+  static constexpr std::int32_t longest = 15;   ///< the maximum component of a normal
+  static constexpr std::int32_t lowest = -128;  ///< the minimum height, in steps
+  static constexpr std::int32_t highest = 127;  ///< the maximum height, in steps
+  static constexpr float step = 3.0F / 16;      ///< the length of a step, in edges of the cell
 
-  /// All of the cell.
+  /// A slab that holds the whole cell.
   CellSlab() = default;
   explicit CellSlab(std::uint32_t bits) : bits_(bits) {}
 
-  /// The upper plane is at the place after `high`.
+  /// Returns the slab between the heights `low` and `high` + 1.
   static CellSlab between(const std::array<std::int32_t, 3>& normal, std::int32_t low, std::int32_t high) {
     std::uint32_t bits = (static_cast<std::uint32_t>(low) & 0xff) << 16 | static_cast<std::uint32_t>(high) << 24;
     for (std::size_t axis = 0; axis < 3; ++axis) bits |= (static_cast<std::uint32_t>(normal[axis]) & 31) << 5 * axis;
@@ -89,10 +100,10 @@ class CellSlab {
   std::uint32_t bits_ = 0x7f800000;
 };
 
-/// What a grid knows of a list beside its triangles. It ends where the next one begins.
+/// What a grid knows about a list besides its triangles. A list ends where the next list begins.
 struct CellList {
   CellBox box;                ///< the part of the cell that the triangles take up
-  std::uint32_t first_entry;  ///< among the grid's
+  std::uint32_t first_entry;  ///< the index of the list's first entry among all entries of the grid
 };
 
 }  // namespace surehit

@@ -18,66 +18,69 @@
 
 namespace surehit {
 
-/// A uniform grid over a mesh's box, in which crowded cells hold a brick of 4 × 4 × 4 cells of their own, and so on for
-/// `levels` levels. Each undivided cell lists the triangles that meet the cell's box grown by `GridFrame::padding`.
+/// A uniform grid over a mesh's box. A crowded cell is divided into a brick of 4 × 4 × 4 cells. A crowded cell of a
+/// brick is divided in the same way. Each undivided cell lists the triangles that meet its box, grown by
+/// `GridFrame::padding`.
 ///
-/// Listing is conservative and about as tight as clipping each triangle to the cell: it never misses one that meets the
-/// grown box, and is at most rounding wider.
+/// A list never misses a triangle that meets the grown box. It has a triangle too many only because of rounding.
 class Grid {
  public:
   static constexpr std::uint32_t brick_edge = 4;
   static constexpr std::uint32_t brick_size = brick_edge * brick_edge * brick_edge;
   static constexpr std::uint32_t max_levels = 2;
 
-  /// No cells.
+  /// A grid without cells.
   Grid() = default;
 
-  /// Of a valid mesh (see `find_invalid`) and its box. Time and memory are linear in the triangles, for the resolution
-  /// is lowered until the lists fit their budget. The grid is the same with an executor as without. May throw
-  /// std::bad_alloc.
+  /// Builds the grid of a valid mesh (see `find_invalid`) and its box. Time and memory are linear in the triangles,
+  /// because the resolution is lowered until the lists fit a budget. The grid is the same with an executor as without.
+  /// May throw std::bad_alloc.
   template <typename Scalar>
   Grid(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
        const Executor* executor = nullptr);
-  /// Becomes the grid of another mesh, in the memory that it has. If that throws,
-  /// the grid is good for another rebuild only.
+  /// Becomes the grid of another mesh, and uses its memory again. If this throws, the grid can only be rebuilt or
+  /// destroyed.
   template <typename Scalar>
   void rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
                GridScratch& scratch, const Executor* executor = nullptr);
 
   [[nodiscard]] const GridFrame& frame() const noexcept { return frame_; }
-  /// Boxes around all lists.
+  /// Returns a few boxes around all lists.
   [[nodiscard]] const GridCover& cover() const noexcept { return cover_; }
-  /// Top cells on each axis.
+  /// Returns the number of top cells on each axis.
   [[nodiscard]] const std::array<std::uint32_t, 3>& resolution() const noexcept { return frame_.cells; }
   [[nodiscard]] bool is_empty() const noexcept { return entries_.empty(); }
-  /// Levels of bricks below the top cells, 0 if none is divided.
+  /// Returns the number of levels of bricks below the top cells. It is 0 if no cell is divided.
   [[nodiscard]] std::uint32_t levels() const noexcept { return levels_; }
-  /// Top cells, and the cells of all bricks.
+  /// Returns the number of top cells and of cells in bricks.
   [[nodiscard]] std::size_t cell_count() const noexcept { return top_count_ + bricks_.size(); }
-  /// Entries of all cells' lists together, repetitions included.
+  /// Returns the number of entries of all lists, repetitions included.
   [[nodiscard]] std::size_t entry_count() const noexcept { return entries_.size(); }
   [[nodiscard]] std::size_t memory_bytes() const noexcept {
     return (top_.capacity() + bricks_.capacity()) * sizeof(CellWord) + lists_.capacity() * sizeof(CellList) +
            entries_.capacity() * sizeof(std::uint32_t);
   }
 
-  /// Words of the top cells, x fastest, then y, then z.
+  /// Returns the words of the top cells. x runs fastest, then y, then z.
   [[nodiscard]] std::span<const CellWord> top() const noexcept { return {top_.data(), top_count_}; }
-  /// Words of the bricks' cells, `brick_size` a brick in the same order.
+  /// Returns the words of the cells of all bricks. Each brick has `brick_size` words, in the same order.
   [[nodiscard]] std::span<const CellWord> bricks() const noexcept { return bricks_; }
-  /// All lists, one behind the other.
+  /// Returns the triangle ids of all lists, one list after the other.
   [[nodiscard]] std::span<const std::uint32_t> entries() const noexcept { return entries_; }
 
-  /// By their numbers, and one more that begins where the last one ends. None where there are no triangles.
+  /// Returns all lists by their numbers, and one more that begins where the last list ends. Returns nothing if the mesh
+  /// has no triangles.
   [[nodiscard]] std::span<const CellList> lists() const noexcept { return lists_; }
-  /// Where a cell's list begins among the entries.
+  /// Returns the index of the first entry of a cell's list.
   [[nodiscard]] std::size_t first_entry(CellWord word) const noexcept { return lists_[word.number()].first_entry; }
+  /// Returns the number of triangles in a cell's list.
   [[nodiscard]] std::uint32_t entry_count(CellWord word) const noexcept {
     const CellList* list = lists_.data() + word.number();
     return list[1].first_entry - list[0].first_entry;
   }
+  /// Returns the box of a cell's list.
   [[nodiscard]] CellBox box(CellWord word) const noexcept { return lists_[word.number()].box; }
-  /// Ids of the triangles that a cell lists, ascending.
+  /// Returns the ids of the triangles that a cell lists, in ascending order.
   [[nodiscard]] std::span<const std::uint32_t> triangles(CellWord word) const noexcept {
     return {entries_.data() + first_entry(word), entry_count(word)};
   }
@@ -90,7 +93,7 @@ class Grid {
   GridCover cover_;
   std::uint32_t levels_ = 0;
   std::size_t top_count_ = 0;
-  detail::UnsetVector<CellWord> top_;  ///< and as many more as one vector load may read beyond the last
+  detail::UnsetVector<CellWord> top_;  ///< longer than top_count_, because a vector load may read beyond the last cell
   std::vector<CellWord> bricks_;
   detail::UnsetVector<CellList> lists_;
   detail::UnsetVector<std::uint32_t> entries_;

@@ -8,21 +8,22 @@
 namespace surehit {
 namespace {
 
-/// In finest cells.
+/// A box, counted in finest cells. It is empty at first.
 struct CoverBox {
-  static constexpr float outside = 0x1p20F;  ///< the grid
+  static constexpr float outside = 0x1p20F;  ///< lies outside any grid
 
   std::array<float, 3> low = {outside, outside, outside};
   std::array<float, 3> high = {-outside, -outside, -outside};
 
   [[nodiscard]] bool is_empty() const { return low[0] > high[0]; }
+  /// Grows until it holds the other box too.
   void grow_around(const CoverBox& other) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], other.low[axis]);
       high[axis] = std::max(high[axis], other.high[axis]);
     }
   }
-  /// Half of it.
+  /// Returns half the surface of the box.
   [[nodiscard]] float surface() const {
     const float x = high[0] - low[0];
     const float y = high[1] - low[1];
@@ -31,22 +32,22 @@ struct CoverBox {
   }
 };
 
-/// Of the grid, what its cells list there.
+/// A part of the grid, out of 8 × 8 × 8 parts.
 struct GridPart {
-  static constexpr std::uint32_t on_an_axis = 8;
+  static constexpr std::uint32_t on_an_axis = 8;  ///< parts on each axis
   static constexpr std::size_t max_count = std::size_t{on_an_axis} * on_an_axis * on_an_axis;
 
-  std::array<std::uint32_t, 3> cell = {0, 0, 0};
-  CoverBox box;
+  std::array<std::uint32_t, 3> cell = {0, 0, 0};  ///< the index of the part on each axis
+  CoverBox box;                                   ///< holds what the cells of the part list
 };
 
-/// Parts whose boxes become one box, and how they are best divided into two.
+/// Some parts of the grid, the box around them, and the best way to divide them into two groups.
 struct PartGroup {
   std::span<GridPart> parts;
   CoverBox box;
-  float gain = 0;  ///< in surface, if they are divided there:
-  std::size_t axis = 0;
-  std::uint32_t plane = 0;  ///< the first cell that belongs to the second half
+  float gain = 0;           ///< the surface that the division saves; 0 if no division saves any
+  std::size_t axis = 0;     ///< the axis on which the group is divided
+  std::uint32_t plane = 0;  ///< the index on that axis of the first part of the second group
 
   PartGroup() = default;
   explicit PartGroup(std::span<GridPart> some) : parts(some) {
@@ -54,7 +55,7 @@ struct PartGroup {
     for (std::size_t on = 0; on < 3; ++on) {
       std::array<CoverBox, GridPart::on_an_axis> slabs;
       for (const GridPart& part : parts) slabs[part.cell[on]].grow_around(part.box);
-      std::array<CoverBox, GridPart::on_an_axis> from = slabs;  // this slab on
+      std::array<CoverBox, GridPart::on_an_axis> from = slabs;  // The box around this slab and all after it.
       for (std::size_t at = from.size() - 1; at > 0; --at) from[at - 1].grow_around(from[at]);
       CoverBox before;
       for (std::uint32_t at = 1; at < GridPart::on_an_axis; ++at) {
@@ -70,14 +71,14 @@ struct PartGroup {
   }
 };
 
-/// Of a grid's parts, those that list something.
+/// The parts of a grid whose cells list something.
 class ListingParts {
  public:
   explicit ListingParts(const Grid& grid) : grid_(grid) {
     visit_cells([&](std::size_t part, const auto&, CellWord) { lists_.at(part) = true; });
   }
 
-  /// Of the grid's surface as one sees it along the axes, the share in which something is listed.
+  /// Returns the share of the grid's silhouette, seen along the axes, in which something is listed.
   [[nodiscard]] float silhouette() const {
     std::array<std::array<bool, std::size_t{n} * n>, 3> seen = {};
     for (std::uint32_t i = 0; i < lists_.size(); ++i) {
@@ -91,7 +92,7 @@ class ListingParts {
       const std::size_t next = (axis + 1) % 3;
       const std::size_t last = (axis + 2) % 3;
       const auto& cells = grid_.resolution();
-      // Where there are fewer cells, each has a part of its own.
+      // If an axis has fewer cells than parts, each cell has a part of its own.
       const auto parts = static_cast<float>(std::min(cells[next], n) * std::min(cells[last], n));
       const float face = grid_.frame().float_stop[next] * grid_.frame().float_stop[last];
       whole += face;
@@ -100,7 +101,7 @@ class ListingParts {
     return surface / whole;
   }
 
-  /// With the boxes of what they list. Returns how many there are.
+  /// Fills `parts` with these parts and their boxes. Returns their number.
   [[nodiscard]] std::size_t boxed(std::array<GridPart, GridPart::max_count>& parts) const {
     std::array<CoverBox, GridPart::max_count> boxes;
     const auto size = static_cast<float>(grid_.frame().division);
@@ -128,7 +129,7 @@ class ListingParts {
 
   static std::array<std::uint32_t, 3> place_of(std::uint32_t part) { return {part % n, part / n % n, part / n / n}; }
 
-  /// visit(part, cell, word) for each top cell that is not empty.
+  /// Calls visit(part, cell, word) for each top cell that is not empty.
   template <typename Visit>
   void visit_cells(const Visit& visit) const {
     const auto& cells = grid_.resolution();

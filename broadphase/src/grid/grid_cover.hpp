@@ -10,29 +10,31 @@ namespace surehit {
 
 class Grid;
 
-/// A few boxes around all that a grid lists. Where they leave out much of the mesh's box (a level with a prop far from
-/// the rest, a mesh that stands askew), a long path that passes all of them by meets nothing, and others need not be
-/// walked but from the first box to the last one. Where they do not, to ask them would cost more than it saves.
+/// A few boxes around all that a grid lists (L7 in WALK.md). They help if they leave out much of the mesh's box: in a
+/// level with a prop far from the rest, or for a mesh that is turned against the axes. Then a long path that misses all
+/// boxes meets nothing. Any other path is walked from the first box that it enters to the last box that it leaves. If
+/// the boxes leave out little, to test them costs more than it saves.
 class GridCover {
  public:
   static constexpr std::size_t max_boxes = 8;
-  /// Of the surface of the grid: paths come to a box as often as it has surface. The cover is of use where the lists,
-  /// seen along the axes, and the boxes take up less. (Of the meshes measured, one has 0.5 of it: its long paths take
-  /// 0.79 to 0.83 of the time. The others have 0.85 or more, where long paths would take as long, lines of sight 1.02.)
+  /// Use the cover only if the occupied cells' silhouette, and the boxes' surface, are below this share of the grid's.
+  /// Random lines hit a box in proportion to its surface.
   static constexpr float useful_share = 0.7F;
 
-  /// Of no use.
+  /// A cover that is not useful.
   GridCover() = default;
-  /// In time linear in the grid's cells.
+  /// Takes time linear in the grid's cells.
   explicit GridCover(const Grid& grid);
 
+  /// Returns false if the boxes leave out too little of the grid.
   [[nodiscard]] bool is_useful() const noexcept { return is_useful_; }
 
-  /// Of a path that is mirrored as `octant` says, from tau = 0 to `end`, the part beyond which it meets no box: empty,
-  /// with `enters` beyond `leaves`, if it meets none at all.
+  /// The part of a path outside which it meets no box, from one tau to another. The part is empty if `enters` is
+  /// greater than `leaves`.
   struct Part {
     float enters, leaves;
   };
+  /// Returns the part of a path that runs from tau = 0 to `end`. The path is mirrored as `octant` says.
   [[gnu::always_inline]] [[nodiscard]] Part part_of(const detail::Float4& start, const detail::Float4& inverse_rate,
                                                     std::uint32_t octant, float end) const noexcept {
     using namespace detail;
@@ -57,14 +59,14 @@ class GridCover {
   }
 
  private:
-  static constexpr float never = 0x1p120F;  ///< beyond every tau, and the near side of a box that is not there
+  static constexpr float never = 0x1p120F;  ///< beyond every tau; the near side of a box that does not exist
 
-  /// Of all boxes on an axis, in finest cells, one padding farther out than the boxes.
+  /// The sides of all boxes on an axis, in finest cells. They are moved outward by one padding.
   struct Sides {
     std::array<detail::Float4, max_boxes / 4> near;
     std::array<detail::Float4, max_boxes / 4> far;
   };
-  std::array<std::array<Sides, 2>, 3> sides_ = {};  ///< as the path rises on the axis, and mirrored
+  std::array<std::array<Sides, 2>, 3> sides_ = {};  ///< for each axis: for a path that rises, then for one that falls
   bool is_useful_ = false;
 };
 

@@ -6,26 +6,29 @@
 
 namespace surehit {
 
-// The padding. R is the resolution of an axis in finest cells, u = 2^-24: all that is counted in cells is rounded to
-// float. A point of a triangle and the place where a path is taken to be may each be off:
-//  - a vertex by 3 u R: its difference to the origin, the scaling and the margin are rounded, and none of them exceeds
-//  R
-//    (in double, for other meshes, by u R when it is rounded at last);
-//  - the tests of `TriangleOverlap` and `find_overlaps` by less than 8 u R;
-//  - a path by less than 16 u R, or 19 u R where it stands in all of its cells at once, see grid_traversal.cpp.
-// Together they are below 32 u R = 2^-19 R = `padding`: a cell grown by it lists every triangle that a path, walking
-// through that cell by rounded numbers, truly meets there.
+// The padding must cover all roundings between a triangle and a path. R is the resolution of an axis in finest cells,
+// and eps is the unit roundoff 2^-24. Everything that is counted in cells is rounded to float.
+//
+// - A vertex is off by 3 eps R: its difference to the origin, the product and the sum with the margin are rounded. None
+//   of them exceeds R. For other frames and for double, it is off by eps R, because it is rounded to float only once.
+// - The tests of `TriangleOverlap` and `find_overlaps` are off by less than 8 eps R.
+// - A path that walks is off by less than 16 eps R (L8 and L9 in WALK.md). A path that visits all its cells at once is
+//   off by less than 19 eps R (L5).
+//
+// In sum that is less than 32 eps R = 2^-19 R, which is the padding. So a cell grown by the padding lists every
+// triangle that a path exactly meets while its walk visits the cell.
 
 namespace {
 
-/// So that a path that touches the box walks inside the grid by rounded numbers too.
+/// The outer planes are this share of the grid's width away from the box. So a path that touches the box is in the
+/// grid, even with roundings (L2).
 constexpr double margin_share = 2 * double{GridFrame::padding_share};
 
-/// Of the box's greatest extent: an axis less wide is not divided, so that a scaled coordinate that is off by 2^-43
-/// (grid_traversal.cpp) is off by less than 2^-22 of the grid's width.
+/// An axis on which the scaled box is less wide than this is not divided. So a scaled coordinate that is off by 2^-42
+/// is off by at most 2^-22 of the grid's width (L9 and L10 in WALK.md).
 constexpr double min_width = 0x1p-20;
 
-/// Rounded down to a float: what is multiplied by it in float is multiplied by the same number as in double.
+/// Returns x, rounded down to a float. So a product in float and a product in double have the same factor.
 double float_below(double x) {
   const auto rounded = static_cast<float>(x);
   return rounded > x ? std::nextafter(rounded, 0.0F) : rounded;
@@ -42,18 +45,18 @@ template <typename Scalar>
 GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>& wished_cells, std::uint32_t division) {
   GridFrame frame;
   frame.division = division;
-  // Exponent of the greatest extent; of the greatest coordinate if the box is a point.
+  // The exponent of the maximum extent, or of the maximum coordinate if the box is a point.
   int largest = std::numeric_limits<int>::min();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const double low = box.low[axis];
     const double high = box.high[axis];
-    const double half_extent = high / 2 - low / 2;  // the whole one may overflow
+    const double half_extent = high / 2 - low / 2;  // The whole extent may overflow.
     if (half_extent > 0) largest = std::max(largest, std::ilogb(half_extent) + 2);
   }
   const double coordinate = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
   if (largest == std::numeric_limits<int>::min()) largest = coordinate > 0 ? std::ilogb(coordinate) + 1 : 0;
   frame.exponent = -largest;
-  // A mesh that is thin beyond measure for where it stands is left small in its frame, in one cell, so that nothing
+  // A mesh may be extremely small for its distance from the origin. It is left small, in one cell, so that nothing
   // overflows.
   if (coordinate > 0) frame.exponent = std::min(frame.exponent, 1000 - std::ilogb(coordinate));
 
@@ -85,7 +88,7 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
     frame.scale[axis] = float_below(frame.scale[axis]);
     frame.low[axis] = box.low[i];
     frame.high[axis] = box.high[i];
-    // Four paddings are a quarter of a finest cell or less.
+    // Two paddings on either side are at most a quarter of a finest cell.
     frame.cell_size[axis] = 1.25 * division / frame.scale[axis] / frame.unit[0] / frame.unit[1];
     frame.float_box_low[axis] = nearest_float(frame.low[axis]);
     frame.float_box_high[axis] = nearest_float(frame.high[axis]);

@@ -7,17 +7,16 @@
 
 namespace surehit::detail {
 
-/// Asks the system, where it takes such hints, to hold what lies in large memory in large pages: half the time of a
-/// fresh build goes into small ones, and paths that jump about in the lists miss fewer of them.
+/// Asks the system to use large pages for large memory, if it takes such hints. Page faults take much of the time of a
+/// first build. Paths that jump between lists also miss fewer large pages in the TLB.
 void prefer_large_pages(void* memory, std::size_t bytes) noexcept;
 
-/// Asks the system, where it takes such hints, for all pages of the memory at once, which costs less than to come for
-/// each one when it is first written. (A process's first builds take 0.82 of the time in the built-in level, 0.96 on
-/// the ogre.)
+/// Asks the system for all pages of the memory at once, if it takes such hints. That costs less than a fault for each
+/// page when it is first written.
 void fault_in(void* memory, std::size_t bytes) noexcept;
 
-/// Leaves numbers as the memory holds them where a vector grows, for those who write all of them anyway. If they do so
-/// with what there is room for as well, `is_filled`, the memory is there at once.
+/// An allocator for vectors whose owner writes all elements. New elements are not set, so a vector grows without
+/// clearing memory. If `is_filled`, the owner writes all that is allocated, so all pages are requested at once.
 template <typename T, bool is_filled = true>
 struct DefaultInitAllocator : std::allocator<T> {
   // NOLINTBEGIN(readability-identifier-naming): what allocators are asked for
@@ -40,9 +39,10 @@ struct DefaultInitAllocator : std::allocator<T> {
   }
 };
 
+/// A vector whose new elements are not set. Its owner fills all that it reserves.
 template <typename T>
 using UnsetVector = std::vector<T, DefaultInitAllocator<T>>;
-/// The same with more room than may be used.
+/// A vector whose new elements are not set. It may have more room than its owner uses.
 template <typename T>
 using RoomyVector = std::vector<T, DefaultInitAllocator<T, false>>;
 

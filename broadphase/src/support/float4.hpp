@@ -6,13 +6,13 @@
 
 namespace surehit::detail {
 
-// x, y and z side by side, and a fourth lane whose numbers are chosen so that it is in nobody's way. GCC and Clang
-// compile these for whatever vectors the target has.
+// Vectors of x, y and z, and of a fourth lane. The fourth lane gets numbers that do not change a result. GCC and Clang
+// compile these types for the vectors of any target.
 
 using Float4 = float __attribute__((vector_size(16)));
-using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a lane is all ones or zero
+using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask, whose lanes are all ones or zero
 
-/// In every lane.
+/// Returns x in every lane.
 [[gnu::always_inline]] inline Float4 all_lanes(float x) { return Float4{x, x, x, x}; }
 [[gnu::always_inline]] inline Int4 all_lanes(std::int32_t x) { return Int4{x, x, x, x}; }
 
@@ -22,16 +22,16 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
 [[gnu::always_inline]] inline Int4 max(Int4 a, Int4 b) { return a > b ? a : b; }
 
 [[gnu::always_inline]] inline Float4 to_float(Int4 x) { return __builtin_convertvector(x, Float4); }
-/// Toward zero; of a number that no integer holds, any integer.
+/// Rounds toward zero. Returns any integer for a number that no integer can hold.
 [[gnu::always_inline]] inline Int4 to_int(Float4 x) { return __builtin_convertvector(x, Int4); }
 
-/// x where the mask's lanes are all ones, +0 elsewhere. A choice that is a mask and a sum or a maximum takes fewer
-/// operations than `mask ? x : y`, which is three of them on many x86 processors.
+/// Returns x where the mask's lanes are all ones, and +0 elsewhere. A mask with a sum or a maximum takes fewer
+/// operations than `mask ? x : y`, which is three operations on many x86 processors.
 [[gnu::always_inline]] inline Float4 masked(Int4 mask, Float4 x) {
   return reinterpret_cast<Float4>(mask & reinterpret_cast<Int4>(x));
 }
 
-/// -x where the mask's lanes are all ones, x elsewhere.
+/// Returns -x where the mask's lanes are all ones, and x elsewhere.
 [[gnu::always_inline]] inline Float4 negated_where(Float4 x, Int4 mask) {
   return reinterpret_cast<Float4>(reinterpret_cast<Int4>(x) ^ (mask & std::numeric_limits<std::int32_t>::min()));
 }
@@ -40,42 +40,42 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
   return reinterpret_cast<Float4>(reinterpret_cast<Int4>(x) & 0x7fffffff);
 }
 
-/// The third lane instead of the fourth one.
+/// Returns x with its third lane in the fourth lane too.
 [[gnu::always_inline]] inline Float4 without_fourth(Float4 x) { return __builtin_shufflevector(x, x, 0, 1, 2, 2); }
 
 [[gnu::always_inline]] inline Float4 with_fourth(Float4 x, float fourth) {
   return __builtin_shufflevector(x, all_lanes(fourth), 0, 1, 2, 4);
 }
 
-/// The greatest lane of each of four vectors.
+/// Returns the maximum lane of each of the four vectors.
 [[gnu::always_inline]] inline Float4 max_lanes(Float4 a, Float4 b, Float4 c, Float4 d) {
   const Float4 ab = max(__builtin_shufflevector(a, b, 0, 4, 1, 5), __builtin_shufflevector(a, b, 2, 6, 3, 7));
   const Float4 cd = max(__builtin_shufflevector(c, d, 0, 4, 1, 5), __builtin_shufflevector(c, d, 2, 6, 3, 7));
   return max(__builtin_shufflevector(ab, cd, 0, 1, 4, 5), __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
 }
 
-/// The least lane, in every lane.
+/// Returns the minimum of all lanes, in every lane.
 [[gnu::always_inline]] inline Float4 min_lane(Float4 x) {
   const Float4 pairs = min(x, __builtin_shufflevector(x, x, 1, 0, 3, 2));
   return min(pairs, __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1));
 }
 
-/// The greatest lane, in every lane.
+/// Returns the maximum of all lanes, in every lane.
 [[gnu::always_inline]] inline Float4 max_lane(Float4 x) {
   const Float4 pairs = max(x, __builtin_shufflevector(x, x, 1, 0, 3, 2));
   return max(pairs, __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1));
 }
 
-/// Of all lanes.
+/// Returns the sum of all lanes.
 [[gnu::always_inline]] inline float sum_of(Float4 x) {
   const Float4 pairs = x + __builtin_shufflevector(x, x, 2, 3, 0, 1);
   return pairs[0] + pairs[1];
 }
 
-/// Of the first three lanes.
+/// Returns the sum of the first three lanes.
 [[gnu::always_inline]] inline float sum_of_three(Float4 x) { return x[0] + x[1] + x[2]; }
 
-/// Of a mask: bit k is lane k.
+/// Returns the bits of a mask. Bit k is lane k.
 [[gnu::always_inline]] inline std::uint32_t bits_of_lanes(Int4 mask) {
 #if defined(__SSE__)
   return static_cast<std::uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Float4>(mask)));
@@ -95,7 +95,7 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask: a
 #endif
 }
 
-/// Whether the greatest lane of a is beyond the least one of b: sooner known than these are.
+/// Returns whether the maximum lane of a is greater than the minimum lane of b. It is faster than to compute both.
 [[gnu::always_inline]] inline bool any_lane_exceeds_any(Float4 a, Float4 b) {
   const Int4 next = a > __builtin_shufflevector(b, b, 1, 2, 3, 0);
   const Int4 second = a > __builtin_shufflevector(b, b, 2, 3, 0, 1);

@@ -4,12 +4,11 @@
 
 namespace surehit {
 
-/// Holds the floating-point environment that the library's proofs rest on, for as long as it lives: rounding to
-/// nearest, no flush-to-zero, no traps. Where the caller's environment is that already, it costs one read of the
-/// control word; where it is not, the environment is set, and the caller's put back at the end, its sticky flags
-/// included.
+/// Sets the floating-point environment that the library's proofs need, as long as it lives: rounding to nearest, no
+/// flush-to-zero, no traps. At the end it restores the caller's environment, with its sticky flags. If the caller's
+/// environment is already right, it only reads the control word.
 ///
-/// Every entry point of the library makes one, a batch makes one for all of its paths.
+/// Every entry point of the library makes one. A batch makes one for all its paths.
 class FloatingPointEnvironment {
  public:
   FloatingPointEnvironment() noexcept;

@@ -8,8 +8,9 @@
 
 namespace surehit::detail {
 
-/// Calls `work(first, last)` for parts of [0, count) of `size` each: for all at once, or by the executor's tasks, which
-/// hold an environment of their own, for they may run on other threads.
+/// Calls `work(first, last)` for parts of [0, count), each of this `size`, in tasks of the executor. Each task sets its
+/// own FloatingPointEnvironment, because it may run on another thread. Without an executor it calls `work` once, for
+/// all.
 template <typename Work>
 void in_parts(const Executor* executor, std::size_t count, std::size_t size, const Work& work) {
   if (executor == nullptr || count <= size) {

@@ -16,49 +16,54 @@
 
 namespace surehit {
 
-/// A path as a grid sees it: from where it enters the grid on, in finest cells, and mirrored so that it rises on every
-/// axis. Plain floats, so that many of them can be walked side by side.
+/// A path as the grid sees it: clipped to the grid, counted in finest cells, and mirrored so that it rises on every
+/// axis. It holds plain floats, so that the lanes of a vector can take them. The proof of the walk, with its lemmas L1
+/// to L12, is in WALK.md.
 struct ClippedPath {
+  /// What became of the path.
   enum class Status : std::uint8_t {
     miss,     ///< the path misses the grid
-    clipped,  ///< it is walked
-    too_far,  ///< so far away that it cannot be clipped within the padding: it must meet all triangles
+    clipped,  ///< the path can be walked
+    too_far,  ///< the path starts too far away to be clipped (L10); it must be tested against all triangles
   };
 
-  /// Rates between these need no scaling: tau is below 2^36 then while the path is in the grid, or 1 on a segment. So
-  /// one of less than `min_rate` moves it by less than 2^-24 cells, and counts as none.
+  /// A ray or line that is slower than this on all axes, in cells a unit of t, is scaled (L11).
   static constexpr float slow = 0x1p-20F;
+  /// A path that is faster than this on some axis is scaled.
   static constexpr float fast = 0x1p20F;
+  /// A lower rate counts as 0, because it moves the path by less than 2^-27 cells (L11).
   static constexpr float min_rate = 0x1p-66F;
+  /// The inverse of a rate of 0. It puts all crossings beyond every tau that counts (L1).
   static constexpr float max_inverse = 0x1p100F;
 
   Status status = Status::miss;
-  bool is_clipped_in_float = false;  ///< tau is t - origin[2] then
-  std::uint32_t octant = 0;          ///< bit k: mirrored on axis k
-  detail::Float4 start;              ///< where the walk begins
+  bool is_clipped_in_float = false;  ///< if true, tau is t - origin[2]
+  std::uint32_t octant = 0;          ///< bit k is set if the path is mirrored on axis k
+  detail::Float4 start;              ///< the position where the walk begins, where tau is 0
   detail::Float4 rate;               ///< cells a unit of the walk's parameter tau
-  detail::Float4 inverse_rate;       ///< finite
-  float end = 0;                     ///< tau beyond which nothing counts
-  float exit = 0;                    ///< tau at which the path leaves the grid, about
-  /// tau = t unit[0] unit[1] unit[2] - origin[0] - origin[1] - origin[2]. Of a path that is clipped in float, only
-  /// `origin[2]` is set.
+  detail::Float4 inverse_rate;       ///< 1 / rate, or `max_inverse` where the rate is 0
+  float end = 0;                     ///< beyond this tau nothing counts (L12)
+  float exit = 0;                    ///< the tau at which the path leaves the grid, rounded
+  /// tau is t unit[0] unit[1] unit[2] - origin[0] - origin[1] - origin[2]. Not set if the path is clipped in float.
   std::array<double, 3> unit;
+  /// Only `origin[2]` is set if the path is clipped in float.
   std::array<double, 3> origin;
 
-  /// The axes on which it is mirrored, all ones.
+  /// Returns a mask of the axes on which the path is mirrored.
   [[nodiscard]] detail::Int4 is_mirrored() const noexcept {
     using namespace detail;
     return (all_lanes(static_cast<std::int32_t>(octant)) & Int4{1, 2, 4, 0}) != all_lanes(0);
   }
 
-  /// [first_t, last_t] is the part of the path that counts, either end possibly infinite. A path that is not finite is
-  /// outside. The caller holds a FloatingPointEnvironment.
+  /// Clips a path. [first_t, last_t] is the part that counts; either end may be infinite. A path that is not finite
+  /// misses the grid. The caller must hold a FloatingPointEnvironment.
   template <typename Scalar>
   ClippedPath(const Grid& grid, const Path<Scalar>& path, double first_t, double last_t) noexcept;
   ClippedPath() = default;
 
-  /// Whether it ends in the cube of empty cells in which it begins, as most short ones do, and so meets nothing. Of a
-  /// path that is inside. Of one that begins in a cell with a list it also fetches the word of the cell where it ends.
+  /// Returns true if the path meets nothing, because it ends in the cube of empty cells in which it begins (L6). Most
+  /// short paths do. The path must be clipped. If it begins in a cell with a list, the word of its last cell is
+  /// prefetched.
   [[gnu::always_inline]] [[nodiscard]] bool stays_in_empty_space(const Grid& grid) const noexcept {
     using namespace detail;
     const GridFrame& frame = grid.frame();
@@ -68,7 +73,7 @@ struct ClippedPath {
     const GridFrame::TopOrder& order = frame.top_orders[octant];
     const CellWord word = grid.top()[static_cast<std::size_t>(order.index(first))];
     if (!word.is_empty()) {
-      // A short path mostly goes through one more cell, the one where it ends, whose word it would wait for then.
+      // Most short paths go through one more cell, the last one. Without a prefetch the walk would wait for its word.
       const Int4 stop = to_int(frame.float_stop) >> shift;
       const Int4 end_cell = min(max(last, first), stop - 1);
       __builtin_prefetch(&grid.top()[static_cast<std::size_t>(order.index(end_cell))]);
@@ -78,11 +83,11 @@ struct ClippedPath {
     return !any_lane(last - first >= all_lanes(cells));
   }
 
-  /// tau at t or a little beyond it.
+  /// Returns tau at t, rounded up (L12).
   [[gnu::always_inline]] [[nodiscard]] float beyond(double t) const noexcept {
     return is_clipped_in_float ? beyond(t, origin[2]) : beyond_in_double(t);
   }
-  /// The same where tau is t - `enters`.
+  /// Returns tau at t, rounded up, where tau is t - `enters`.
   [[nodiscard]] static float beyond(double t, double enters) noexcept {
     const double tau = t - enters;
     const double rounding = (std::fabs(t) + std::fabs(enters)) * 0x1p-50 + std::fabs(tau) * 0x1p-22 + 0x1p-140;
@@ -90,8 +95,10 @@ struct ClippedPath {
   }
 
  private:
+  /// Clips any path in double (L9).
   template <typename Scalar>
   void place_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t) noexcept;
+  /// Clips a path in float (L8). Returns false if it is not near the grid, or if it is too slow or too fast.
   bool try_clip_in_float(const GridFrame& frame, const Path<float>& path, float first_t, float last_t) noexcept;
   [[nodiscard]] float beyond_in_double(double t) const noexcept;
 };
@@ -101,13 +108,13 @@ template <typename Scalar>
                                                        double last_t) noexcept {
   if (grid.is_empty()) return;
   if constexpr (std::is_same_v<Scalar, float>) {
-    // The limits of a float path are floats.
+    // The limits of a path of floats are floats.
     if (try_clip_in_float(grid.frame(), path, static_cast<float>(first_t), static_cast<float>(last_t))) return;
   }
   place_in_double(grid.frame(), path, first_t, last_t);
 }
 
-/// For most paths: near and neither slow nor fast. Without branches on the direction, which nobody could foretell.
+// It has no branches on the direction, because a processor could not predict them.
 [[gnu::always_inline]] inline bool ClippedPath::try_clip_in_float(const GridFrame& frame, const Path<float>& path,
                                                                   float first_t, float last_t) noexcept {
   using namespace detail;
@@ -128,7 +135,7 @@ template <typename Scalar>
   leaving[3] = -last_t;
   const Float4 limits = max_lanes(-from * inverse_rate, leaving, speed, masked(~is_near, all_lanes(1.0F)));
   if (limits[3] != 0 || !(limits[2] >= slow || path.has_end())) return false;
-  // Whether it may enter later is known before the divisions are done. Most paths begin inside, and wait for none.
+  // Most paths begin inside the grid. This test does not wait for the divisions, so these paths do not wait either.
   const bool may_enter_later = any_lane(from < all_lanes(0.0F)) || first_t != 0;
   float enters = 0;
   start = from;
@@ -148,20 +155,19 @@ template <typename Scalar>
   return true;
 }
 
-/// The cells that a path goes through, in the path's order, empty ones in leaps where these are long.
+/// Visits the cells that a path goes through, in the order of the path. It leaps over long rows of empty cells.
 ///
-/// Contract: for every triangle that the path exactly meets at some t in the range, and that `shorten` has not put out
-/// of reach, a cell that lists the triangle is visited before the walk ends. The argument stands in grid_traversal.cpp;
-/// it presupposes that the caller holds a FloatingPointEnvironment for as long as it walks.
+/// Contract: let the path exactly meet a triangle at some t in the range, and not beyond any t that `shorten` was
+/// given. Then a cell that lists the triangle is visited before the walk ends. WALK.md has the proof. The caller must
+/// hold a FloatingPointEnvironment during the whole walk.
 class GridTraversal {
  public:
-  /// Cells are stepped through one by one unless as many can be leapt over at once. A step waits neither for a word nor
-  /// for a place to become an index, and takes a fraction of a leap's time. (With 4 or 8 long paths take 2 to 4%
-  /// longer, and 14% with leaps alone.) A walk that begins in an empty cell begins with a leap.
+  /// The walk leaps if it can leap over this many cells. Else it steps to the next cell, which is faster: a step waits
+  /// neither for a word nor for a conversion to an index. A walk that begins in an empty cell begins with a leap.
   static constexpr std::uint32_t min_leap = 6;
 
-  /// Stands at the first cell, or at the end where the path is not inside the grid. Both outlive the walk. One that
-  /// begins later, where the path enters the grid's cover, leaves out what lies before.
+  /// Begins at the first cell. If the path is not clipped, the walk is at its end at once. The grid and the path must
+  /// outlive the walk. `enters` is the tau at which the walk begins: where the path enters the grid's cover (L7).
   [[gnu::always_inline]] GridTraversal(const Grid& grid, const ClippedPath& path, float enters = 0) noexcept
       : grid_(grid), path_(path), end_(path.end) {
     using namespace detail;
@@ -177,18 +183,19 @@ class GridTraversal {
   }
 
   [[nodiscard]] bool at_end() const noexcept { return at_end_; }
-  /// What the cell holds in which the walk stands; it is never divided.
+  /// Returns what the current cell holds. The cell is never divided.
   [[nodiscard]] CellWord word() const noexcept { return word_; }
-  /// That cell's low corner and edge, in finest cells as the path is mirrored.
+  /// Returns the low corner of the current cell, in finest cells. It is mirrored like the path.
   [[nodiscard]] std::array<std::int32_t, 3> low() const noexcept {
     const detail::Int4 low = detail::to_int(planes_) - size_;
     return {low[0], low[1], low[2]};
   }
+  /// Returns the edge of the current cell, in finest cells.
   [[nodiscard]] std::int32_t size() const noexcept { return size_; }
 
-  /// Steps beyond the cell, or beyond the cube of empty cells that begins with it.
+  /// Goes beyond the current cell, or beyond the cube of empty cells that begins with it (L2).
   [[gnu::always_inline]] void advance() noexcept {
-    if (size_ != step_size_) [[unlikely]] {  // NOLINT(bugprone-branch-clone): of other likelihood than the next one
+    if (size_ != step_size_) [[unlikely]] {  // NOLINT(bugprone-branch-clone): less likely than the next branch
       leap();
     } else if (word_.is_empty() && word_.distance(path_.octant) >= min_leap) {
       leap();
@@ -197,14 +204,15 @@ class GridTraversal {
     }
   }
 
-  /// Whether the path may meet a triangle of the cell's list: it passes through the box that they take up there.
+  /// Returns false if the path meets no triangle of the cell's list, because it misses the box of the list (L3).
   [[gnu::always_inline]] [[nodiscard]] bool meets_box() const noexcept {
     const TausOfBox tau = taus_of_box();
     return !detail::any_lane_exceeds_any(tau.enters, tau.leaves);
   }
 
-  /// The same of a path that passes through that box, by the list's slab: unless the path is beyond the same plane
-  /// where it enters the box and where it leaves that.
+  /// Returns false if the path meets no triangle of the cell's list, because it misses the slab of the list (L4). The
+  /// path misses the slab if it is beyond the same plane where it enters the box and where it leaves the box.
+  /// `meets_box` must be true.
   [[gnu::always_inline]] [[nodiscard]] bool meets(CellSlab slab) const noexcept {
     using namespace detail;
     const TausOfBox tau = taus_of_box();
@@ -222,18 +230,18 @@ class GridTraversal {
     return !(std::max(enters, leaves) < low || std::min(enters, leaves) > high);
   }
 
-  /// What the path meets beyond parameter t is of no interest any more.
+  /// Ends the walk at parameter t, because the caller does not need what the path meets beyond it.
   void shorten(double t) noexcept { end_ = std::min(end_, path_.beyond(t)); }
 
  private:
-  /// tau at which the path enters and leaves the box on each axis, or begins and ends.
+  /// The tau at which the path enters and leaves the box of the list.
   struct TausOfBox {
-    detail::Float4 enters, leaves;
+    detail::Float4 enters, leaves;  ///< on each axis; the fourth lane has where the walk begins and ends
   };
   [[gnu::always_inline]] [[nodiscard]] TausOfBox taus_of_box() const noexcept {
     using namespace detail;
     const Int4 bits = all_lanes(static_cast<std::int32_t>(grid_.box(word_).bits()));
-    // Where the path is mirrored, the sides change places and count from the other end.
+    // Where the path is mirrored, low and high sides are exchanged and counted from the other end.
     constexpr std::int32_t last_part = CellBox::parts - 1;
     const Int4 turn = is_mirrored_ & last_part;
     const Int4 first = (bits >> (Int4{0, 10, 20, 0} + (is_mirrored_ & 5)) & last_part) ^ turn;
@@ -241,7 +249,7 @@ class GridTraversal {
     const float part = static_cast<float>(size_) * (1.0F / CellBox::parts);
     const Float4 padding = GridFrame::padding_share * grid_.frame().float_stop;
     const Float4 corner = planes_ - static_cast<float>(size_) - path_.start;
-    // What does not depend on the box is ready when that is loaded.
+    // These do not depend on the box, so they are ready when the box is loaded.
     const Float4 tau_of_part = part * path_.inverse_rate;
     const Float4 first_tau = (corner - padding) * path_.inverse_rate;
     const Float4 last_tau = (corner + (part + padding)) * path_.inverse_rate;
@@ -250,10 +258,10 @@ class GridTraversal {
     return {with_fourth(enters, 0), with_fourth(leaves, end_)};
   }
 
-  /// Into the next top cell.
+  /// Goes to the next top cell.
   [[gnu::always_inline]] void step() noexcept {
     using namespace detail;
-    // Which planes are crossed next is known sooner than when, and only that is waited for by the next step.
+    // The comparisons tell which planes are crossed before `tau` is known. The next step waits only for them.
     const Float4 next_axis = __builtin_shufflevector(crossing_, crossing_, 1, 2, 0, 3);
     const Float4 last_axis = __builtin_shufflevector(crossing_, crossing_, 2, 0, 1, 3);
     const Int4 crossed = (crossing_ <= next_axis) & (crossing_ <= last_axis) & Int4{-1, -1, -1, 0};
@@ -261,7 +269,7 @@ class GridTraversal {
     at_end_ = !(tau[0] < end_);
     if (at_end_) return;
     const auto size = static_cast<float>(size_);
-    // No plane ahead is crossed before tau = 0, and the next one not before this one.
+    // A maximum is enough, because no plane ahead is crossed before tau = 0, or before the plane before it.
     crossing_ = max(crossing_, masked(crossed, next_crossing_));
     planes_ += masked(crossed, all_lanes(size));
     next_crossing_ = (planes_ + size - path_.start) * path_.inverse_rate;
@@ -269,24 +277,26 @@ class GridTraversal {
     look();
     if (!word_.is_divided()) return;
     const Int4 low = to_int(planes_) - size_;
-    descend(min(max(to_int(path_.start + tau * path_.rate), low), low + (size_ - 1)));
+    descend(min(max(to_int(path_.start + tau * path_.rate), low), low + (size_ - 1)));  // L2, case (iii)
   }
 
+  /// Goes beyond the cell, or the cube of empty cells, and finds the next cell anew.
   [[gnu::always_inline]] void leap() noexcept {
     using namespace detail;
     const std::int32_t cells = word_.is_empty() ? static_cast<std::int32_t>(word_.distance(path_.octant)) : 1;
     const Float4 plane = planes_ + static_cast<float>(size_ * (cells - 1));
     const Float4 crossing = (plane - path_.start) * path_.inverse_rate;
     const Float4 tau = min_lane(crossing);
-    // No farther than the plane but for roundings, so that it fits.
+    // The position is not beyond the plane, but for roundings. So it fits an integer.
     const Int4 position = to_int(path_.start + tau * path_.rate);
-    const Int4 finest = crossing == tau ? to_int(plane) : max(position, to_int(planes_) - size_);
+    const Int4 finest = crossing == tau ? to_int(plane) : max(position, to_int(planes_) - size_);  // L2, (i) and (iii)
     at_end_ = !(tau[0] < end_) || any_lane(finest >= to_int(grid_.frame().float_stop));
     if (at_end_) return;
     enter(finest);
     begin_steps();
   }
 
+  /// Computes what `step` needs. Steps end at the first outer plane that is crossed (L2).
   [[gnu::always_inline]] void begin_steps() noexcept {
     using namespace detail;
     step_size_ = static_cast<std::int32_t>(grid_.frame().division);
@@ -296,7 +306,7 @@ class GridTraversal {
     end_ = std::min(end_, min_lane(without_fourth(leaves))[0]);
   }
 
-  /// Finds the undivided cell around the finest one.
+  /// Makes the undivided cell that holds this finest cell the current one.
   [[gnu::always_inline]] void enter(detail::Int4 finest) noexcept {
     size_ = static_cast<std::int32_t>(grid_.frame().division);
     top_ = order().index(finest >> static_cast<std::int32_t>(2 * grid_.levels()));
@@ -306,6 +316,7 @@ class GridTraversal {
   }
   [[nodiscard]] const GridFrame::TopOrder& order() const noexcept { return grid_.frame().top_orders[path_.octant]; }
   [[gnu::always_inline]] void look() noexcept { word_ = grid_.top()[static_cast<std::size_t>(top_)]; }
+  /// Goes from a divided cell to the undivided cell in it that holds this finest cell.
   [[gnu::always_inline]] void descend(detail::Int4 finest) noexcept {
     const auto [word, size] = undivided(grid_, word_, finest, is_mirrored_);
     word_ = word;
@@ -317,7 +328,8 @@ class GridTraversal {
     CellWord word;
     std::int32_t size;
   };
-  /// Apart, and a function of values alone, so that the walk's state stays in registers.
+  /// Returns the undivided cell that holds the finest cell. It is a function of its own that takes only values, so that
+  /// the state of the walk stays in registers.
   [[gnu::noinline]] static Cell undivided(const Grid& grid, CellWord word, detail::Int4 finest,
                                           detail::Int4 is_mirrored) noexcept {
     std::uint32_t shift = 2 * grid.levels();
@@ -335,14 +347,14 @@ class GridTraversal {
 
   const Grid& grid_;
   const ClippedPath& path_;
-  detail::Float4 planes_ = {0, 0, 0, 0};         ///< the cell's far ones
-  detail::Float4 crossing_ = {0, 0, 0, 0};       ///< of a top cell: tau at which the path crosses them,
-  detail::Float4 next_crossing_ = {0, 0, 0, 0};  ///< and those of the cells after it: known before they are wanted
-  detail::Int4 is_mirrored_ = {0, 0, 0, 0};      ///< the axes on which it is mirrored
+  detail::Float4 planes_ = {0, 0, 0, 0};         ///< the far planes of the cell
+  detail::Float4 crossing_ = {0, 0, 0, 0};       ///< the tau at which the path crosses the far planes of a top cell
+  detail::Float4 next_crossing_ = {0, 0, 0, 0};  ///< the same for the next cell on each axis, computed ahead
+  detail::Int4 is_mirrored_ = {0, 0, 0, 0};      ///< a mask of the axes on which the path is mirrored
   std::int32_t top_ = 0;                         ///< the top cell's index
-  std::int32_t size_ = 1;
-  std::int32_t step_size_ = 0;  ///< a top cell's, as soon as the walk may step
-  float end_;
+  std::int32_t size_ = 1;                        ///< the edge of the cell
+  std::int32_t step_size_ = 0;                   ///< the edge of a top cell, or 0 until the walk may step
+  float end_;                                    ///< the walk ends at this tau
   CellWord word_;
   bool at_end_ = true;
 };
