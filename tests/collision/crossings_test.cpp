@@ -15,7 +15,7 @@
 namespace surehit::test {
 namespace {
 
-/// The cells in which a path stands at once, beside the 19 u R that grid_traversal.cpp says it stays within.
+/// The cells in which a path stands at once, beside the 19 eps R that L5 of WALK.md says it stays within.
 class CrossingsTest : public WalkError<float> {
  protected:
   using Cell = std::array<float, 3>;

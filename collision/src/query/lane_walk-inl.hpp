@@ -123,7 +123,7 @@ class LaneWalk {
   };
 
   /// Places paths of six floats each, start and end or direction, of which all lanes' can be read and `count` are
-  /// there. The bound is derived in grid_traversal.cpp: starts within one width of the grid, in float.
+  /// there. The bound is derived in WALK.md, L8: starts within one width of the grid, in float.
   HWY_INLINE Clipped clip(const float* paths, bool is_segment, float first_t, float last_t, std::size_t count,
                           WalkingPaths& clipped, KernelLanes& kernel_paths) const {
     const FloatTag d;
@@ -264,7 +264,7 @@ class LaneWalk {
   }
 
   /// Stands in the cells behind as many crossings as there are lanes, from a number on, in a grid without levels.
-  /// Returns the lanes that it takes. Over all numbers no cell is left out, as is argued in grid_traversal.cpp.
+  /// Returns the lanes that it takes. Over all numbers no cell is left out, as L5 of WALK.md shows.
   HWY_INLINE std::uint32_t stand(const Crossings& crossings, float from, WalkingPaths& cells) const {
     const FloatTag d;
     const ClippedPath& path = crossings.path;
