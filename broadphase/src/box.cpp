@@ -6,9 +6,9 @@
 
 namespace surehit {
 
-template <typename Scalar>
+template <FloatOrDouble Scalar>
 Box<Scalar> box_of(const TriangleMeshView<Scalar>& mesh) {
-  // A box for each corner, so that none waits for another.
+  // Each corner has a box of its own, so that no minimum or maximum waits for another.
   using Point = typename detail::VertexLanes<Scalar>::Point;
   const Box<Scalar> none;
   Point low[3];

@@ -11,7 +11,7 @@
 namespace surehit::detail {
 
 /// What a collider holds behind its pointer.
-template <typename Scalar>
+template <FloatOrDouble Scalar>
 struct ColliderState {
   /// What a rebuild is made in. Then it takes the place of what was.
   struct Spare {

@@ -1,11 +1,14 @@
 #include "surehit/intersect.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "narrowphase.hpp"
 #include "support/floating_point_environment.hpp"
 
 namespace surehit {
 
-template <typename Scalar>
+template <FloatOrDouble Scalar>
 std::optional<Hit<Scalar>> intersect(const std::type_identity_t<Path<Scalar>>& path, const Triangle<Scalar>& triangle,
                                      const std::type_identity_t<QueryOptions<Scalar>>& options) noexcept {
   const FloatingPointEnvironment environment;
@@ -19,9 +22,27 @@ std::optional<Hit<Scalar>> intersect(const std::type_identity_t<Path<Scalar>>& p
   return narrowphase.hit(candidate);
 }
 
-template std::optional<Hit<float>> intersect(const Path<float>&, const Triangle<float>&,
-                                             const QueryOptions<float>&) noexcept;
-template std::optional<Hit<double>> intersect(const Path<double>&, const Triangle<double>&,
-                                              const QueryOptions<double>&) noexcept;
+// A path that is cut at hit.t still meets the triangle exactly if its exact t is not above hit.t.
+template <FloatOrDouble Scalar>
+Scalar max_t_keeping(const std::type_identity_t<Path<Scalar>>& path, const Triangle<Scalar>& triangle,
+                     const Hit<Scalar>& hit) noexcept {
+  const FloatingPointEnvironment environment;
+  QueryStatistics statistics;
+  const Path<Scalar>& whole = path;
+  const QueryOptions<Scalar> cut{.max_t = hit.t};
+  const detail::PathRange<Scalar> range(whole, cut);
+  detail::Contact contact;
+  const bool is_kept = detail::is_finite(whole) && !range.is_empty() && detail::is_finite(triangle) &&
+                       detail::Narrowphase<Scalar>(whole, cut, range, statistics).find_contact(triangle, contact);
+  return is_kept ? hit.t : std::nextafter(hit.t, std::numeric_limits<Scalar>::infinity());
+}
+
+#define SUREHIT_INSTANTIATE(Scalar)                                                                       \
+  template SUREHIT_API std::optional<Hit<Scalar>> intersect(const Path<Scalar>&, const Triangle<Scalar>&, \
+                                                            const QueryOptions<Scalar>&) noexcept;        \
+  template SUREHIT_API Scalar max_t_keeping(const Path<Scalar>&, const Triangle<Scalar>&, const Hit<Scalar>&) noexcept;
+SUREHIT_INSTANTIATE(float)
+SUREHIT_INSTANTIATE(double)
+#undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit

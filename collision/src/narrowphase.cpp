@@ -5,6 +5,7 @@
 
 #include "exact/exact_contact.hpp"
 #include "filter/bounded_contact.hpp"
+#include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
 namespace {

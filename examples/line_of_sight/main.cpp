@@ -127,8 +127,8 @@ void look(const Request& request) {
     mesh = read_with_z_up(request);
   }
   Colliderf collider;
-  const auto invalid = timed(figures.build_seconds, [&] { return collider.try_build(mesh.view()); });
-  if (invalid) throw InputError(request.mesh_path + ": " + invalid->what());
+  const BuildResult built = timed(figures.build_seconds, [&] { return collider.try_build(mesh.view()); });
+  if (!built) throw InputError(request.mesh_path + ": " + built.error().what());
   if (!request.eye.empty()) {
     eye = parse_eye(request.eye);
   } else if (!request.mesh_path.empty()) {

@@ -22,10 +22,7 @@ struct Mesh {
   std::vector<std::string> warnings;
 
   /// Valid until an array changes.
-  [[nodiscard]] TriangleMeshView<Scalar> view() const {
-    return {vertices.empty() ? nullptr : vertices.front().data(), vertices.size(),
-            triangles.empty() ? nullptr : triangles.front().data(), triangles.size()};
-  }
+  [[nodiscard]] TriangleMeshView<Scalar> view() const { return {vertices, triangles}; }
 
   [[nodiscard]] std::uint32_t face_of(std::uint32_t triangle) const {
     return faces.empty() ? triangle : faces[triangle];

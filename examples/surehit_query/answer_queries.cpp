@@ -135,8 +135,8 @@ ReadCollider<Scalar> read_collider(const QueryRequest& request) {
   for (const std::string& warning : mesh.warnings) warn("surehit-query", request.mesh_path + ": " + warning);
   const std::vector<std::uint32_t> masks = masks_of(request, mesh);
   Collider<Scalar> collider;
-  if (const auto invalid = collider.try_build(mesh.view(), {.masks = masks})) {
-    throw InputError(request.mesh_path + ": " + invalid->what());
+  if (const BuildResult built = collider.try_build(mesh.view(), {.masks = masks}); !built) {
+    throw InputError(request.mesh_path + ": " + built.error().what());
   }
   if (request.ids == IdKind::triangle) mesh.faces.clear();
   return {std::move(collider), std::move(mesh.faces)};
@@ -192,7 +192,7 @@ class MeshQueries {
     const std::vector<Shape> asked = paths(begin, end);
     AnsweredBlock answered;
     std::string& lines = answered.lines;
-    mesh_.collider.first_hits(asked, hits, options_, &answered.statistics);
+    mesh_.collider.first_hits(asked, hits, {.options = options_, .statistics = &answered.statistics});
     for (std::size_t i = 0; i < hits.size(); ++i) {
       if (hits[i].triangle == no_triangle) {
         lines += "-1,,,,";
@@ -219,8 +219,9 @@ class MeshQueries {
 
   [[nodiscard]] AnsweredBlock any_hits(std::size_t begin, std::size_t end) const {
     std::vector<std::uint8_t> blocked(end - begin);
+    const std::vector<Shape> asked = paths(begin, end);
     AnsweredBlock answered;
-    mesh_.collider.any_hits(paths(begin, end), blocked, options_, &answered.statistics);
+    mesh_.collider.any_hits(asked, blocked, {.options = options_, .statistics = &answered.statistics});
     for (const std::uint8_t hit : blocked) answered.lines += hit != 0 ? "1\n" : "0\n";
     return answered;
   }

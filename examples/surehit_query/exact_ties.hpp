@@ -47,8 +47,7 @@ class ExactTies {
     std::vector<std::uint32_t> ids(corners.size());
     std::iota(ids.begin(), ids.end(), 0u);
     Collider<Scalar> turned;
-    const TriangleMeshView<Scalar> mesh(corners.front().data(), corners.size(), ids.data(), end - begin);
-    if (turned.try_build(mesh)) return;  // cannot be: the collider has taken each of them
+    if (!turned.try_build({corners, ids})) return;  // cannot be: the collider has taken each of them
 
     std::vector<Hit<Scalar>> in_turned_order;
     turned.all_hits(path, in_turned_order, options_);

@@ -52,16 +52,6 @@ void append_vector(const Vector3<Scalar>& vector, std::string& text) {
 }
 
 /// The unit normal of a triangle that is in no mesh.
-template <typename Scalar>
-[[nodiscard]] Vector3<Scalar> normal_of(const Triangle<Scalar>& triangle) {
-  std::array<Scalar, 9> corners;
-  auto* next = corners.data();
-  for (const auto* corner : {&triangle.a, &triangle.b, &triangle.c})
-    next = std::copy(corner->begin(), corner->end(), next);
-  constexpr std::array<std::uint32_t, 3> ids = {0, 1, 2};
-  return normal(TriangleMeshView<Scalar>(corners.data(), 3, ids.data(), 1), 0);
-}
-
 /// The columns that a user may ask for behind those of every hit: the point, and the normal of the triangle.
 class MoreColumns {
  public:
@@ -74,7 +64,7 @@ class MoreColumns {
   template <typename Shape, typename Scalar>
   void append(const Shape& path, const Hit<Scalar>& hit, const Triangle<Scalar>& triangle, std::string& text) const {
     if (has_points_) append_vector(point(path, hit), text);
-    if (has_normals_) append_vector(normal_of(triangle), text);
+    if (has_normals_) append_vector(normal(triangle), text);
   }
 
   void append_none(std::string& text) const { text.append((has_points_ ? 3 : 0) + (has_normals_ ? 3 : 0), ','); }

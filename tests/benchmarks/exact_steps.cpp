@@ -43,8 +43,8 @@ QueryStatistics taken_by(const Colliderf& collider, const Segmentf& segment) {
   QueryStatistics statistics;
   Hitf hit;
   std::uint8_t blocked = 0;
-  collider.first_hits(std::span(&segment, 1), std::span(&hit, 1), {}, &statistics);
-  collider.any_hits(std::span(&segment, 1), std::span(&blocked, 1), {}, &statistics);
+  collider.first_hits(std::span(&segment, 1), std::span(&hit, 1), {.statistics = &statistics});
+  collider.any_hits(std::span(&segment, 1), std::span(&blocked, 1), {.statistics = &statistics});
   return statistics;
 }
 

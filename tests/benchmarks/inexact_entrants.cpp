@@ -114,6 +114,7 @@ class FirstAsComputed {
   static constexpr bool wants_order = true;
 
   explicit FirstAsComputed(const Query<float>&) {}
+  void begin(const Query<float>&) { reset(); }
   void reset() { t_ = std::numeric_limits<float>::infinity(); }
 
   template <typename AnyPath>
@@ -155,6 +156,7 @@ class AnyAsComputed {
   static constexpr bool wants_order = false;
 
   explicit AnyAsComputed(const Query<float>&) {}
+  void begin(const Query<float>&) { reset(); }
   void reset() { is_done_ = false; }
 
   template <typename AnyPath>
@@ -173,23 +175,25 @@ class AnyAsComputed {
 template <typename Kernel>
 void first_hits_by(const Query<float>& query, std::span<const Segmentf> paths, std::span<Hitf> hits) {
   std::fill(hits.begin(), hits.end(), Hitf{});
-  const PathRange<float> range(paths.front(), query.options);
+  SharedQuery queries(query, PathKind::segment);
   const auto finish = [&](std::size_t index, const FirstAsComputed<Kernel>& first) {
     if (first.is_found()) hits[index] = first.hit(query, paths[index]);
   };
-  const auto alone = [&](std::size_t index) { hits[index] = first_hit<float>(query, paths[index]).value_or(Hitf{}); };
-  answer_each<FirstAsComputed<Kernel>>(query, range, paths, finish, alone);
+  const auto alone = [&](std::size_t index) {
+    hits[index] = dispatch_first_hit<float>(query, paths[index]).value_or(Hitf{});
+  };
+  search_paths<FirstAsComputed<Kernel>>(queries, PathSpan<float>(paths), finish, alone);
 }
 
 template <typename Kernel>
 void any_hits_by(const Query<float>& query, std::span<const Segmentf> paths, std::span<std::uint8_t> blocked) {
   std::fill(blocked.begin(), blocked.end(), std::uint8_t{0});
-  const PathRange<float> range(paths.front(), query.options);
+  SharedQuery queries(query, PathKind::segment);
   const auto finish = [&](std::size_t index, const AnyAsComputed<Kernel>& any) {
     blocked[index] = any.is_done() ? 1 : 0;
   };
-  const auto alone = [&](std::size_t index) { blocked[index] = any_hit<float>(query, paths[index]) ? 1 : 0; };
-  answer_each<AnyAsComputed<Kernel>>(query, range, paths, finish, alone);
+  const auto alone = [&](std::size_t index) { blocked[index] = dispatch_any_hit<float>(query, paths[index]) ? 1 : 0; };
+  search_paths<AnyAsComputed<Kernel>>(queries, PathSpan<float>(paths), finish, alone);
 }
 
 // Highway exports plain functions.
@@ -262,7 +266,7 @@ class InexactBatch : public Contender {
     const FloatingPointEnvironment environment;
     const QueryOptions<float> options;
     QueryStatistics unread;
-    answer({grid(), blocks_, {}, options, nullptr, unread});
+    answer({grid(), blocks_, {}, options, nullptr, unread, 0});
   }
 
   detail::Inexactness inexactness_;

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Measures everything and writes what is published: the blocks of README.md between markers, FIGURES.md and ratios.svg.
+"""Measures everything and writes what is published: README.md and FIGURES.md between their markers, and ratios.svg.
+
+In FIGURES.md, what follows the last marker is written too: all tables of surehit_benchmark.
 
 What it does not know is passed on to surehit_benchmark, to --quick too, which shows in half a minute that all of this
 works, and leaves figures without meaning: put the files back afterwards.
@@ -20,10 +22,12 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 
 PATH_SETS = ["short", "near", "long", "sight", "edge"]
+NOT_EDGE = PATH_SETS[:-1]
 CLOSEST, ANY = "closest hit", "any hit"
 OURS = ["surehit batch", "surehit single"]
 INEXACT = ["surehit without its exact stage", "surehit without its filter"]
 MEDIUM, LOW = "Embree fast medium", "Embree fast low"
+ROBUST = "Embree robust medium"
 OTHER_INSTRUCTION_SETS = ["avx2", "sse4"]
 
 
@@ -78,7 +82,7 @@ def name_of_instruction_set(name):
     return name.upper().replace("AVX512", "AVX-512")
 
 
-# What stands between README.md's markers: a function for each block, by its name.
+# What is between the markers: a function for each block, by its name.
 
 
 def machine(figures):
@@ -119,26 +123,113 @@ def queries(figures):
     )
 
 
+def shown_range(ratios, show=number):
+    return f"{show(min(ratios))} to {show(max(ratios))}"
+
+
+def query_ratios(figures, questions, contender, ours, sets):
+    return [
+        figures.median(
+            table="queries", mesh=mesh, paths=paths, question=question, contender=contender, measure=f"over {ours}"
+        )
+        for mesh in figures.values("mesh", table="queries")
+        for paths in sets
+        for question in questions
+    ]
+
+
 def ranges(figures):
-    def cell(question, contender, ours):
-        def ratio(mesh, paths):
-            where = {"mesh": mesh, "paths": paths, "question": question, "contender": contender}
-            return figures.median(table="queries", measure=f"over {ours}", **where)
-
-        sets = [paths for paths in PATH_SETS if paths != "edge"]
-        ratios = [ratio(mesh, paths) for mesh, _ in figures.meshes("queries") for paths in sets]
-        return f"{number(min(ratios))} to {number(max(ratios))}"
-
     batch, single = OURS
     rows = [
-        [asked, *(cell(question, f"{MEDIUM} {way}", ours) for question in (CLOSEST, ANY))]
+        [
+            asked,
+            *(
+                shown_range(query_ratios(figures, [question], f"{MEDIUM} {way}", ours, NOT_EDGE))
+                for question in (CLOSEST, ANY)
+            ),
+        ]
         for asked, ours, way in (
             ("batch ÷ single rays", batch, "x1"),
             ("batch ÷ packets", batch, "x8"),
             ("single calls ÷ single rays", single, "x1"),
         )
     ]
-    return markdown(["least and most", "closest hit", "any hit"], rows)
+    return markdown(["min to max", "closest hit", "any hit"], rows)
+
+
+def wrong(figures):
+    """Of the same peers the wrong decisions, and the time."""
+    rows = []
+    for shown, contender in (
+        ("surehit, batches", OURS[0]),
+        ("CGAL, exact predicates", "CGAL"),
+        ("Embree, robust mode", f"{ROBUST} x1"),
+        ("Embree, fast mode", f"{MEDIUM} x1"),
+        ("Bullet", "Bullet"),
+    ):
+        row = [shown]
+        for sets in ["edge"], NOT_EDGE:
+            counts = [
+                figures.median(
+                    table="queries", mesh=mesh, paths=paths, question=ANY, contender=contender,
+                    measure="wrong decisions",
+                )
+                for mesh in figures.values("mesh", table="queries")
+                for paths in sets
+            ]  # fmt: skip
+            row.append(f"{sum(counts):,.0f}")
+        if contender == OURS[0]:
+            row.append("1")
+        else:
+            row.append(shown_range(query_ratios(figures, [ANY], contender, OURS[0], PATH_SETS)))
+        rows.append(row)
+    return markdown(["", "aimed at vertices and edges", "all others", "time, relative to surehit"], rows)
+
+
+def summary(figures):
+    batch, single = OURS
+
+    def times(question, way, ours, sets):
+        return shown_range(query_ratios(figures, [question], f"{MEDIUM} {way}", ours, sets))
+
+    def builds_over(quality, measure):
+        meshes = figures.values("mesh", table="build")
+        return [figures.median(table="build", mesh=mesh, contender=quality, measure=measure) for mesh in meshes]
+
+    def on(name):
+        cells = [
+            over_meshes(
+                figures, instruction_set=name, table="queries", paths=paths, question=question,
+                contender=f"{MEDIUM} x1", measure="over surehit batch",
+            )
+            for paths in NOT_EDGE
+            for question in (CLOSEST, ANY)
+        ]  # fmt: skip
+        return shown_range([float(cell) for cell in cells])
+
+    builds_in_low, builds_in_medium = (builds_over(quality, "build over surehit") for quality in (LOW, MEDIUM))
+    memory = [1 / ratio for ratio in builds_over(LOW, "bytes over surehit")]
+    lines = [
+        f"A batch of closest hits is {times(CLOSEST, 'x1', batch, NOT_EDGE)} times as fast as Embree's single rays. "
+        f"It is {times(CLOSEST, 'x8', batch, NOT_EDGE)} times as fast as its packets of eight. For any hit, these are "
+        f"{times(ANY, 'x1', batch, NOT_EDGE)} and {times(ANY, 'x8', batch, NOT_EDGE)} times.",
+        f"Single calls are {times(CLOSEST, 'x1', single, NOT_EDGE)} times as fast as single rays for closest hits, and "
+        f"{times(ANY, 'x1', single, NOT_EDGE)} times for any hit.",
+        f"On paths aimed at vertices and edges, a batch of closest hits is {times(CLOSEST, 'x1', batch, ['edge'])} "
+        f"times as fast as single rays. For any hit, it is {times(ANY, 'x1', batch, ['edge'])} times. Exact arithmetic "
+        "decides many of these.",
+        f"A build is {shown_range(builds_in_low)} times as fast as one of Embree's low quality, and takes "
+        f"{shown_range(memory)} times its memory. It is {shown_range(builds_in_medium)} times as fast as one of medium "
+        "quality.",
+    ]
+    others = [name for name in OTHER_INSTRUCTION_SETS if name in figures.instruction_sets[1:]]
+    if others:
+        with_less = [f"{on(name)} times with only {name_of_instruction_set(name)}" for name in others]
+        lines.append(
+            f"The speed relative to single rays is {' and '.join(with_less)}, as the median of the meshes. "
+            "Embree keeps its best instruction set."
+        )
+    return "".join(f"- {line}\n" for line in lines)
 
 
 def builds(figures):
@@ -268,13 +359,15 @@ def bounds(figures):
     return markdown(["paths", "cells", "candidates", "closest hit", "any hit"], rows)
 
 
-BLOCKS = {
-    block.__name__: block
-    for block in (machine, queries, ranges, builds, ticks, growth, threads, instruction_sets, exactness, bounds)
-}
+BLOCKS_OF_README = [machine, wrong, summary]
+BLOCKS_OF_FIGURES = [
+    machine, queries, ranges, instruction_sets, builds, ticks, growth, threads, exactness, bounds
+]  # fmt: skip
+BLOCKS = {block.__name__: block for block in BLOCKS_OF_README + BLOCKS_OF_FIGURES}
 
 
 MARKED = re.compile(r"(<!-- figures: (\w+) -->)(\n?).*?(<!-- end -->)", re.DOTALL)
+ALL_TABLES = "<!-- figures: all tables -->\n"
 
 
 def with_blocks(text, figures):
@@ -287,10 +380,20 @@ def with_blocks(text, figures):
     return MARKED.sub(renewed, text)
 
 
+def read_published(path, blocks):
+    """The text, if it has the markers of these blocks. This is found out before the minutes of measuring."""
+    text = path.read_text(encoding="utf-8")
+    names = sorted(match[2] for match in MARKED.finditer(text))
+    expected = sorted(block.__name__ for block in blocks)
+    if names != expected:
+        fail(f"{path.name} has blocks {names} instead of {expected}")
+    return text
+
+
 def check(figures):
     contenders = figures.values("contender")
-    if not {"CGAL", f"{MEDIUM} x1"} <= set(contenders):
-        fail("README.md speaks of Embree and CGAL; the benchmark was built or run without them")
+    if not {"CGAL", "Bullet", f"{MEDIUM} x1", f"{ROBUST} x1"} <= set(contenders):
+        fail("README.md compares with Embree, CGAL and Bullet; the benchmark was built or run without one of them")
     for row in figures.matching(measure="wrong decisions"):
         if row["contender"] in OURS and float(row["median"]) > 0:
             fail(f"surehit is wrong, which has to be mended first: {row}")
@@ -306,11 +409,11 @@ def main():
     if not (arguments.build / "CMakeCache.txt").exists():
         fail(f"{arguments.build} is not configured; cmake --preset release does it for build/release")
     subprocess.run(["cmake", "--build", arguments.build, "--target", "surehit_benchmark"], check=True)
-    readme = ROOT / "README.md"
-    text = readme.read_text(encoding="utf-8")
-    names = sorted(match[2] for match in MARKED.finditer(text))
-    if names != sorted(BLOCKS):  # said before the minutes of measuring
-        fail(f"README.md has blocks {names} instead of {sorted(BLOCKS)}")
+    readme, full = ROOT / "README.md", HERE / "FIGURES.md"
+    text_of_readme = read_published(readme, BLOCKS_OF_README)
+    text_of_full = read_published(full, BLOCKS_OF_FIGURES)
+    if text_of_full.count(ALL_TABLES) != 1:
+        fail(f"{full.name} lacks the line {ALL_TABLES.strip()}")
     program = arguments.build / "tests" / "benchmarks" / "surehit_benchmark"
 
     figures = Figures()
@@ -333,11 +436,10 @@ def main():
                 run("--instruction-set", name, "--table", "queries", "--contender", MEDIUM)
 
         check(figures)
-        text = with_blocks(text, figures)
-        origin = f"What `publish.py` measured ({machine(figures)}); [README.md](README.md) says what it means."
-        full = "\n\n".join(["# Figures", origin, *sections]) + "\n"
-        (HERE / "FIGURES.md").write_text(full, encoding="utf-8")
-        readme.write_text(text, encoding="utf-8")
+        head = text_of_full.partition(ALL_TABLES)[0]
+        tables = "".join(f"\n{section}\n" for section in sections)
+        full.write_text(with_blocks(head, figures) + ALL_TABLES + tables, encoding="utf-8")
+        readme.write_text(with_blocks(text_of_readme, figures), encoding="utf-8")
         shutil.copyfile(chart_path, HERE / "ratios.svg")
 
 

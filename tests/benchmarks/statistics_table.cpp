@@ -12,9 +12,9 @@ QueryStatistics counts_of(const Colliderf& collider, Question question, const Pa
   QueryStatistics statistics;
   Answers answers(paths.size());
   if (question == Question::closest_hit) {
-    collider.first_hits(paths.segments(), answers.hits, {}, &statistics);
+    collider.first_hits(paths.segments(), answers.hits, {.statistics = &statistics});
   } else {
-    collider.any_hits(paths.segments(), answers.blocked, {}, &statistics);
+    collider.any_hits(paths.segments(), answers.blocked, {.statistics = &statistics});
   }
   return statistics;
 }

@@ -29,7 +29,7 @@ class SurehitBatch : public SurehitContender {
 
   void first_on_threads(const PathBatch& paths, std::span<const PathBatch>, Executor executor,
                         std::span<Hitf> hits) const override {
-    collider_.first_hits(paths.segments(), hits, executor);
+    collider_.first_hits(paths.segments(), hits, {.executor = executor});
   }
 };
 

@@ -68,16 +68,14 @@ struct Work {
 };
 
 Work work_of(const Course& course, std::size_t rounds) {
-  const TriangleMeshViewf mesh(course.vertices.front().data(), course.vertices.size(), course.triangles.front().data(),
-                               course.triangles.size());
-  const Colliderf collider(mesh, BuildOptions{course.grid, {}});
+  const Colliderf collider(TriangleMeshViewf(course.vertices, course.triangles), {.grid = course.grid});
   const std::span<const Segmentf> paths(course.paths);
   std::vector<std::uint8_t> blocked(paths.size());
   Work work;
-  collider.any_hits(paths, std::span(blocked), {}, &work.counts);
+  collider.any_hits(paths, blocked, {.statistics = &work.counts});
   RoundSeries times;
   for (std::size_t round = 0; round < rounds; ++round) {
-    times.push_back(nanoseconds_of<ThreadClock>([&] { collider.any_hits(paths, std::span(blocked)); }));
+    times.push_back(nanoseconds_of<ThreadClock>([&] { collider.any_hits(paths, blocked); }));
   }
   work.nanoseconds = summary_of(times).median;
   return work;

@@ -25,7 +25,7 @@ TYPED_TEST(BoxTest, ByDefaultHoldsNothing) {
 
 TYPED_TEST(BoxTest, OfAMeshWithoutTrianglesIsEmpty) {
   const std::array<TypeParam, 3> vertex = {1, 2, 3};
-  EXPECT_TRUE(box_of(TriangleMeshView<TypeParam>(vertex.data(), 1, nullptr, 0)).is_empty());
+  EXPECT_TRUE(box_of(TriangleMeshView<TypeParam>(vertex, {})).is_empty());
 }
 
 TYPED_TEST(BoxTest, OfOnePointHoldsThatPointAlone) {
@@ -57,7 +57,7 @@ TYPED_TEST(BoxTest, IsEmptyIfItIsOnOneAxis) {
 TYPED_TEST(BoxTest, OfAMeshCountsVerticesThatATriangleUses) {
   const std::vector<Vector3<TypeParam>> vertices = {{-100, 0, 0}, {1, 2, 3}, {-4, 5, -6}, {7, -8, 9}, {0, 0, 100}};
   const std::array<std::uint32_t, 3> triangle = {1, 2, 3};
-  const auto box = box_of(TriangleMeshView<TypeParam>(vertices.front().data(), vertices.size(), triangle.data(), 1));
+  const auto box = box_of(TriangleMeshView<TypeParam>(vertices, triangle));
   EXPECT_EQ(box.low, (Vector3<TypeParam>{-4, -8, -6}));
   EXPECT_EQ(box.high, (Vector3<TypeParam>{7, 5, 9}));
 }

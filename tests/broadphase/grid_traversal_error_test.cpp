@@ -10,7 +10,7 @@
 namespace surehit::test {
 namespace {
 
-/// Beside the 16 eps R that WALK.md says the path stays within.
+/// Beside the 16 eps R that WALK.md (L8) says the path stays within.
 template <typename Scalar>
 class GridTraversalError : public WalkError<Scalar> {
  protected:

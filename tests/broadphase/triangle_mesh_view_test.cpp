@@ -21,9 +21,7 @@ class TriangleMeshViewTest : public testing::Test {
   static constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
   static constexpr Scalar nan = std::numeric_limits<Scalar>::quiet_NaN();
 
-  TriangleMeshView<Scalar> view() const {
-    return {vertices.front().data(), vertices.size(), triangles.front().data(), triangles.size()};
-  }
+  TriangleMeshView<Scalar> view() const { return {vertices, triangles}; }
 
   std::vector<Vector3<Scalar>> vertices = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}};
   std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}, {2, 1, 3}};
@@ -61,8 +59,9 @@ TYPED_TEST(TriangleMeshViewTest, ReadsInterleavedArraysInPlace) {
   };
   const std::vector<Corner> corners = {{{1, 2, 3}, {}}, {{4, 5, 6}, {}}, {{7, 8, 9}, {}}};
   const std::vector<Face> faces = {{9, {0, 1, 2}}, {9, {2, 0, 1}}};
-  const TriangleMeshView<TypeParam> view(corners.front().position.data(), corners.size(), faces.front().corners.data(),
-                                         faces.size(), sizeof(Corner), sizeof(Face));
+  const TriangleMeshView<TypeParam> view(
+      VertexView<TypeParam>::strided(corners.front().position.data(), corners.size(), sizeof(Corner)),
+      TriangleIndexView::strided(faces.front().corners.data(), faces.size(), sizeof(Face)));
   EXPECT_EQ(view.triangle(1).a, (Vector3<TypeParam>{7, 8, 9}));
   EXPECT_EQ(view.triangle(1).c, (Vector3<TypeParam>{4, 5, 6}));
   EXPECT_FALSE(find_invalid(view).has_value());
@@ -90,7 +89,7 @@ TYPED_TEST(TriangleMeshViewTest, ReadsEigenMatricesMapsAndBlocks) {
 
 TYPED_TEST(TriangleMeshViewTest, ReadsSixteenBitIndices) {
   const std::vector<std::array<std::uint16_t, 3>> triangles = {{0, 1, 2}, {2, 1, 3}};
-  const TriangleMeshView<TypeParam> dense(this->vertices.front().data(), 4, triangles.front().data(), 2);
+  const TriangleMeshView<TypeParam> dense(this->vertices, triangles);
   EXPECT_EQ(dense.triangle(1).a, this->vertices[2]);
   EXPECT_EQ(dense.triangle(1).b, this->vertices[1]);
   EXPECT_EQ(dense.triangle(1).c, this->vertices[3]);
@@ -101,8 +100,8 @@ TYPED_TEST(TriangleMeshViewTest, ReadsSixteenBitIndices) {
     std::array<std::uint16_t, 3> corners;
   };
   const std::vector<Face> faces = {{9, {0, 1, 2}}, {9, {3, 2, 4}}};
-  const TriangleMeshView<TypeParam> strided(this->vertices.front().data(), 4, faces.front().corners.data(), 2,
-                                            sizeof this->vertices.front(), sizeof(Face));
+  const TriangleMeshView<TypeParam> strided(
+      this->vertices, TriangleIndexView::strided(faces.front().corners.data(), faces.size(), sizeof(Face)));
   EXPECT_EQ(strided.corner(1, 0), 3U);
   const auto invalid = find_invalid(strided);
   ASSERT_TRUE(invalid.has_value());
@@ -150,8 +149,7 @@ TYPED_TEST(TriangleMeshViewTest, NamesTheFirstNonFiniteVertexUsedOrNot) {
       auto vertices = this->vertices;
       this->triangles = {{0, 1, 2}};
       vertices[3][axis] = bad;
-      const TriangleMeshView<TypeParam> view(vertices.front().data(), vertices.size(), this->triangles.front().data(),
-                                             1);
+      const TriangleMeshView<TypeParam> view(vertices, this->triangles);
       const auto invalid = find_invalid(view);
       ASSERT_TRUE(invalid.has_value()) << bad << " on axis " << axis;
       EXPECT_EQ(invalid->reason, Reason::non_finite_vertex);
@@ -174,10 +172,10 @@ TYPED_TEST(TriangleMeshViewTest, NamesIndicesBeforeVertices) {
   EXPECT_EQ(find_invalid(this->view())->reason, Reason::index_out_of_range);
 }
 
-/// A stride of nothing lets one triangle stand for any number of them.
+/// Their count is checked before any is read.
 TYPED_TEST(TriangleMeshViewTest, RefusesMoreTrianglesThanIds) {
-  const TriangleMeshView<TypeParam> view(this->vertices.front().data(), 4, this->triangles.front().data(), no_triangle,
-                                         3 * sizeof(TypeParam), 0);
+  const TriangleMeshView<TypeParam> view(this->vertices,
+                                         TriangleIndexView::strided(this->triangles.front().data(), no_triangle, 0));
   const auto invalid = find_invalid(view);
   ASSERT_TRUE(invalid.has_value());
   EXPECT_EQ(invalid->reason, Reason::too_many_triangles);

@@ -55,7 +55,7 @@ class VertexLanesTest : public testing::Test {
   }
   static TriangleMeshView<Scalar> mesh_at(const Scalar* vertices, std::size_t stride_in_bytes) {
     static constexpr std::array<std::uint32_t, 12> triangles = {0, 1, 2, 4, 0, 1, 2, 4, 3, 3, 2, 4};
-    return {vertices, count, triangles.data(), triangles.size() / 3, stride_in_bytes};
+    return {VertexView<Scalar>::strided(vertices, count, stride_in_bytes), triangles};
   }
 };
 TYPED_TEST_SUITE(VertexLanesTest, Scalars, ScalarNames);
@@ -86,11 +86,11 @@ TYPED_TEST(VertexLanesTest, HoldVerticesThatAreNotAligned) {
 
 TYPED_TEST(VertexLanesTest, HoldAVertexAlone) {
   const auto numbers = this->numbers(3);
-  this->expect_vertices({&numbers[0], 1, nullptr, 0});
+  this->expect_vertices({VertexView<TypeParam>::strided(numbers.data(), 1, 0), {}});
 }
 
 TYPED_TEST(VertexLanesTest, LoadNothingOfAMeshWithoutVertices) {
-  const TriangleMeshView<TypeParam> none(nullptr, 0, nullptr, 0);
+  const TriangleMeshView<TypeParam> none;
   this->expect_vertices(none);
 }
 

@@ -48,8 +48,7 @@ void expect_rounded(const GeneratedMesh<float>& mesh, const std::vector<Segment<
     for (std::size_t count = 1; count <= most && !testing::Test::HasFailure(); ++count) {
       first = (first + 7) % (paths.size() - count + 1);
       std::vector<Hit<float>> hits(count);
-      collider.first_hits(std::span<const AnyPath>(paths).subspan(first, count), std::span<Hit<float>>(hits), {},
-                          &statistics);
+      collider.first_hits(std::span<const AnyPath>(paths).subspan(first, count), hits, {.statistics = &statistics});
       for (std::size_t i = 0; i < count; ++i) {
         EXPECT_TRUE(same_bits(hits[i], expected[first + i]))
             << hex_text(Path<float>(paths[first + i])) << ", path " << i << " of " << count << ": " << hex_text(hits[i])
@@ -150,10 +149,9 @@ TEST(BatchRounding, of_ignored_triangles_gives_no_hits) {
     const ForcedInstructionSet forced(target);
     SCOPED_TRACE(name_of_instruction_set(target));
     std::vector<Hit<float>> hits(segments.size());
-    collider.first_hits(std::span<const Segment<float>>(segments), std::span<Hit<float>>(hits));
+    collider.first_hits(segments, hits);
     for (const Hit<float>& hit : hits) EXPECT_EQ(hit.triangle, 0U);
-    collider.first_hits(std::span<const Segment<float>>(segments), std::span<Hit<float>>(hits),
-                        {.ignored_triangle = 0});
+    collider.first_hits(segments, hits, {.options = {.ignored_triangle = 0}});
     for (const Hit<float>& hit : hits) EXPECT_EQ(hit.triangle, no_triangle);
   }
 }
@@ -192,7 +190,7 @@ TEST(BatchRounding, gives_zeros_of_negative_t_their_sign) {
     SCOPED_TRACE(name_of_instruction_set(target));
     QueryStatistics statistics;
     std::vector<Hit<float>> hits(lines.size());
-    collider.first_hits(std::span<const Line<float>>(lines), std::span(hits), {}, &statistics);
+    collider.first_hits(lines, hits, {.statistics = &statistics});
     for (const Hit<float>& hit : hits) {
       EXPECT_EQ(hit.triangle, 0U);
       EXPECT_TRUE(same_bits(hit.t, 0.0F));

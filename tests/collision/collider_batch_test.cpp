@@ -35,8 +35,8 @@ class ColliderBatch : public testing::Test {
     std::vector<std::uint8_t> blocked(paths.size(), 9);
     QueryStatistics first_statistics;
     QueryStatistics any_statistics;
-    stack.first_hits(paths, std::span<Hit<Scalar>>(hits), options, &first_statistics);
-    stack.any_hits(paths, std::span<std::uint8_t>(blocked), options, &any_statistics);
+    stack.first_hits(paths, hits, {.options = options, .statistics = &first_statistics});
+    stack.any_hits(paths, blocked, {.options = options, .statistics = &any_statistics});
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const auto single = stack.first_hit(paths[i], options);
       EXPECT_TRUE(same_bits(hits[i], single.value_or(Hit<Scalar>{})));
@@ -75,8 +75,8 @@ TYPED_TEST(ColliderBatch, miss_has_no_triangle) {
   const std::vector<Segment<TypeParam>> miss = {{{9, 9, 9}, {9, 9, 8}}};
   std::vector<Hit<TypeParam>> hits(1, Hit<TypeParam>{1, 1, 1, 1, Side::front});
   std::vector<std::uint8_t> blocked(1, 7);
-  this->stack.first_hits(std::span<const Segment<TypeParam>>(miss), std::span<Hit<TypeParam>>(hits));
-  this->stack.any_hits(std::span<const Segment<TypeParam>>(miss), std::span<std::uint8_t>(blocked));
+  this->stack.first_hits(miss, hits);
+  this->stack.any_hits(miss, blocked);
   EXPECT_EQ(hits[0].triangle, no_triangle);
   EXPECT_EQ(blocked[0], 0);
 }
@@ -87,8 +87,8 @@ TYPED_TEST(ColliderBatch, of_unequal_lengths_leaves_alone_what_is_beyond_the_sho
   const Hit<TypeParam> untouched{1, 1, 1, 77, Side::front};
   std::vector<Hit<TypeParam>> hits(5, untouched);
   std::vector<std::uint8_t> blocked(5, 77);
-  this->stack.first_hits(all.first(2), std::span<Hit<TypeParam>>(hits));
-  this->stack.any_hits(all.first(2), std::span<std::uint8_t>(blocked));
+  this->stack.first_hits(all.first(2), hits);
+  this->stack.any_hits(all.first(2), blocked);
   EXPECT_NE(hits[1].triangle, 77u);
   EXPECT_EQ(hits[2], untouched);
   EXPECT_NE(blocked[1], 77);

@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #if HWY_TARGET != HWY_SCALAR
-#include "query/lane_walk-inl.hpp"
+#include "walk/lane_walk-inl.hpp"
 #endif
 
 HWY_BEFORE_NAMESPACE();

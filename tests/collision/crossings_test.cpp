@@ -15,7 +15,7 @@
 namespace surehit::test {
 namespace {
 
-/// The cells in which a path stands at once, beside the 19 eps R that L5 of WALK.md says it stays within.
+/// The cells in which a path stands at once, beside the 19 eps R that WALK.md (L5) says it stays within.
 class CrossingsTest : public WalkError<float> {
  protected:
   using Cell = std::array<float, 3>;
@@ -39,7 +39,7 @@ class CrossingsTest : public WalkError<float> {
       ADD_FAILURE() << hex_text(path) << " is not walked";
       return 0;
     }
-    if (enters > 0) course.first = std::max(course.first, mpq_class(mpq_class(clipped.origin[2]) + enters));
+    if (enters > 0) course.first = std::max(course.first, mpq_class(mpq_class(clipped.tau.origin[2]) + enters));
     if (course.first > course.last) return 0;
     std::vector<Cell> cells = cells_of(grid_, clipped, enters);
     // In the path's order, which rises on every axis.

@@ -44,15 +44,15 @@ struct BatchAnswers {
   template <typename AnyPath>
   BatchAnswers(const Collider<Scalar>& collider, std::span<const AnyPath> paths, const QueryOptions<Scalar>& options)
       : hits(paths.size()), blocked(paths.size(), 9) {
-    collider.first_hits(paths, std::span(hits), options, &of_first);
-    collider.any_hits(paths, std::span(blocked), options, &of_any);
+    collider.first_hits(paths, hits, {.options = options, .statistics = &of_first});
+    collider.any_hits(paths, blocked, {.options = options, .statistics = &of_any});
   }
   template <typename AnyPath>
   BatchAnswers(const Collider<Scalar>& collider, std::span<const AnyPath> paths, Executor executor,
                const QueryOptions<Scalar>& options)
       : hits(paths.size()), blocked(paths.size(), 9) {
-    collider.first_hits(paths, std::span(hits), executor, options, &of_first);
-    collider.any_hits(paths, std::span(blocked), executor, options, &of_any);
+    collider.first_hits(paths, hits, {.options = options, .executor = executor, .statistics = &of_first});
+    collider.any_hits(paths, blocked, {.options = options, .executor = executor, .statistics = &of_any});
   }
 
   void expect_same_as(const BatchAnswers& other) const {

@@ -61,6 +61,9 @@ class NewThreads {
   std::size_t tasks_ = 0;
 };
 
+/// A temporary lives as long as the call that it is written in.
+Executor by(NewThreads&& threads) { return Executor(threads); }
+
 void expect_runs_each_once(Executor executor) {
   for (const std::size_t count : {0U, 1U, 2U, 100U}) {
     std::vector<std::atomic<int>> calls(count + 1);
@@ -90,7 +93,7 @@ TEST(Executor, of_objects_runs_each_index_once) {
   NewThreads threads(3);
   expect_runs_each_once(threads);
   EXPECT_EQ(threads.tasks(), 103U);
-  expect_runs_each_once(NewThreads(2));
+  expect_runs_each_once(by(NewThreads(2)));
   const std::function<void(std::size_t, const Executor::Task&)> function = backwards;
   expect_runs_each_once(function);
 }
@@ -117,6 +120,8 @@ TEST(Executor, is_of_nothing_but_what_takes_tasks) {
   EXPECT_FALSE((std::is_convertible_v<int, Executor>));
   EXPECT_FALSE((std::is_convertible_v<void (*)(std::size_t), Executor>));
   EXPECT_FALSE((std::is_default_constructible_v<Executor>));
+  // It would refer to what is gone.
+  EXPECT_FALSE((std::is_convertible_v<NewThreads, Executor>));
   EXPECT_TRUE((std::is_nothrow_constructible_v<Executor, NewThreads&>));
   EXPECT_TRUE((std::is_trivially_copyable_v<Executor>));
 }
@@ -136,7 +141,7 @@ TYPED_TEST_SUITE(BatchOnExecutor, Scalars, ScalarNames);
 TYPED_TEST(BatchOnExecutor, of_any_size_answers_as_without) {
   for (const std::size_t count : {0U, 1U, 4095U, 4096U, 4097U, 9000U}) {
     SCOPED_TRACE(count);
-    AnswersWithoutExecutor(this->many(), count).expect_same_with(NewThreads(3));
+    AnswersWithoutExecutor(this->many(), count).expect_same_with(by(NewThreads(3)));
   }
 }
 
@@ -148,7 +153,7 @@ TYPED_TEST(BatchOnExecutor, in_any_order_answers_as_without) {
 
 TYPED_TEST(BatchOnExecutor, of_any_threads_answers_as_without) {
   const AnswersWithoutExecutor expected(this->many(), this->max_paths);
-  for (const std::size_t count : {1U, 2U, 4U}) expected.expect_same_with(NewThreads(count));
+  for (const std::size_t count : {1U, 2U, 4U}) expected.expect_same_with(by(NewThreads(count)));
 }
 
 TYPED_TEST(BatchOnExecutor, with_options_answers_as_without) {
@@ -156,7 +161,7 @@ TYPED_TEST(BatchOnExecutor, with_options_answers_as_without) {
        {QueryOptions<TypeParam>{.min_t = TypeParam{0.25}, .max_t = TypeParam{0.75}, .culling = Culling::back},
         QueryOptions<TypeParam>{.ignored_triangle = 7, .ignore_start_contact = true, .ignore_end_contact = true},
         QueryOptions<TypeParam>{.mask = 0}}) {
-    AnswersWithoutExecutor(this->many(), 9000, options).expect_same_with(NewThreads(2));
+    AnswersWithoutExecutor(this->many(), 9000, options).expect_same_with(by(NewThreads(2)));
   }
 }
 
@@ -169,10 +174,10 @@ TYPED_TEST(BatchOnExecutor, gives_threads_something_to_share) {
   const auto& many = this->many();
   std::vector<std::uint8_t> blocked(many.segments.size());
   const std::span<const Segment<TypeParam>> segments(many.segments);
-  many.collider.any_hits(segments, std::span(blocked), counting);
+  many.collider.any_hits(segments, blocked, {.executor = counting});
   EXPECT_GE(tasks, 4U);
   EXPECT_LE(tasks, 20U);
-  many.collider.any_hits(segments.first(1000), std::span(blocked), counting);
+  many.collider.any_hits(segments.first(1000), blocked, {.executor = counting});
   EXPECT_EQ(tasks, 1U);
 }
 
@@ -184,8 +189,8 @@ TYPED_TEST(BatchOnExecutor, of_unequal_lengths_leaves_alone_what_is_beyond_the_s
     std::vector<Hit<TypeParam>> hits(9000, untouched);
     std::vector<std::uint8_t> blocked(9000, 77);
     QueryStatistics statistics;
-    many.collider.first_hits(lines.first(count), std::span(hits), &backwards, {}, &statistics);
-    many.collider.any_hits(lines.first(count), std::span(blocked), &backwards, {}, &statistics);
+    many.collider.first_hits(lines.first(count), hits, {.executor = &backwards, .statistics = &statistics});
+    many.collider.any_hits(lines.first(count), blocked, {.executor = &backwards, .statistics = &statistics});
     EXPECT_EQ(statistics.paths, 2 * count);
     for (std::size_t i = 0; i < hits.size(); ++i) {
       ASSERT_EQ(hits[i] == untouched, i >= count) << i;
@@ -193,8 +198,8 @@ TYPED_TEST(BatchOnExecutor, of_unequal_lengths_leaves_alone_what_is_beyond_the_s
     }
     std::fill(hits.begin(), hits.end(), untouched);
     std::fill(blocked.begin(), blocked.end(), std::uint8_t{77});
-    many.collider.first_hits(lines, std::span(hits).first(count), &backwards);
-    many.collider.any_hits(lines, std::span(blocked).first(count), &backwards);
+    many.collider.first_hits(lines, std::span(hits).first(count), {.executor = &backwards});
+    many.collider.any_hits(lines, std::span(blocked).first(count), {.executor = &backwards});
     for (std::size_t i = 0; i < hits.size(); ++i) {
       ASSERT_EQ(hits[i] == untouched, i >= count) << i;
       ASSERT_EQ(blocked[i] == 77, i >= count) << i;
@@ -208,7 +213,7 @@ TYPED_TEST(BatchOnExecutor, adds_to_the_statistics_that_it_is_given) {
   const BatchAnswers<TypeParam> expected(many.collider, rays, QueryOptions<TypeParam>{});
   QueryStatistics statistics = expected.of_first;
   std::vector<Hit<TypeParam>> hits(rays.size());
-  many.collider.first_hits(rays, std::span(hits), NewThreads(4), {}, &statistics);
+  many.collider.first_hits(rays, hits, {.executor = by(NewThreads(4)), .statistics = &statistics});
   QueryStatistics twice = expected.of_first;
   twice += expected.of_first;
   EXPECT_GT(twice.candidates, 0U);
@@ -221,8 +226,8 @@ TYPED_TEST(BatchOnExecutor, needs_no_statistics) {
   const BatchAnswers<TypeParam> expected(many.collider, segments, QueryOptions<TypeParam>{});
   std::vector<Hit<TypeParam>> hits(segments.size());
   std::vector<std::uint8_t> blocked(segments.size());
-  many.collider.first_hits(segments, std::span(hits), NewThreads(2));
-  many.collider.any_hits(segments, std::span(blocked), NewThreads(2));
+  many.collider.first_hits(segments, hits, {.executor = by(NewThreads(2))});
+  many.collider.any_hits(segments, blocked, {.executor = by(NewThreads(2))});
   expect_same<TypeParam>(hits, expected.hits);
   EXPECT_EQ(blocked, expected.blocked);
 }
@@ -250,9 +255,11 @@ TYPED_TEST(BatchOnExecutor, answers_the_same_in_any_floating_point_mode_of_its_t
 TYPED_TEST(BatchOnExecutor, never_throws) {
   const Collider<TypeParam>& collider = this->many().collider;
   static_assert(noexcept(collider.first_hits(std::declval<std::span<const Segment<TypeParam>>>(),
-                                             std::declval<std::span<Hit<TypeParam>>>(), std::declval<Executor>())));
-  static_assert(noexcept(collider.any_hits(std::declval<std::span<const Line<TypeParam>>>(),
-                                           std::declval<std::span<std::uint8_t>>(), std::declval<Executor>())));
+                                             std::declval<std::span<Hit<TypeParam>>>(),
+                                             std::declval<BatchOptions<TypeParam>>())));
+  static_assert(
+      noexcept(collider.any_hits(std::declval<std::span<const Line<TypeParam>>>(),
+                                 std::declval<std::span<std::uint8_t>>(), std::declval<BatchOptions<TypeParam>>())));
   SUCCEED();
 }
 
@@ -290,7 +297,9 @@ class BuildOnExecutor : public testing::Test {
 
   static void expect_same_with(Executor executor, const GeneratedMesh<Scalar>& mesh, const BuildOptions& options = {}) {
     Collider<Scalar> expected(mesh.view(), options);
-    Collider<Scalar> built(mesh.view(), executor, options);
+    BuildOptions on_threads = options;
+    on_threads.executor = executor;
+    Collider<Scalar> built(mesh.view(), on_threads);
     expect_same_bits(built, expected, mesh);
     GeneratedMesh<Scalar> moved = mesh;
     for (auto& vertex : moved.vertices) vertex[0] += vertex[1] * vertex[2];
@@ -312,13 +321,13 @@ TYPED_TEST(BuildOnExecutor, is_the_same_to_the_bit) {
     const auto mesh = scattered_triangles<TypeParam>(count, TypeParam{0.05F}, this->random_);
     this->expect_same_with(&forwards, mesh);
     this->expect_same_with(&backwards, mesh);
-    this->expect_same_with(NewThreads(3), mesh);
+    this->expect_same_with(by(NewThreads(3)), mesh);
   }
 }
 
 TYPED_TEST(BuildOnExecutor, is_the_same_where_cells_are_divided) {
   const auto mesh = scattered_triangles<TypeParam>(30'000, TypeParam{0.02F}, this->random_);
-  this->expect_same_with(NewThreads(2), mesh, {GridOptions{.resolution = {9, 5, 7}, .crowded = 20}, {}});
+  this->expect_same_with(by(NewThreads(2)), mesh, {GridOptions{.resolution = {9, 5, 7}, .crowded = 20}, {}});
 }
 
 TYPED_TEST(BuildOnExecutor, is_the_same_of_a_smooth_mesh) {
@@ -326,7 +335,7 @@ TYPED_TEST(BuildOnExecutor, is_the_same_of_a_smooth_mesh) {
   const BuildOptions options{GridOptions{.resolution = {70, 70, 70}}, {}};
   ASSERT_GT(grid_of(Collider<TypeParam>(mesh.view(), options)).lists().size(), 1U << 13);
   this->expect_same_with(&forwards, mesh, options);
-  this->expect_same_with(NewThreads(3), mesh, options);
+  this->expect_same_with(by(NewThreads(3)), mesh, options);
 }
 
 /// Those of the first part take more room than a part has, though not more than the mesh may take.
@@ -338,7 +347,7 @@ TYPED_TEST(BuildOnExecutor, is_the_same_where_a_part_has_no_room) {
   std::size_t of_first_part = 0;
   for (const std::uint32_t id : grid_of(collider).entries()) of_first_part += id < 8192 ? 1 : 0;
   ASSERT_GT(of_first_part, 8U * 8192U);
-  this->expect_same_with(NewThreads(2), mesh);
+  this->expect_same_with(by(NewThreads(2)), mesh);
 }
 
 TYPED_TEST(BuildOnExecutor, is_the_same_in_any_floating_point_mode_of_its_threads) {
@@ -361,9 +370,9 @@ TYPED_TEST(BuildOnExecutor, says_what_is_wrong_with_a_mesh) {
   auto mesh = scattered_triangles<TypeParam>(20'000, TypeParam{0.05F}, this->random_);
   Collider<TypeParam> collider(mesh.view());
   mesh.vertices.back()[0] = std::numeric_limits<TypeParam>::infinity();
-  EXPECT_TRUE(collider.try_rebuild(std::span<const Vector3<TypeParam>>(mesh.vertices), NewThreads(2)).has_value());
-  EXPECT_TRUE(collider.try_build(mesh.view(), NewThreads(2)).has_value());
-  EXPECT_THROW(Collider<TypeParam>(mesh.view(), NewThreads(2)), InvalidMesh);
+  EXPECT_FALSE(collider.try_rebuild(mesh.vertices, by(NewThreads(2))));
+  EXPECT_FALSE(collider.try_build(mesh.view(), {.executor = by(NewThreads(2))}));
+  EXPECT_THROW(Collider<TypeParam>(mesh.view(), {.executor = by(NewThreads(2))}), InvalidMesh);
 }
 
 }  // namespace

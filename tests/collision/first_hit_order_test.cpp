@@ -55,7 +55,7 @@ class FirstHitOrder : public testing::Test {
         const ForcedInstructionSet forced(target);
         SCOPED_TRACE(name_of_instruction_set(target));
         std::vector<Hit<Scalar>> hits(segments.size());
-        collider.first_hits(std::span<const Segment<Scalar>>(segments), std::span<Hit<Scalar>>(hits));
+        collider.first_hits(segments, hits);
         for (std::size_t i = 0; i < segments.size(); ++i) {
           SCOPED_TRACE(hex_text(Path<Scalar>(segments[i])) + " through " + std::to_string(triangles.size()) +
                        " triangles in " + std::to_string(grid.resolution[0]));
@@ -204,7 +204,7 @@ TYPED_TEST(FirstHitOrder, of_a_floor_and_one_of_a_lower_id_in_the_next_cell) {
     const Hit<TypeParam> single = collider.first_hit(segments.front()).value_or(Hit<TypeParam>{});
     EXPECT_TRUE(same_bits(single, expected.front())) << hex_text(single);
     std::vector<Hit<TypeParam>> hits(segments.size());
-    collider.first_hits(std::span<const Segment<TypeParam>>(segments), std::span<Hit<TypeParam>>(hits));
+    collider.first_hits(segments, hits);
     for (const Hit<TypeParam>& hit : hits) EXPECT_TRUE(same_bits(hit, expected.front())) << hex_text(hit);
   }
 }

@@ -91,7 +91,7 @@ class NormalOf : public testing::Test {
   static Vector3<Scalar> normal_of(const Triangle<Scalar>& triangle) {
     const std::array<Vector3<Scalar>, 3> vertices = {triangle.a, triangle.b, triangle.c};
     const std::array<std::uint32_t, 3> corners = {0, 1, 2};
-    return normal(TriangleMeshView<Scalar>(vertices.data()->data(), 3, corners.data(), 1), 0);
+    return normal(TriangleMeshView<Scalar>(vertices, corners), 0);
   }
 
   /// The true unit normal to 300 bits, which is as good as exact here.

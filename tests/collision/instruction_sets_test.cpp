@@ -38,8 +38,8 @@ struct Answers {
       any.push_back(collider.any_hit(paths[i], options) ? 1 : 0);
       collider.all_hits(paths[i], all[i], options);
     }
-    collider.first_hits(std::span<const AnyPath>(paths), std::span(batch_first), options);
-    collider.any_hits(std::span<const AnyPath>(paths), std::span(batch_any), options);
+    collider.first_hits(paths, batch_first, {.options = options});
+    collider.any_hits(paths, batch_any, {.options = options});
   }
 
   [[nodiscard]] std::size_t hit_count() const {

@@ -137,7 +137,7 @@ TYPED_TEST(KernelPathOf, is_the_same_in_lanes) {
         EXPECT_FALSE(collider.any_hit(path, nothing, &alone));
         QueryStatistics in_lane;
         std::uint8_t blocked = 1;
-        collider.any_hits(std::span(&path, 1), std::span(&blocked, 1), nothing, &in_lane);
+        collider.any_hits(std::span(&path, 1), std::span(&blocked, 1), {.options = nothing, .statistics = &in_lane});
         EXPECT_EQ(blocked, 0);
         // Where rounding lets one of them come to a list that the other misses, there is nothing to compare.
         if (alone.candidates != in_lane.candidates) return;

@@ -41,8 +41,8 @@ class LaneWalk : public testing::Test {
       SCOPED_TRACE(name_of_instruction_set(target));
       std::vector<Hit<Scalar>> first(paths.size());
       std::vector<std::uint8_t> any(paths.size());
-      collider.first_hits(std::span<const AnyPath>(paths), std::span(first));
-      collider.any_hits(std::span<const AnyPath>(paths), std::span(any));
+      collider.first_hits(paths, first);
+      collider.any_hits(paths, any);
       for (std::size_t i = 0; i < paths.size(); ++i) {
         SCOPED_TRACE(hex_text(Path<Scalar>(paths[i])));
         EXPECT_TRUE(same_bits(first[i], expected[i])) << hex_text(first[i]) << " and not " << hex_text(expected[i]);
@@ -292,7 +292,7 @@ TYPED_TEST(LaneWalk, never_turns_back) {
     const ForcedInstructionSet forced(target);
     QueryStatistics statistics;
     std::vector<Hit<TypeParam>> hits(lines.size());
-    collider.first_hits(std::span<const Line<TypeParam>>(lines), std::span(hits), {.mask = 0}, &statistics);
+    collider.first_hits(lines, hits, {.options = {.mask = 0}, .statistics = &statistics});
     EXPECT_LT(statistics.cells, lines.size() * 800) << name_of_instruction_set(target);
   }
 }

@@ -70,7 +70,7 @@ class ListBox : public testing::Test {
         EXPECT_GE(in_pieces.candidates, bounds[i].least);
         QueryStatistics in_lane;
         Hit<Scalar> hit;
-        collider.first_hits(std::span(&paths[i], 1), std::span(&hit, 1), nothing, &in_lane);
+        collider.first_hits(std::span(&paths[i], 1), std::span(&hit, 1), {.options = nothing, .statistics = &in_lane});
         EXPECT_EQ(hit.triangle, no_triangle);
         expect_between(in_lane, bounds[i]);
       }
@@ -81,7 +81,7 @@ class ListBox : public testing::Test {
       }
       QueryStatistics batch;
       std::vector<Hit<Scalar>> hits(paths.size());
-      collider.first_hits(std::span<const AnyPath>(paths), std::span(hits), nothing, &batch);
+      collider.first_hits(paths, hits, {.options = nothing, .statistics = &batch});
       expect_between(batch, of_all);
     }
   }

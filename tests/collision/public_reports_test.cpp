@@ -72,10 +72,10 @@ class PublicReports : public testing::Test {
   template <typename AnyPath>
   static void expect_batch(const Collider<Scalar>& collider, const std::vector<AnyPath>& paths, const Hits& expected) {
     Hits hits(paths.size());
-    collider.first_hits(std::span<const AnyPath>(paths), std::span(hits));
+    collider.first_hits(paths, hits);
     expect_same<Scalar>(hits, expected);
     std::vector<std::uint8_t> blocked(paths.size());
-    collider.any_hits(std::span<const AnyPath>(paths), std::span(blocked));
+    collider.any_hits(paths, blocked);
     for (std::size_t i = 0; i < paths.size(); ++i) EXPECT_EQ(blocked[i], expected[i].triangle == no_triangle ? 0 : 1);
   }
 

@@ -74,8 +74,8 @@ TYPED_TEST(QueryAllocation, none_in_batches) {
   std::vector<Hit<TypeParam>> hits(segments.size());
   std::vector<std::uint8_t> blocked(segments.size());
   EXPECT_EQ(allocations_of([&] {
-              this->collider.first_hits(std::span<const Segment<TypeParam>>(segments), std::span<Hit<TypeParam>>(hits));
-              this->collider.any_hits(std::span<const Segment<TypeParam>>(segments), std::span<std::uint8_t>(blocked));
+              this->collider.first_hits(segments, hits);
+              this->collider.any_hits(segments, blocked);
             }),
             0u);
   EXPECT_EQ(hits.back().triangle, 3u);

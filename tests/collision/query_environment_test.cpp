@@ -56,7 +56,7 @@ class EntryPoints {
   [[nodiscard]] std::vector<std::uint8_t> build_and_ask() const {
     std::vector<std::uint8_t> bytes;
     Collider<Scalar> collider;
-    add(bytes, collider.try_build(mesh_.view()).has_value());
+    add(bytes, !collider.try_build(mesh_.view()).has_value());
     for (const auto& segment : segments_) add_single(bytes, collider, segment);
     for (const auto& ray : rays_) add_single(bytes, collider, ray);
     for (const auto& line : lines_) add_single(bytes, collider, line);
@@ -117,8 +117,8 @@ class EntryPoints {
                  std::span<const AnyPath> paths) const {
     std::vector<Hit<Scalar>> hits(paths.size());
     std::vector<std::uint8_t> blocked(paths.size());
-    collider.first_hits(paths, std::span<Hit<Scalar>>(hits));
-    collider.any_hits(paths, std::span<std::uint8_t>(blocked));
+    collider.first_hits(paths, hits);
+    collider.any_hits(paths, blocked);
     for (const auto& hit : hits) add(bytes, hit);
     bytes.insert(bytes.end(), blocked.begin(), blocked.end());
   }

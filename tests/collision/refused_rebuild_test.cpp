@@ -50,11 +50,11 @@ class RefusedRebuild : public testing::Test {
 
   /// Refused in both ways alike.
   void expect_refused(const Vertices& vertices, Reason reason, std::size_t element, const std::string& named) {
-    const std::optional<InvalidMesh> returned = collider_.try_rebuild(view_of(vertices));
-    ASSERT_TRUE(returned);
-    EXPECT_EQ(returned->reason, reason);
-    EXPECT_EQ(returned->element, element);
-    const std::string message = returned->what();
+    const BuildResult returned = collider_.try_rebuild(view_of(vertices));
+    ASSERT_FALSE(returned);
+    EXPECT_EQ(returned.error().reason, reason);
+    EXPECT_EQ(returned.error().element, element);
+    const std::string message = returned.error().what();
     EXPECT_NE(message.find(named), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     expect_as_before();
@@ -89,10 +89,10 @@ TYPED_TEST(RefusedRebuild, of_other_vertices_than_the_mesh_has) {
 TYPED_TEST(RefusedRebuild, of_an_empty_collider_with_vertices) {
   Collider<TypeParam> empty;
   const std::vector<Vector3<TypeParam>> vertices(3, Vector3<TypeParam>::Zero());
-  const auto invalid = empty.try_rebuild(this->view_of(vertices));
-  ASSERT_TRUE(invalid);
-  EXPECT_EQ(invalid->reason, Reason::vertices_do_not_match);
-  EXPECT_EQ(invalid->element, 3U);
+  const BuildResult rebuilt = empty.try_rebuild(this->view_of(vertices));
+  ASSERT_FALSE(rebuilt);
+  EXPECT_EQ(rebuilt.error().reason, Reason::vertices_do_not_match);
+  EXPECT_EQ(rebuilt.error().element, 3U);
   EXPECT_EQ(empty.triangle_count(), 0U);
   EXPECT_TRUE(empty.box().is_empty());
 }
@@ -124,9 +124,9 @@ TYPED_TEST(RefusedRebuild, of_a_wrong_count_is_named_before_what_the_vertices_ar
 TYPED_TEST(RefusedRebuild, leaves_the_next_one_to_succeed) {
   auto vertices = this->mesh_.vertices;
   vertices[3][0] = std::numeric_limits<TypeParam>::quiet_NaN();
-  ASSERT_TRUE(this->collider_.try_rebuild(this->view_of(vertices)));
-  vertices = this->mesh_.vertices;
   ASSERT_FALSE(this->collider_.try_rebuild(this->view_of(vertices)));
+  vertices = this->mesh_.vertices;
+  ASSERT_TRUE(this->collider_.try_rebuild(this->view_of(vertices)));
   const Collider<TypeParam> expected(this->mesh_.view(), with_masks(this->masks_));
   expect_same_answers(this->collider_, expected, this->paths_);
 }

@@ -75,13 +75,13 @@ void expect_same_batch_answers(const Collider<Scalar>& left, const Collider<Scal
                                const std::vector<AnyPath>& paths, const QueryOptions<Scalar>& options = {}) {
   std::vector<Hit<Scalar>> hits(paths.size());
   std::vector<Hit<Scalar>> expected_hits(paths.size());
-  left.first_hits(std::span<const AnyPath>(paths), std::span(hits), options);
-  right.first_hits(std::span<const AnyPath>(paths), std::span(expected_hits), options);
+  left.first_hits(paths, hits, {.options = options});
+  right.first_hits(paths, expected_hits, {.options = options});
   expect_same<Scalar>(hits, expected_hits);
   std::vector<std::uint8_t> blocked(paths.size());
   std::vector<std::uint8_t> expected_blocked(paths.size());
-  left.any_hits(std::span<const AnyPath>(paths), std::span(blocked), options);
-  right.any_hits(std::span<const AnyPath>(paths), std::span(expected_blocked), options);
+  left.any_hits(paths, blocked, {.options = options});
+  right.any_hits(paths, expected_blocked, {.options = options});
   EXPECT_EQ(blocked, expected_blocked);
 }
 

@@ -15,6 +15,9 @@
 namespace surehit::test {
 namespace {
 
+/// A temporary lives as long as the call that it is written in.
+Executor by(TbbExecutor&& executor) { return Executor(executor); }
+
 TEST(TbbExecutor, runs_each_index_once) {
   for (const int threads : {1, 2, 4}) {
     TbbExecutor executor(threads);
@@ -42,8 +45,8 @@ TYPED_TEST(BatchOnTbb, answers_as_without) {
   const auto many = ManyPaths<TypeParam>::scattered(9000);
   for (const std::size_t count : {0U, 1U, 4097U, 9000U}) {
     const AnswersWithoutExecutor expected(many, count);
-    for (const int threads : {1, 2, 4}) expected.expect_same_with(TbbExecutor(threads));
-    expected.expect_same_with(TbbExecutor());
+    for (const int threads : {1, 2, 4}) expected.expect_same_with(by(TbbExecutor(threads)));
+    expected.expect_same_with(by(TbbExecutor()));
   }
 }
 

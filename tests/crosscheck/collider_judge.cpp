@@ -54,8 +54,8 @@ class ColliderJudge {
     const std::span<const Shape> paths(&shape, 1);
     Hit<Scalar> hit;
     std::uint8_t blocked = 2;
-    collider_.first_hits(paths, std::span(&hit, 1), options_);
-    collider_.any_hits(paths, std::span(&blocked, 1), options_);
+    collider_.first_hits(paths, std::span(&hit, 1), {.options = options_});
+    collider_.any_hits(paths, std::span(&blocked, 1), {.options = options_});
     compare("first_hits", Hits<Scalar>{hit}, expected.empty() ? Hits<Scalar>(1) : first_of(expected));
     compare("any_hits", blocked, static_cast<std::uint8_t>(!expected.empty()));
   }

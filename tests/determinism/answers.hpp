@@ -164,11 +164,11 @@ class Answers {
   void ask_batch(std::span<const AnyPath> paths, std::span<Hit<Scalar>> first, std::span<std::uint8_t> any,
                  const QueryOptions<Scalar>& options) {
     if (way_.executor) {
-      collider_.first_hits(paths, first, *way_.executor, options);
-      collider_.any_hits(paths, any, *way_.executor, options);
+      collider_.first_hits(paths, first, {.options = options, .executor = *way_.executor});
+      collider_.any_hits(paths, any, {.options = options, .executor = *way_.executor});
     } else {
-      collider_.first_hits(paths, first, options);
-      collider_.any_hits(paths, any, options);
+      collider_.first_hits(paths, first, {.options = options});
+      collider_.any_hits(paths, any, {.options = options});
     }
   }
 

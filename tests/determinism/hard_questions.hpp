@@ -43,12 +43,10 @@ class HardQuestions {
     }
   }
 
-  [[nodiscard]] TriangleMeshView<Scalar> view() const {
-    return {vertices.front().data(), vertices.size(), triangles.front().data(), triangles.size()};
-  }
+  [[nodiscard]] TriangleMeshView<Scalar> view() const { return {vertices, triangles}; }
   [[nodiscard]] Collider<Scalar> collider(const GridOptions& grid = {}) const {
     Collider<Scalar> result;
-    if (result.try_build(view(), {grid, masks})) return {};
+    if (!result.try_build(view(), {grid, masks})) return {};
     return result;
   }
 

@@ -71,8 +71,7 @@ class TriangleOrder : public testing::Test {
   }
 
   [[nodiscard]] Answers<Scalar> answers_of(const Mesh& triangles) const {
-    const Collider<Scalar> collider(
-        {vertices.front().data(), vertices.size(), triangles.front().data(), triangles.size()});
+    const Collider<Scalar> collider({vertices, triangles});
     return Answers<Scalar>(collider, questions);
   }
 

@@ -104,10 +104,9 @@ class ColliderCase {
 
   [[nodiscard]] bool build(Collider<Scalar>& collider) const {
     const BuildOptions options{grid_options_, masks_};
-    if (!is_rebuilt_) return !collider.try_build(mesh_.view(), options);
-    const TriangleMeshView<Scalar> before(vertices_before_.data()->data(), vertices_before_.size(),
-                                          mesh_.triangles.data()->data(), mesh_.triangles.size());
-    return !collider.try_build(before, options) && !collider.try_rebuild(mesh_.view().vertices());
+    if (!is_rebuilt_) return collider.try_build(mesh_.view(), options).has_value();
+    return collider.try_build({vertices_before_, mesh_.triangles}, options) &&
+           collider.try_rebuild(mesh_.view().vertices());
   }
 
   template <typename Shape>
@@ -129,8 +128,8 @@ class ColliderCase {
     std::vector<Hit<Scalar>> hits(batch_size);
     std::vector<std::uint8_t> blocked(batch_size, 2);
     QueryStatistics statistics;
-    collider.first_hits(shapes, hits, options_, &statistics);
-    collider.any_hits(shapes, blocked, options_, &statistics);
+    collider.first_hits(shapes, hits, {.options = options_, .statistics = &statistics});
+    collider.any_hits(shapes, blocked, {.options = options_, .statistics = &statistics});
     for (std::size_t i = 0; i < batch_size; ++i) {
       if (same_bits(hits[i], expected[i]) && blocked[i] == (expected[i].triangle != no_triangle)) continue;
       tell("batch of " + hex_text(Path<Scalar>(shapes[i])) + '\n' + hex_text(options_) + "\nexpected: " +

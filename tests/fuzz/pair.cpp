@@ -30,9 +30,9 @@ void check_triangle_alone(const Path<Scalar>& path, const Triangle<Scalar>& tria
                           const QueryOptions<Scalar>& options) {
   const std::array corners = {triangle.a, triangle.b, triangle.c};
   constexpr std::array<std::uint32_t, 3> ids = {0, 1, 2};
-  const TriangleMeshView<Scalar> mesh(corners[0].data(), 3, ids.data(), 1);
+  const TriangleMeshView<Scalar> mesh(corners, ids);
   Collider<Scalar> collider;
-  if (collider.try_build(mesh).has_value()) return;
+  if (!collider.try_build(mesh)) return;
   const std::string difference = collider_difference(collider, ExactMeshOracle<Scalar>(mesh, {}), path, options);
   if (!difference.empty()) stop_at(difference + "\nof the mesh of " + hex_text(triangle));
 }

@@ -69,8 +69,7 @@ void GeneratedMesh<Scalar>::add(const Triangle<Scalar>& triangle) {
 
 template <typename Scalar>
 TriangleMeshView<Scalar> GeneratedMesh<Scalar>::view() const {
-  if (triangles.empty()) return {};
-  return {vertices.front().data(), vertices.size(), triangles.front().data(), triangles.size()};
+  return {vertices, triangles};
 }
 
 template <typename Scalar>

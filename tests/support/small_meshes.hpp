@@ -19,9 +19,7 @@ struct SmallMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Path<Scalar>> paths;
 
-  [[nodiscard]] TriangleMeshView<Scalar> view() const {
-    return {vertices.data()->data(), vertices.size(), triangles.data()->data(), triangles.size()};
-  }
+  [[nodiscard]] TriangleMeshView<Scalar> view() const { return {vertices, triangles}; }
 };
 
 /// Where a small mesh comes from: one of the pair families, every triangle with a path of its own, or vertices on a

@@ -2,12 +2,13 @@
 
 #include <limits>
 
+#include "surehit/attributes.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 
 namespace surehit {
 
 /// An axis-parallel box, both ends included. The one made by default holds nothing.
-template <typename Scalar>
+template <FloatOrDouble Scalar>
 struct Box {
   Vector3<Scalar> low = Vector3<Scalar>::Constant(std::numeric_limits<Scalar>::infinity());
   Vector3<Scalar> high = Vector3<Scalar>::Constant(-std::numeric_limits<Scalar>::infinity());
@@ -25,8 +26,11 @@ struct Box {
 };
 
 /// The least box around all triangles of a valid mesh; vertices that no triangle uses do not count.
-template <typename Scalar>
-[[nodiscard]] Box<Scalar> box_of(const TriangleMeshView<Scalar>& mesh);
+template <FloatOrDouble Scalar>
+[[nodiscard]] SUREHIT_API Box<Scalar> box_of(const TriangleMeshView<Scalar>& mesh);
+
+extern template SUREHIT_API Box<float> box_of(const TriangleMeshView<float>&);
+extern template SUREHIT_API Box<double> box_of(const TriangleMeshView<double>&);
 
 using Boxf = Box<float>;
 using Boxd = Box<double>;

@@ -4,18 +4,28 @@
 #include <cstddef>
 #include <memory>
 #include <type_traits>
+#include <utility>
 
-#include "surehit/callable_address.hpp"
+#include "surehit/callable.hpp"
 
 namespace surehit {
 
-/// A reference to whatever spreads work over threads: any callable `void(std::size_t count, const Executor::Task&
-/// task)` that calls `task(i)` once for each i in [0, count), from any threads and in any order, and returns when all
-/// calls have. A game's job system fits in a lambda; `tbb_executor.hpp` has one for oneTBB. It owns nothing: the
-/// callable must outlive the query or the build, which a lambda written in the call does. It must not throw.
+namespace detail {
+template <typename Callable, typename Executor>
+concept RunsTasks =
+    OutlivesItsView<Callable> && !std::same_as<std::remove_cvref_t<Callable>, Executor> &&
+    std::is_invocable_v<std::remove_reference_t<Callable>&, std::size_t, const typename Executor::Task&>;
+}  // namespace detail
+
+/// Spreads work over threads: any callable `void(std::size_t count, const Executor::Task& task)`. It calls `task(i)`
+/// once for each i in [0, count), from any threads and in any order, and returns when all calls have returned. A game's
+/// job system fits in a lambda; `tbb_executor.hpp` has one for oneTBB.
+///
+/// A callable that has a name is referred to and must outlive the executor. A temporary one, such as a lambda, is
+/// copied in; it must be trivially copyable and hold at most six pointers. The callable must not throw.
 class Executor {
  public:
-  /// One batch's or build's work. It lives as long as the callable runs.
+  /// The work of one batch or one build. It is valid until the callable returns.
   class Task {
    public:
     void operator()(std::size_t index) const { call_(work_, index); }
@@ -31,12 +41,11 @@ class Executor {
     void (*call_)(const void*, std::size_t);
   };
 
-  template <typename Callable>
-  requires(!std::same_as<std::remove_cvref_t<Callable>, Executor> &&
-           std::is_invocable_v<Callable&, std::size_t, const Task&>) Executor(Callable&& callable)
-  noexcept
-      : callable_(detail::callable_address(callable)), call_([](void* target, std::size_t count, const Task& task) {
-          (*reinterpret_cast<std::remove_reference_t<Callable>*>(target))(count, task);
+  template <detail::RunsTasks<Executor> Callable>
+  Executor(Callable&& callable) noexcept
+      : callable_(std::forward<Callable>(callable)),
+        call_([](const detail::CallableView& target, std::size_t count, const Task& task) {
+          target.get<Callable>()(count, task);
         }) {}
 
   /// Calls `work(i)` for each i in [0, count).
@@ -46,8 +55,8 @@ class Executor {
   }
 
  private:
-  void* callable_;
-  void (*call_)(void*, std::size_t, const Task&);
+  detail::CallableView callable_;
+  void (*call_)(const detail::CallableView&, std::size_t, const Task&);
 };
 
 }  // namespace surehit

@@ -6,7 +6,7 @@ namespace surehit {
 
 /// The closed convex hull of three corners: a triangle with its edges and corners. Corners may coincide or lie on a
 /// line.
-template <typename Scalar>
+template <FloatOrDouble Scalar>
 struct Triangle {
   Vector3<Scalar> a;
   Vector3<Scalar> b;

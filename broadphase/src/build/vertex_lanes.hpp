@@ -12,19 +12,19 @@ namespace surehit::detail {
 
 using Double4 = double __attribute__((vector_size(32)));
 
-/// Vertices of a mesh, which outlives this, as vectors, whose fourth number is one of the mesh's too: most vertices are
-/// loaded with what lies behind them.
+/// Loads the vertices of a mesh as vectors. Most vertices are loaded together with the number that follows them in
+/// memory. So the fourth lane holds some finite number of the mesh. The mesh must outlive this.
 template <typename Scalar>
 class VertexLanes {
  public:
   using Point = std::conditional_t<std::is_same_v<Scalar, float>, Float4, Double4>;
 
-  explicit VertexLanes(const TriangleMeshView<Scalar>& mesh)
-      : mesh_(mesh), vertices_(reinterpret_cast<const std::byte*>(mesh.vertices().data)) {
-    const bool are_dense = mesh.vertices().stride == 3 * sizeof(Scalar);
+  explicit VertexLanes(const TriangleMeshView<Scalar>& mesh) : mesh_(mesh), vertices_(mesh.vertices().triples().first) {
+    const bool are_dense = mesh.vertices().triples().stride == 3 * sizeof(Scalar);
     followed_ = are_dense && mesh.vertex_count() > 0 ? mesh.vertex_count() - 1 : 0;
   }
 
+  /// Loads a vertex.
   [[gnu::always_inline]] void load(std::size_t vertex, Point& point) const {
     if (vertex < followed_) {
       load_whole(vertex, point);
@@ -32,7 +32,7 @@ class VertexLanes {
       gather(vertex, point);
     }
   }
-  /// Of a triangle a, b and c.
+  /// Loads the corners a, b and c of a triangle.
   [[gnu::always_inline]] void load_corners(std::size_t triangle, Point (&corners)[3]) const {
     const std::size_t vertices[3] = {mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2)};
     if (std::max({vertices[0], vertices[1], vertices[2]}) < followed_) {
@@ -53,7 +53,7 @@ class VertexLanes {
 
   const TriangleMeshView<Scalar>& mesh_;
   const std::byte* vertices_;
-  std::size_t followed_;  ///< so many vertices have another one behind them, where their fourth coordinate is from
+  std::size_t followed_;  ///< so many vertices are followed by another one, which has their fourth number
 };
 
 }  // namespace surehit::detail

@@ -1,26 +1,24 @@
 #include "support/floating_point_environment.hpp"
 
+#include "support/rounding_flags.hpp"
+
 #if defined(__SSE2__) || defined(_M_X64)
 #include <xmmintrin.h>
 #elif !defined(__aarch64__)
 #include <cfenv>
 #endif
 
-#if defined(__FAST_MATH__)
-#error "surehit's proofs do not hold under -ffast-math: compile the library without it (its users may have it)"
-#endif
-
 namespace surehit {
 
-// The compiler does not know that arithmetic depends on the control word. It is kept from moving any across by what
-// sets and restores it being functions it cannot see into from where the arithmetic is.
+// The compiler does not know that arithmetic depends on the control word. It must not move arithmetic across a change
+// of this word. It cannot do so, because it does not see these functions where the arithmetic is.
 
 #if defined(__SSE2__) || defined(_M_X64)
 
 namespace {
 constexpr unsigned sticky_flags = 0x003f;
-constexpr unsigned default_control =
-    0x1f80;  // all exceptions masked, to nearest, no flush-to-zero, no denormals-are-zero
+/// All exceptions are masked; rounding to nearest, no flush-to-zero, no denormals-are-zero.
+constexpr unsigned default_control = 0x1f80;
 }  // namespace
 
 FloatingPointEnvironment::FloatingPointEnvironment() noexcept {
@@ -38,7 +36,7 @@ void FloatingPointEnvironment::restore() noexcept { _mm_setcsr(static_cast<unsig
 FloatingPointEnvironment::FloatingPointEnvironment() noexcept {
   std::uint64_t control = 0;
   __asm__ volatile("mrs %0, fpcr" : "=r"(control));
-  if (control == 0) return;  // zero: to nearest, no flush, no traps
+  if (control == 0) return;  // Zero means: to nearest, no flush-to-zero, no traps.
   caller_ = control;
   restore_ = true;
   __asm__ volatile("msr fpcr, %0" : : "r"(std::uint64_t{0}));

@@ -86,11 +86,12 @@ struct ScaledPath {
 }  // namespace
 
 template <typename Scalar>
-void ClippedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t,
-                                  double last_t) noexcept {
+void ClippedPath::clip_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t,
+                                 double last_t) noexcept {
   if (!path.start.allFinite() || !path.toward.allFinite()) return;
-  unit = {1, 1, 1};
-  origin = {0, 0, 0};
+  tau = {{1, 1, 1}, {0, 0, 0}};
+  auto& unit = tau.unit;
+  auto& origin = tau.origin;
   std::array<double, 3> from;
   std::array<double, 3> by;
   double fastest = 0;
@@ -157,7 +158,7 @@ void ClippedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pa
   if (status == Status::miss) return;
   if (!moves) enters = 0;
   origin[2] = enters;
-  end = moves ? beyond_in_double(last_t) : 0;
+  end = moves ? tau.beyond(last_t) : 0;
   exit = moves ? static_cast<float>(leaves - enters) : 0;
   rate = detail::all_lanes(0.0F);
   inverse_rate = detail::all_lanes(max_inverse);
@@ -172,14 +173,14 @@ void ClippedPath::place_in_double(const GridFrame& frame, const Path<Scalar>& pa
 }
 
 // L12
-float ClippedPath::beyond_in_double(double t) const noexcept {
+float WalkParameter::beyond(double t) const noexcept {
   const double scaled = t * unit[0] * unit[1] * unit[2];
-  const double tau = scaled - origin[0] - origin[1] - origin[2];
+  const double exact = scaled - origin[0] - origin[1] - origin[2];
   const double rounding = std::fabs(scaled) + std::fabs(origin[0]) + std::fabs(origin[1]) + std::fabs(origin[2]);
-  return static_cast<float>(tau + rounding * 0x1p-50 + std::fabs(tau) * 0x1p-22 + 0x1p-140);
+  return static_cast<float>(exact + rounding * 0x1p-50 + std::fabs(exact) * 0x1p-22 + 0x1p-140);
 }
 
-template void ClippedPath::place_in_double(const GridFrame&, const Path<float>&, double, double) noexcept;
-template void ClippedPath::place_in_double(const GridFrame&, const Path<double>&, double, double) noexcept;
+template void ClippedPath::clip_in_double(const GridFrame&, const Path<float>&, double, double) noexcept;
+template void ClippedPath::clip_in_double(const GridFrame&, const Path<double>&, double, double) noexcept;
 
 }  // namespace surehit

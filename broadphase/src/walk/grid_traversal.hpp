@@ -16,6 +16,15 @@
 
 namespace surehit {
 
+/// The walk's parameter: tau is t unit[0] unit[1] unit[2] - origin[0] - origin[1] - origin[2].
+struct WalkParameter {
+  std::array<double, 3> unit;
+  std::array<double, 3> origin;
+
+  /// Returns tau at t, rounded up (L12).
+  [[nodiscard]] float beyond(double t) const noexcept;
+};
+
 /// A path as the grid sees it: clipped to the grid, counted in finest cells, and mirrored so that it rises on every
 /// axis. It holds plain floats, so that the lanes of a vector can take them. The proof of the walk, with its lemmas L1
 /// to L12, is in WALK.md.
@@ -37,17 +46,14 @@ struct ClippedPath {
   static constexpr float max_inverse = 0x1p100F;
 
   Status status = Status::miss;
-  bool is_clipped_in_float = false;  ///< if true, tau is t - origin[2]
+  bool is_clipped_in_float = false;  ///< if true, the walk's tau is t - tau.origin[2]
   std::uint32_t octant = 0;          ///< bit k is set if the path is mirrored on axis k
   detail::Float4 start;              ///< the position where the walk begins, where tau is 0
   detail::Float4 rate;               ///< cells a unit of the walk's parameter tau
   detail::Float4 inverse_rate;       ///< 1 / rate, or `max_inverse` where the rate is 0
   float end = 0;                     ///< beyond this tau nothing counts (L12)
   float exit = 0;                    ///< the tau at which the path leaves the grid, rounded
-  /// tau is t unit[0] unit[1] unit[2] - origin[0] - origin[1] - origin[2]. Not set if the path is clipped in float.
-  std::array<double, 3> unit;
-  /// Only `origin[2]` is set if the path is clipped in float.
-  std::array<double, 3> origin;
+  WalkParameter tau;                 ///< only `origin[2]` is set if the path is clipped in float
 
   /// Returns a mask of the axes on which the path is mirrored.
   [[nodiscard]] detail::Int4 is_mirrored() const noexcept {
@@ -85,22 +91,21 @@ struct ClippedPath {
 
   /// Returns tau at t, rounded up (L12).
   [[gnu::always_inline]] [[nodiscard]] float beyond(double t) const noexcept {
-    return is_clipped_in_float ? beyond(t, origin[2]) : beyond_in_double(t);
+    return is_clipped_in_float ? beyond(t, tau.origin[2]) : tau.beyond(t);
   }
   /// Returns tau at t, rounded up, where tau is t - `enters`.
   [[nodiscard]] static float beyond(double t, double enters) noexcept {
-    const double tau = t - enters;
-    const double rounding = (std::fabs(t) + std::fabs(enters)) * 0x1p-50 + std::fabs(tau) * 0x1p-22 + 0x1p-140;
-    return static_cast<float>(tau + rounding);
+    const double exact = t - enters;
+    const double rounding = (std::fabs(t) + std::fabs(enters)) * 0x1p-50 + std::fabs(exact) * 0x1p-22 + 0x1p-140;
+    return static_cast<float>(exact + rounding);
   }
 
  private:
   /// Clips any path in double (L9).
   template <typename Scalar>
-  void place_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t) noexcept;
+  void clip_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t) noexcept;
   /// Clips a path in float (L8). Returns false if it is not near the grid, or if it is too slow or too fast.
   bool try_clip_in_float(const GridFrame& frame, const Path<float>& path, float first_t, float last_t) noexcept;
-  [[nodiscard]] float beyond_in_double(double t) const noexcept;
 };
 
 template <typename Scalar>
@@ -111,7 +116,7 @@ template <typename Scalar>
     // The limits of a path of floats are floats.
     if (try_clip_in_float(grid.frame(), path, static_cast<float>(first_t), static_cast<float>(last_t))) return;
   }
-  place_in_double(grid.frame(), path, first_t, last_t);
+  clip_in_double(grid.frame(), path, first_t, last_t);
 }
 
 // It has no branches on the direction, because a processor could not predict them.
@@ -148,7 +153,7 @@ template <typename Scalar>
   status = Status::clipped;
   is_clipped_in_float = true;
   octant = bits_of_lanes(is_mirrored);
-  origin[2] = double{enters};
+  tau.origin[2] = double{enters};
   end = (last_t - enters) + (std::fabs(last_t) + std::fabs(enters)) * 0x1p-22F + std::numeric_limits<float>::min();
   exit = leaves - enters;
   start = min(start, stop * (1 - 0x1p-24F));

@@ -7,12 +7,16 @@
 #include <span>
 #include <vector>
 
+#include "surehit/attributes.hpp"
+#include "surehit/batch_options.hpp"
 #include "surehit/box.hpp"
+#include "surehit/build_result.hpp"
 #include "surehit/executor.hpp"
 #include "surehit/grid_options.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/hit_filter.hpp"
 #include "surehit/path.hpp"
+#include "surehit/path_span.hpp"
 #include "surehit/query_options.hpp"
 #include "surehit/query_statistics.hpp"
 #include "surehit/triangle_mesh_view.hpp"
@@ -21,10 +25,10 @@
 namespace surehit {
 
 namespace detail {
-template <typename Scalar>
+template <FloatOrDouble Scalar>
 struct ColliderState;
-template <typename Scalar>
-struct DeleteColliderState {
+template <FloatOrDouble Scalar>
+struct SUREHIT_API DeleteColliderState {
   void operator()(ColliderState<Scalar>* state) const noexcept;
 };
 }  // namespace detail
@@ -32,8 +36,10 @@ struct DeleteColliderState {
 /// How a collider is built. No setting changes an answer.
 struct BuildOptions {
   GridOptions grid = {};
-  /// One 32-bit mask a triangle, for `QueryOptions::mask`; none at all means all bits set for every triangle.
+  /// One mask for each triangle, for `QueryOptions::mask`. Empty: all bits are set for every triangle.
   std::span<const std::uint32_t> masks = {};
+  /// Spreads the build over threads. What is built is the same to the bit.
+  std::optional<Executor> executor = {};
 };
 
 /// A triangle mesh made ready to be asked where paths first meet it.
@@ -42,14 +48,15 @@ struct BuildOptions {
 /// once. They depend on the input alone: not on the grid, the instruction set, the floating-point mode of the caller,
 /// the batch or the thread. A path with a NaN or an infinity misses everything.
 ///
-/// Queries are const, noexcept, allocate nothing (`all_hits` aside), use under 16 KiB of stack in an optimized build,
-/// batches of floats under 32 KiB, and may run in many threads at once. No query may run during a rebuild. A collider
-/// copies what it needs of the mesh; copying a collider copies all of it.
+/// Queries are const and noexcept, and may run in many threads at once. Only `all_hits` allocates. In an optimized
+/// build, a query uses less than 16 KiB of stack. A batch uses less than 32 KiB in float and 48 KiB in double. No query
+/// may run while the collider changes. A collider copies what it needs of the mesh. A copy of a collider copies all of
+/// it.
 ///
 /// What is not promised: that `point(path, hit)` lies on the triangle (t is rounded), and that a collider is the same
 /// bytes from one version to the next.
-template <typename Scalar>
-class Collider {
+template <FloatOrDouble Scalar>
+class SUREHIT_API Collider {
  public:
   /// A mesh of no triangles: every query misses.
   Collider() noexcept = default;
@@ -64,45 +71,40 @@ class Collider {
 #if defined(__cpp_exceptions)
   /// Throws InvalidMesh, which names the first offending element, and std::bad_alloc.
   explicit Collider(const TriangleMeshView<Scalar>& mesh, const BuildOptions& options = {}) {
-    if (auto invalid = try_build(mesh, options)) throw *std::move(invalid);
+    if (const BuildResult built = try_build(mesh, options); !built) throw built.error();
   }
-  Collider(const TriangleMeshView<Scalar>& mesh, Executor executor, const BuildOptions& options = {}) {
-    if (auto invalid = try_build(mesh, executor, options)) throw *std::move(invalid);
-  }
-#endif
-
-  /// Replaces the mesh, or says why it cannot and keeps the state from before. Time and memory are linear in the
-  /// triangles.
-  [[nodiscard]] std::optional<InvalidMesh> try_build(const TriangleMeshView<Scalar>& mesh,
-                                                     const BuildOptions& options = {}) {
-    return build(mesh, nullptr, options);
-  }
-  /// The same by an executor's tasks. What is built is the same to the bit.
-  [[nodiscard]] std::optional<InvalidMesh> try_build(const TriangleMeshView<Scalar>& mesh, Executor executor,
-                                                     const BuildOptions& options = {}) {
-    return build(mesh, &executor, options);
-  }
-
-#if defined(__cpp_exceptions)
   /// Throws what `try_rebuild` returns.
-  void rebuild(const VertexView<Scalar>& vertices) {
-    if (auto invalid = try_rebuild(vertices)) throw *std::move(invalid);
+  void rebuild(const VertexView<Scalar>& vertices, const std::optional<Executor>& executor = {}) {
+    if (const BuildResult built = try_rebuild(vertices, executor); !built) throw built.error();
   }
-  void rebuild(const VertexView<Scalar>& vertices, Executor executor) {
-    if (auto invalid = try_rebuild(vertices, executor)) throw *std::move(invalid);
+  /// Throws what `try_rebuild` returns.
+  void rebuild(const TriangleMeshView<Scalar>& mesh, const BuildOptions& options = {}) {
+    if (const BuildResult built = try_rebuild(mesh, options); !built) throw built.error();
   }
 #endif
 
-  /// Moves the vertices, for a mesh that deforms each tick: the same triangles, masks and options. Takes the time of a
-  /// build, but no memory after the first two times. In a smooth mesh paths then take up to 1.7 times as long as in a
-  /// collider that is built anew, which is prepared for more of them. Says why it cannot, and keeps the state from
-  /// before, if the vertices are not as many as the mesh has or not finite; so does std::bad_alloc.
-  [[nodiscard]] std::optional<InvalidMesh> try_rebuild(const VertexView<Scalar>& vertices) {
-    return move_vertices(vertices, nullptr);
-  }
-  [[nodiscard]] std::optional<InvalidMesh> try_rebuild(const VertexView<Scalar>& vertices, Executor executor) {
-    return move_vertices(vertices, &executor);
-  }
+  /// Replaces the mesh. Takes time and memory linear in the triangles. After a failure, std::bad_alloc included, the
+  /// collider is as before.
+  BuildResult try_build(const TriangleMeshView<Scalar>& mesh, const BuildOptions& options = {});
+
+  /// Replaces the mesh, masks and options in the memory of the builds before: for a mesh whose triangles change often.
+  /// The first time allocates as a build does, and both meshes' memory is kept from then on. Fails as `try_build` does.
+  BuildResult try_rebuild(const TriangleMeshView<Scalar>& mesh, const BuildOptions& options = {});
+
+  /// Moves the vertices, for a mesh that deforms each tick. Triangles, masks and options stay. Costs as much as a
+  /// build, but allocates nothing from the third time on. It does not prepare smooth meshes as a build does, so that
+  /// queries may take longer there. Fails, and keeps the state from before, unless the vertices are finite and as many
+  /// as the mesh has.
+  BuildResult try_rebuild(const VertexView<Scalar>& vertices, const std::optional<Executor>& executor = {});
+
+  /// Changes the mask of one triangle, such as a door that opens. No query may run meanwhile. The first time allocates
+  /// the masks, if the mesh was built without any, and may throw std::bad_alloc.
+  void set_mask(std::uint32_t triangle, std::uint32_t mask);
+  /// Changes the masks of all triangles, as `BuildOptions::masks` has them. Fails unless there is one for each triangle
+  /// or none at all.
+  BuildResult try_set_masks(std::span<const std::uint32_t> masks);
+  /// The mask of a triangle.
+  [[nodiscard]] std::uint32_t mask(std::uint32_t triangle) const noexcept;
 
   /// The hit of least t; among equal exact t, of the least triangle. `statistics`, where given, are added to.
   [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Path<Scalar>& path, const QueryOptions<Scalar>& options = {},
@@ -126,38 +128,16 @@ class Collider {
   void all_hits(const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits, HitFilter<Scalar> filter,
                 const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const;
 
-  /// `hits[i]` becomes the first hit of path i; a miss has `triangle == no_triangle`. Both spans have the same length;
-  /// where they do not, the paths and places beyond the shorter one are left alone. The same bits as the single calls
-  /// give.
-  void first_hits(std::span<const Segment<Scalar>> segments, std::span<Hit<Scalar>> hits,
-                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
-  void first_hits(std::span<const Ray<Scalar>> rays, std::span<Hit<Scalar>> hits,
-                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
-  void first_hits(std::span<const Line<Scalar>> lines, std::span<Hit<Scalar>> hits,
-                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+  /// Sets `hits[i]` to the first hit of path i, to the same bits as the single call. A miss has `triangle ==
+  /// no_triangle`. Paths, hits and `path_options` have the same length; what lies beyond the shortest is left alone.
+  ///
+  /// Much faster than single calls where there are some dozen paths or more.
+  void first_hits(const PathSpan<Scalar>& paths, std::span<Hit<Scalar>> hits,
+                  const BatchOptions<Scalar>& options = {}) const noexcept;
 
-  /// The same, spread over the executor's threads in tasks of some thousand paths.
-  void first_hits(std::span<const Segment<Scalar>> segments, std::span<Hit<Scalar>> hits, Executor executor,
-                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
-  void first_hits(std::span<const Ray<Scalar>> rays, std::span<Hit<Scalar>> hits, Executor executor,
-                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
-  void first_hits(std::span<const Line<Scalar>> lines, std::span<Hit<Scalar>> hits, Executor executor,
-                  const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
-
-  /// `blocked[i]` becomes 1 if path i meets anything, else 0. Lengths as in `first_hits`.
-  void any_hits(std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> blocked,
-                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
-  void any_hits(std::span<const Ray<Scalar>> rays, std::span<std::uint8_t> blocked,
-                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
-  void any_hits(std::span<const Line<Scalar>> lines, std::span<std::uint8_t> blocked,
-                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
-
-  void any_hits(std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> blocked, Executor executor,
-                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
-  void any_hits(std::span<const Ray<Scalar>> rays, std::span<std::uint8_t> blocked, Executor executor,
-                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
-  void any_hits(std::span<const Line<Scalar>> lines, std::span<std::uint8_t> blocked, Executor executor,
-                const QueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const noexcept;
+  /// Sets `blocked[i]` to 1 if path i meets anything, else to 0. Lengths are as in `first_hits`.
+  void any_hits(const PathSpan<Scalar>& paths, std::span<std::uint8_t> blocked,
+                const BatchOptions<Scalar>& options = {}) const noexcept;
 
   /// Where a point that moves along the segment may stop so that it has touched nothing: a step that ends there never
   /// tunnels.
@@ -175,9 +155,15 @@ class Collider {
                                                 HitFilter<Scalar> filter,
                                                 const QueryOptions<Scalar>& options = {}) const noexcept;
 
+  /// The limit that keeps a hit: the least Scalar that is not below its exact t. `max_t = hit.t` would lose the hit in
+  /// half of all cases, where t was rounded down. `hit` is one of the path's hits in this collider.
+  [[nodiscard]] Scalar max_t_keeping(const Path<Scalar>& path, const Hit<Scalar>& hit) const noexcept;
+
   [[nodiscard]] std::size_t triangle_count() const noexcept;
   /// The corners as they were given.
   [[nodiscard]] Triangle<Scalar> triangle(std::uint32_t id) const noexcept;
+  /// The unit normal of a triangle, as `normal(triangle)` gives it.
+  [[nodiscard]] Vector3<Scalar> normal(std::uint32_t id) const noexcept;
   /// Around all triangles.
   [[nodiscard]] const Box<Scalar>& box() const noexcept;
   /// What the grid came to.
@@ -190,12 +176,13 @@ class Collider {
   friend struct detail::ColliderState<Scalar>;
 
   [[nodiscard]] const detail::ColliderState<Scalar>& state() const noexcept;
-  std::optional<InvalidMesh> build(const TriangleMeshView<Scalar>&, const Executor*, const BuildOptions&);
-  std::optional<InvalidMesh> move_vertices(const VertexView<Scalar>&, const Executor*);
 
   using StatePointer = std::unique_ptr<detail::ColliderState<Scalar>, detail::DeleteColliderState<Scalar>>;
   StatePointer state_;  ///< none before a build, and where it was moved from
 };
+
+extern template class SUREHIT_API Collider<float>;
+extern template class SUREHIT_API Collider<double>;
 
 using Colliderf = Collider<float>;
 using Colliderd = Collider<double>;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "surehit/attributes.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/path.hpp"
 #include "surehit/query_options.hpp"
@@ -17,9 +18,24 @@ namespace surehit {
 ///
 /// Method: Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), as the filter of its own
 /// exact evaluation. Some 20 ns where the filter decides, around a microsecond where it does not. Allocates nothing.
-template <typename Scalar>
-[[nodiscard]] std::optional<Hit<Scalar>> intersect(
+template <FloatOrDouble Scalar>
+[[nodiscard]] SUREHIT_API std::optional<Hit<Scalar>> intersect(
     const std::type_identity_t<Path<Scalar>>& path, const Triangle<Scalar>& triangle,
     const std::type_identity_t<QueryOptions<Scalar>>& options = {}) noexcept;
+
+/// The limit that keeps a hit of `intersect`, as `Collider::max_t_keeping` gives it: the least Scalar that is not below
+/// the exact t of `hit`.
+template <FloatOrDouble Scalar>
+[[nodiscard]] SUREHIT_API Scalar max_t_keeping(const std::type_identity_t<Path<Scalar>>& path,
+                                               const Triangle<Scalar>& triangle, const Hit<Scalar>& hit) noexcept;
+
+#define SUREHIT_EXTERN(Scalar)                                                                                   \
+  extern template SUREHIT_API std::optional<Hit<Scalar>> intersect(const Path<Scalar>&, const Triangle<Scalar>&, \
+                                                                   const QueryOptions<Scalar>&) noexcept;        \
+  extern template SUREHIT_API Scalar max_t_keeping(const Path<Scalar>&, const Triangle<Scalar>&,                 \
+                                                   const Hit<Scalar>&) noexcept;
+SUREHIT_EXTERN(float)
+SUREHIT_EXTERN(double)
+#undef SUREHIT_EXTERN
 
 }  // namespace surehit

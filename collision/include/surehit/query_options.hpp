@@ -7,6 +7,12 @@
 
 namespace surehit {
 
+namespace detail {
+/// A constant and not a call, with which GCC 12 fails to compile a list of options.
+template <typename Scalar>
+inline constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+}  // namespace detail
+
 /// Which hits a query leaves out by the side that the path arrives from.
 enum class Culling : std::uint8_t {
   none,   ///< keep all
@@ -15,12 +21,13 @@ enum class Culling : std::uint8_t {
 };
 
 /// What narrows a query. The defaults leave nothing out.
-template <typename Scalar>
+template <FloatOrDouble Scalar>
 struct QueryOptions {
   /// The path is cut to the parameters in [min_t, max_t], both ends included, compared exactly. A segment or a ray is
-  /// never lengthened by it. NaN admits nothing. A path of no length is there at t = 0 alone.
-  Scalar min_t = -std::numeric_limits<Scalar>::infinity();
-  Scalar max_t = std::numeric_limits<Scalar>::infinity();
+  /// never lengthened by it. NaN admits nothing. A path of no length is there at t = 0 alone. To keep a hit that is
+  /// known, take `max_t_keeping` for max_t: hit.t is rounded and may lose it.
+  Scalar min_t = -detail::infinity<Scalar>;
+  Scalar max_t = detail::infinity<Scalar>;
   Culling culling = Culling::none;
   std::uint32_t mask = ~std::uint32_t{0};        ///< a triangle takes part if it shares a bit with this
   std::uint32_t ignored_triangle = no_triangle;  ///< never hit

@@ -2,12 +2,18 @@
 
 /// The whole public surface: paths, meshes, `intersect` for one triangle and `Collider` for a mesh.
 
+#include "surehit/scalar.hpp"
+
+#if defined(__cpp_concepts)  // else scalar.hpp has said that C++20 is needed
 #include "surehit/collider.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/hit_filter.hpp"
 #include "surehit/intersect.hpp"
 #include "surehit/path.hpp"
+#include "surehit/path_span.hpp"
 #include "surehit/query_options.hpp"
 #include "surehit/query_statistics.hpp"
 #include "surehit/triangle.hpp"
 #include "surehit/triangle_mesh_view.hpp"
+#include "surehit/version.hpp"
+#endif

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "exact/exact_pair.hpp"
+#include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
 namespace {

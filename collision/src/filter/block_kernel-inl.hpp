@@ -16,7 +16,7 @@
 #include <limits>
 
 #include "filter/kernel_path.hpp"
-#include "query/lane_bits-inl.hpp"
+#include "support/lane_bits-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {

@@ -6,6 +6,7 @@
 
 #include "filter/double_kernel-inl.hpp"
 #include "filter/kernel_bound.hpp"
+#include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
 namespace {

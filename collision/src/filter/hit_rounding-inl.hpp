@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "filter/double_kernel-inl.hpp"
-#include "query/lane_bits-inl.hpp"
+#include "support/lane_bits-inl.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/path.hpp"
 #include "surehit/triangle.hpp"

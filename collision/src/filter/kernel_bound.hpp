@@ -125,6 +125,7 @@ struct RangeWeights {
   bool is_whole = true;                            ///< True if the range is [0, 1].
   bool decides = true;                             ///< True if the two conditions are all that the range requires.
 
+  RangeWeights() = default;
   explicit RangeWeights(const PathRange<Scalar>& range) {
     is_whole = range.first == 0 && range.last == 1;
     if (is_whole) return;

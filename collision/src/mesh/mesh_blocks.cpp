@@ -10,14 +10,16 @@
 #include "mesh/slab_fitter.hpp"
 #include "query/list_cells.hpp"
 #include "support/in_parts.hpp"
+#include "support/rounding_flags.hpp"
 
 namespace surehit {
 namespace {
 
-/// What the widest vector load may read beyond the last triangle.
+/// The number of coordinates that the widest vector load may read beyond the last triangle.
 constexpr std::size_t slack = 64;
-/// In an executor's task.
+/// The number of lists in a task of an executor.
 constexpr std::size_t lists_in_a_part = std::size_t{1} << 12;
+/// The number of top cells in a task of an executor.
 constexpr std::size_t top_cells_in_a_part = std::size_t{1} << 14;
 
 template <typename Fill>
@@ -27,7 +29,7 @@ void fill_all(const Grid& grid, const Executor* executor, const Fill& fill) {
   });
 }
 
-/// Whether a slab is half as thick as the box around the same triangles, or thinner.
+/// Returns whether a slab is at most half as thick as the box around the same triangles.
 bool is_thin(CellSlab slab, CellBox box) {
   float of_box = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -37,8 +39,8 @@ bool is_thin(CellSlab slab, CellBox box) {
   return static_cast<float>(slab.high() + 1 - slab.low()) * CellSlab::step <= of_box / 2;
 }
 
-/// Whether of some lists no more than one in four has a slab that is not thin; of few lists none is asked for. `fit`
-/// gives the slab of a cell's list.
+/// Returns whether at most a quarter of some sampled lists have slabs that are not thin. Returns false for a mesh with
+/// few lists, where slabs are not worthwhile. `fit` returns the slab of a cell's list.
 template <typename Fit>
 bool is_smooth(const Grid& grid, const Fit& fit) {
   constexpr std::size_t samples = 32;
@@ -47,7 +49,7 @@ bool is_smooth(const Grid& grid, const Fit& fit) {
   std::size_t thin = 0;
   std::size_t thick = 0;
   for (std::size_t sample = 0; sample < samples && 4 * thick <= samples; ++sample) {
-    // The first list from some cell on.
+    // The sample is the first list at or after some cell.
     std::size_t top = tops * sample / samples;
     const std::size_t end = tops * (sample + 1) / samples;
     const auto is_list = [](CellWord word) { return !word.is_empty() && !word.is_divided(); };
@@ -64,6 +66,11 @@ bool is_smooth(const Grid& grid, const Fit& fit) {
 
 template <typename Scalar>
 MeshBlocks<Scalar>::MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor) {
+  rebuild(mesh, grid, executor);
+}
+
+template <typename Scalar>
+void MeshBlocks<Scalar>::rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor) {
   copy_vertices(mesh);
   constexpr std::size_t max_short_indices = std::size_t{1} << 16;
   if (mesh.vertex_count() <= max_short_indices) {
@@ -92,13 +99,15 @@ void MeshBlocks<Scalar>::copy_vertices(const TriangleMeshView<Scalar>& mesh) {
 template <typename Scalar>
 template <typename Index>
 void MeshBlocks<Scalar>::copy_corners(const TriangleMeshView<Scalar>& mesh) {
-  auto& triangles = corners_.template emplace<Corners<Index>>(mesh.triangle_count());
+  if (!std::holds_alternative<Corners<Index>>(corners_)) corners_.template emplace<Corners<Index>>();
+  auto& triangles = *std::get_if<Corners<Index>>(&corners_);
+  triangles.resize(mesh.triangle_count());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) triangles[i][k] = static_cast<Index>(mesh.corner(i, k));
   }
 }
 
-/// With the triangles of `indexed`.
+/// Fills the blocks with the triangles of `indexed`.
 template <typename Scalar>
 void MeshBlocks<Scalar>::fill_blocks(const MeshBlocks& indexed, const Grid& grid, const Executor* executor,
                                      Slabs wanted) {
@@ -143,7 +152,7 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
     Four longest = Four::Zero();
     if (ids.size() >= 4) {
       for (std::size_t i = 0; i + 4 < ids.size(); i += 4) fill_four(ids.data() + i, list + i, ids.size(), longest);
-      // The last four, some of them for the second time.
+      // The last four may overlap those before them.
       fill_four(&ids.back() - 3, list + ids.size() - 4, ids.size(), longest);
     } else {
       std::array<std::uint32_t, 4> four;
@@ -165,7 +174,7 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
   fill_all(grid, executor, fill);
 }
 
-/// If the mesh is smooth.
+/// Fills all blocks and fits all slabs if the mesh is smooth. Returns whether it is.
 template <typename Scalar>
 template <typename Fill>
 bool MeshBlocks<Scalar>::try_fill_with_slabs(const Grid& grid, const Executor* executor, const Fill& fill) {
@@ -182,14 +191,14 @@ bool MeshBlocks<Scalar>::try_fill_with_slabs(const Grid& grid, const Executor* e
   slabs_.resize(grid.lists().size() - 1);
   const auto keep_fitted = [&](const detail::ListCell& cell) { slabs_[cell.word.number()] = fit(cell); };
   if (executor == nullptr) {
-    // Each one while its triangles are in the cache.
+    // Each slab is fitted right after its list is filled, while the triangles are in the cache.
     detail::visit_list_cells(grid, 0, grid.top().size(), [&](const detail::ListCell& cell) {
       fill(cell.word);
       keep_fitted(cell);
     });
     return true;
   }
-  // What is read beyond a list's end may be another task's to fill.
+  // All lists are filled first: a fit may read beyond the end of its list, where another task may still write.
   fill_all(grid, executor, fill);
   detail::in_parts(executor, grid.top().size(), top_cells_in_a_part, [&](std::size_t first, std::size_t last) {
     detail::visit_list_cells(grid, first, last, keep_fitted);
@@ -204,10 +213,7 @@ TriangleMeshView<Scalar> MeshBlocks<Scalar>::view() const noexcept {
 
 template <typename Scalar>
 TriangleMeshView<Scalar> MeshBlocks<Scalar>::view_with(const VertexView<Scalar>& vertices) const noexcept {
-  return with_corners([&](const auto& triangles) -> TriangleMeshView<Scalar> {
-    return {vertices.data, vertices.count, triangles.empty() ? nullptr : triangles.front().data(), triangles.size(),
-            vertices.stride};
-  });
+  return with_corners([&](const auto& triangles) -> TriangleMeshView<Scalar> { return {vertices, triangles}; });
 }
 
 template <typename Scalar>

@@ -12,21 +12,23 @@
 
 namespace surehit {
 
-/// A collider's copy of its mesh: the vertices as they were given, the indices, in 16 bits if that numbers all
-/// vertices, and for each list of the grid the triangles' corners a, b and c, coordinate by coordinate, as the kernel
-/// loads them; where the mesh is smooth, and until it moves, also the slab in which they lie.
+/// A collider's copy of its mesh. It has the vertices as they were given. It has the indices, in 16 bits if all fit.
+/// For each list of the grid it has a block: the corners of the list's triangles, coordinate by coordinate, as the
+/// kernel loads them. A smooth mesh also has a slab around the triangles of each list, until the mesh moves.
 template <typename Scalar>
 class MeshBlocks {
  public:
   MeshBlocks() = default;
-  /// Of a valid mesh and its grid. May throw std::bad_alloc.
+  /// Copies a valid mesh, which must be that of the grid. May throw std::bad_alloc.
   MeshBlocks(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor = nullptr);
 
-  /// Becomes `old` with other vertices, as many, but without slabs, which the paths of one tick would not earn, and
-  /// takes its indices over: `old` is good for the next rebuild only. Memory is reused. If that throws, `old` is as
-  /// before.
+  /// Makes this the mesh of `old` with as many new vertices. It has no slabs, because the paths of one tick do not save
+  /// the time to fit them. The indices move from `old`, so `old` may only be used for the next rebuild. Memory is
+  /// reused. If this throws, `old` has not changed.
   void rebuild(MeshBlocks& old, const VertexView<Scalar>& vertices, const Grid& grid,
                const Executor* executor = nullptr);
+  /// Becomes what the constructor makes of a mesh. Memory is reused.
+  void rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor = nullptr);
 
   [[nodiscard]] std::size_t triangle_count() const noexcept {
     return with_corners([](const auto& triangles) { return triangles.size(); });
@@ -37,37 +39,38 @@ class MeshBlocks {
       return {vertices_[a], vertices_[b], vertices_[c]};
     });
   }
-  /// The triangle at `index` of a list of `count`.
+  /// Returns triangle `index` of a list of `count` triangles.
   [[nodiscard]] static Triangle<Scalar> triangle(const Scalar* corners, std::size_t count, std::size_t index) noexcept {
     const auto at = [&](std::size_t k) { return corners[k * count + index]; };
     return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, {at(6), at(7), at(8)}};
   }
-  /// Of the mesh as it was given, in the memory of this copy.
+  /// Returns a view of the mesh as it was given. It refers to the memory of this copy.
   [[nodiscard]] TriangleMeshView<Scalar> view() const noexcept;
-  /// Of the same triangles with other vertices, as many.
+  /// Returns a view of the same triangles with as many other vertices.
   [[nodiscard]] TriangleMeshView<Scalar> view_with(const VertexView<Scalar>& vertices) const noexcept;
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
   static constexpr std::size_t coordinates = 9;
-  /// Of the grid's list of that number, which begins at `first_entry`.
+  /// Returns the block of the grid's list of that number. The list must begin at `first_entry`.
   [[nodiscard]] const Scalar* block(std::size_t list, std::size_t first_entry) const noexcept {
     return blocks_.data() + offset(list, first_entry);
   }
-  /// The greatest component of the list's edges b - a and c - a; infinite where coordinates are too large for the
-  /// kernel.
+  /// Returns the largest component of the list's edges b - a and c - a. It is infinite if coordinates are too large for
+  /// the kernel.
   [[nodiscard]] static Scalar edge_size(const Scalar* block) noexcept { return *block; }
-  /// Coordinate k of triangle i of a list of `count` is at k count + i. A vector load may read beyond the last.
+  /// Returns the coordinates of a list of `count` triangles. Coordinate k of triangle i is at k count + i. A vector
+  /// load may read beyond the last one.
   [[nodiscard]] static const Scalar* corners(const Scalar* block) noexcept { return block + 1; }
 
-  /// Whether lists have slabs: those of a smooth mesh, for most of which these are much thinner than the boxes.
+  /// Returns whether lists have slabs. On a smooth mesh, most slabs are much thinner than the boxes of their lists.
   [[nodiscard]] bool has_slabs() const noexcept { return !slabs_.empty(); }
-  /// Of the grid's lists, by their numbers; null if they have none.
+  /// Returns the slabs of the grid's lists, by list number, or null if there are none.
   [[nodiscard]] const CellSlab* slabs() const noexcept { return has_slabs() ? slabs_.data() : nullptr; }
   [[nodiscard]] CellSlab slab(CellWord word) const noexcept { return slabs_[word.number()]; }
 
  private:
   static std::size_t offset(std::size_t list, std::size_t first_entry) noexcept {
-    return coordinates * first_entry + list;  // each list before this one has an edge size too
+    return coordinates * first_entry + list;  // Each earlier list has one edge size too.
   }
   enum class Slabs : std::uint8_t { none, where_smooth };
   template <typename Index>
@@ -88,7 +91,7 @@ class MeshBlocks {
   template <typename Fill>
   bool try_fill_with_slabs(const Grid& grid, const Executor* executor, const Fill& fill);
 
-  detail::UnsetVector<Vector3<Scalar>> vertices_;  ///< and one more, for a vector load of the last
+  detail::UnsetVector<Vector3<Scalar>> vertices_;  ///< There is one extra vertex, for a vector load of the last one.
   AnyCorners corners_;
   detail::UnsetVector<Scalar> blocks_;
   detail::UnsetVector<CellSlab> slabs_;

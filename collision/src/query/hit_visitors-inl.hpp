@@ -82,6 +82,11 @@ class FirstHit {
   static constexpr bool wants_order = true;  ///< `Meeting::first`
 
   explicit FirstHit(const Query<Scalar>& query) : trusts_kernel_(counts_every_hit(query)) {}
+  /// Begins anew with another query.
+  void begin(const Query<Scalar>& query) {
+    trusts_kernel_ = counts_every_hit(query);
+    reset();
+  }
   void reset() {
     state_ = State::none;
     t_lower_ = t_upper_ = std::numeric_limits<Scalar>::infinity();
@@ -115,10 +120,10 @@ class FirstHit {
     if (!query.takes_part(candidate.id) || (is_found() && candidate.id == id(query))) return false;
     if (!narrowphase.find_contact(candidate.triangle, candidate.contact)) return false;
     if (is_found() && !narrowphase.comes_before(candidate, best(query, narrowphase))) return false;
-    if (query.filter != nullptr && !(*query.filter)(narrowphase.hit(candidate))) return false;
+    if (query.filter != nullptr && !query.accepts(narrowphase.hit(candidate))) return false;
     state_ = State::weighed;
     best_ = candidate;
-    // To the nearest, u |t| off at most: what the kernel compares with them has 3 u |t| to spare
+    // To the nearest, eps |t| off at most: what the kernel compares with them has 3 eps |t| to spare
     // (`BlockKernel::interval_of_t`).
     t_lower_ = static_cast<Scalar>(best_.contact.t_lower);
     t_upper_ = static_cast<Scalar>(best_.contact.t_upper);
@@ -217,6 +222,7 @@ class AnyHit {
   static constexpr bool wants_order = false;
 
   explicit AnyHit(const Query<Scalar>&) {}
+  void begin(const Query<Scalar>&) { reset(); }
   void reset() { is_done_ = false; }
 
   template <typename AnyPath>
@@ -229,7 +235,7 @@ class AnyHit {
                          Candidate<Scalar>& candidate) {
     if (!query.takes_part(candidate.id)) return false;
     if (!narrowphase.find_contact(candidate.triangle, candidate.contact)) return false;
-    return is_done_ = query.filter == nullptr || (*query.filter)(narrowphase.hit(candidate));
+    return is_done_ = query.filter == nullptr || query.accepts(narrowphase.hit(candidate));
   }
   [[nodiscard]] bool is_done() const { return is_done_; }
 
@@ -262,7 +268,7 @@ class AllHits {
     narrowphase.sort(found_);
     for (const Candidate<Scalar>& candidate : found_) {
       const Hit<Scalar> hit = narrowphase.hit(candidate);
-      if (query.filter == nullptr || (*query.filter)(hit)) hits.push_back(hit);
+      if (query.accepts(hit)) hits.push_back(hit);
     }
   }
 

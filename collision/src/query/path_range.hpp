@@ -18,8 +18,9 @@ struct PathRange {
   static constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
 
   /// What the path's kind and the options' limits have in common. A NaN limit makes the range empty.
-  PathRange(const Path<Scalar>& path, const QueryOptions<Scalar>& options)
-      : first(path.has_start() ? Scalar{0} : -infinity), last(path.has_end() ? Scalar{1} : infinity) {
+  PathRange(const Path<Scalar>& path, const QueryOptions<Scalar>& options) : PathRange(path.kind, options) {}
+  PathRange(PathKind kind, const QueryOptions<Scalar>& options)
+      : first(kind != PathKind::line ? Scalar{0} : -infinity), last(kind == PathKind::segment ? Scalar{1} : infinity) {
     if (!(options.min_t <= first)) first = options.min_t;
     if (!(options.max_t >= last)) last = options.max_t;
   }

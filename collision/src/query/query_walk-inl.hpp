@@ -19,7 +19,7 @@
 #include "filter/kernel_path.hpp"
 #include "query/hit_visitors-inl.hpp"
 #if HWY_TARGET != HWY_SCALAR  // which has no lanes
-#include "query/lane_walk-inl.hpp"
+#include "walk/lane_walk-inl.hpp"
 #endif
 #include "narrowphase.hpp"
 #include "query/query.hpp"
@@ -262,7 +262,7 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
 }
 
 template <typename Scalar>
-std::optional<Hit<Scalar>> find_first(const Query<Scalar>& query, const Path<Scalar>& path) {
+std::optional<Hit<Scalar>> search_first(const Query<Scalar>& query, const Path<Scalar>& path) {
   const PathRange<Scalar> range(path, query.options);
   FirstHit<Scalar> first(query);
   walk(query, path, range, first);
@@ -278,7 +278,7 @@ std::optional<Hit<Scalar>> find_first(const Query<Scalar>& query, const Path<Sca
 }
 
 template <typename Scalar>
-bool find_any(const Query<Scalar>& query, const Path<Scalar>& path) {
+bool search_any(const Query<Scalar>& query, const Path<Scalar>& path) {
   const PathRange<Scalar> range(path, query.options);
   AnyHit<Scalar> any(query);
   walk(query, path, range, any);
@@ -286,7 +286,7 @@ bool find_any(const Query<Scalar>& query, const Path<Scalar>& path) {
 }
 
 template <typename Scalar>
-void find_all(const Query<Scalar>& query, const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits) {
+void search_all(const Query<Scalar>& query, const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits) {
   const PathRange<Scalar> range(path, query.options);
   AllHits<Scalar> all;
   walk(query, path, range, all);

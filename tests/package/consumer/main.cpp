@@ -29,7 +29,7 @@ int main() {
   triangles << 0, 1, 2;
 
   surehit::Colliderf collider;
-  expect(!collider.try_build(surehit::TriangleMeshViewf{vertices, triangles}), "a good mesh is built");
+  expect(collider.try_build({vertices, triangles}).has_value(), "a good mesh is built");
 
   const surehit::Segmentf through{{denormal(1), denormal(2), denormal(3)},
                                   {denormal(1), denormal(2), minus_denormal(1)}};
@@ -43,8 +43,9 @@ int main() {
   expect(!collider.any_hit(beside), "one denormal beside the edge is a miss");
 
   triangles(2, 0) = 3;
-  const auto invalid = collider.try_build(surehit::TriangleMeshViewf{vertices, triangles});
-  expect(invalid && invalid->reason == surehit::InvalidMesh::Reason::index_out_of_range, "a bad index is named");
+  const surehit::BuildResult refused = collider.try_build({vertices, triangles});
+  expect(!refused && refused.error().reason == surehit::InvalidMesh::Reason::index_out_of_range,
+         "a bad index is named");
   expect(collider.any_hit(through), "a failed rebuild keeps the mesh from before");
 
 #if defined(__cpp_exceptions)

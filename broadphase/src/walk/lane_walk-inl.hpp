@@ -17,8 +17,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "filter/kernel_path.hpp"
-#include "query/lane_bits-inl.hpp"
+#include "support/lane_bits-inl.hpp"
 #include "walk/grid_traversal.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -66,8 +65,10 @@ struct alignas(max_lanes * sizeof(float)) WalkingPaths {
   LaneFloats end;
   std::array<std::uint32_t, max_lanes> octant;
 
-  /// What the path meets beyond parameter t is of no interest any more.
+  /// Ends the walk of a lane at parameter t, because the caller does not need what the path meets beyond it.
   void shorten(std::size_t lane, double t) { end[lane] = std::min(end[lane], ClippedPath::beyond(t, enters[lane])); }
+  /// The same for a path that `ClippedPath` has clipped.
+  void shorten(std::size_t lane, double t, const WalkParameter& tau) { end[lane] = std::min(end[lane], tau.beyond(t)); }
 
   /// Lane i, where bit i is set, becomes lane `from_lane[i]` of other paths.
   HWY_INLINE void take(std::uint32_t lanes, const WalkingPaths& from, const LaneIndices& from_lane) {
@@ -91,25 +92,6 @@ struct alignas(max_lanes * sizeof(float)) WalkingPaths {
   }
 };
 
-/// The same paths as the kernel takes them.
-struct alignas(max_lanes * sizeof(float)) KernelLanes {
-  std::array<LaneFloats, 3> start;
-  std::array<LaneFloats, 3> d;
-  LaneFloats d_size;
-  LaneFloats reach;
-
-  [[nodiscard]] KernelPath<float> at(std::size_t lane) const {
-    KernelPath<float> path;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      path.start[axis] = start[axis][lane];
-      path.d[axis] = d[axis][lane];
-    }
-    path.d_size = d_size[lane];
-    path.reach = reach[lane];
-    return path;
-  }
-};
-
 /// What places and walks the lanes of one grid, whose frame must be one of floats.
 class LaneWalk {
  public:
@@ -123,9 +105,12 @@ class LaneWalk {
   };
 
   /// Places paths of six floats each, start and end or direction, of which all lanes' can be read and `count` are
-  /// there. The bound is derived in WALK.md, L8: starts within one width of the grid, in float.
-  HWY_INLINE Clipped clip(const float* paths, bool is_segment, float first_t, float last_t, std::size_t count,
-                          WalkingPaths& clipped, KernelLanes& kernel_paths) const {
+  /// there. The bound is derived in WALK.md: starts within one width of the grid, in float.
+  ///
+  /// It sets `kernel_paths` too, because the same numbers are loaded for them.
+  template <typename Ends, typename KernelPaths>
+  HWY_INLINE Clipped clip(const float* paths, bool is_segment, Ends first_t, Ends last_t, std::size_t count,
+                          WalkingPaths& clipped, KernelPaths& kernel_paths) const {
     const FloatTag d;
     const BitsTag du;
     // Each half holds starts and ends by turns.
@@ -134,8 +119,8 @@ class LaneWalk {
     hn::LoadInterleaved3(d, paths, near_half[0], near_half[1], near_half[2]);
     hn::LoadInterleaved3(d, paths + 3 * hn::Lanes(d), far_half[0], far_half[1], far_half[2]);
     const Floats zero = hn::Zero(d);
-    Floats enters = hn::Set(d, first_t);
-    Floats leaves = hn::Set(d, last_t);
+    Floats enters = lanes_of(first_t);
+    Floats leaves = lanes_of(last_t);
     Floats fastest = zero;
     Floats start_size = zero;
     Floats way_size = zero;
@@ -155,8 +140,7 @@ class LaneWalk {
       const Floats position =
           hn::MulAdd(hn::Sub(start, hn::Set(d, frame_.float_low[k])), scale, hn::Set(d, frame_.margin[k]));
       is_near = hn::And(is_near, hn::And(hn::Ge(position, hn::Neg(stop)), hn::Le(position, hn::Add(stop, stop))));
-      hn::Store(start, d, kernel_paths.start[k].data());
-      hn::Store(way, d, kernel_paths.d[k].data());
+      kernel_paths.set_axis(k, start, way);
       start_size = hn::Max(start_size, hn::Abs(start));
       way_size = hn::Max(way_size, hn::Abs(way));
       const Floats from_low = hn::Sub(start, hn::Set(d, frame_.float_box_low[k]));
@@ -184,11 +168,7 @@ class LaneWalk {
       first_cell = hn::IfThenElse(is_mirrored, hn::Add(first_cell, turned), first_cell);
       octant = hn::Or(octant, hn::IfThenElseZero(hn::RebindMask(du, is_mirrored), hn::Set(du, 1U << k)));
     }
-    const auto fits = hn::And(hn::Le(start_size, hn::Set(d, KernelBound<float>::largest_size / 2)),
-                              hn::Le(way_size, hn::Set(d, KernelBound<float>::largest_size)));
-    hn::Store(hn::IfThenElse(fits, way_size, hn::Set(d, std::numeric_limits<float>::infinity())), d,
-              kernel_paths.d_size.data());
-    hn::Store(reach, d, kernel_paths.reach.data());
+    kernel_paths.set_sizes(start_size, way_size, reach);
     auto is_plain = is_near;
     if (!is_segment) is_plain = hn::And(is_plain, hn::Ge(fastest, hn::Set(d, ClippedPath::slow)));
     const auto taken = hn::FirstN(d, count);
@@ -200,7 +180,7 @@ class LaneWalk {
       hn::Store(entered, d, clipped.start[axis].data());
       hn::Store(hn::Floor(entered), d, clipped.finest[axis].data());
     }
-    const Floats last = hn::Set(d, last_t);
+    const Floats last = lanes_of(last_t);
     const Floats rounding = hn::MulAdd(hn::Add(hn::Abs(last), hn::Abs(enters)), hn::Set(d, 0x1p-22F),
                                        hn::Set(d, std::numeric_limits<float>::min()));
     hn::Store(hn::Add(hn::Sub(last, enters), rounding), d, clipped.end.data());
@@ -209,6 +189,21 @@ class LaneWalk {
     hn::Store(octant, du, clipped.octant.data());
     return {static_cast<std::uint32_t>(bits_of(d, inside)),
             static_cast<std::uint32_t>(bits_of(d, hn::AndNot(is_plain, taken)))};
+  }
+
+  /// Puts a path that `ClippedPath` has clipped into one lane. Its tau is not t - `enters`, so `enters` is not set.
+  void take(std::size_t lane, const ClippedPath& path, WalkingPaths& paths) const {
+    const GridFrame::TopOrder& order = frame_.top_orders[path.octant];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      paths.start[axis][lane] = path.start[axis];
+      paths.rate[axis][lane] = path.rate[axis];
+      paths.inverse_rate[axis][lane] = path.inverse_rate[axis];
+      paths.finest[axis][lane] = std::floor(path.start[axis]);
+      paths.pitch[axis][lane] = static_cast<float>(order.pitch[axis]);
+    }
+    paths.first_cell[lane] = static_cast<float>(order.first);
+    paths.end[lane] = path.end;
+    paths.octant[lane] = path.octant;
   }
 
   /// Cuts a path, from some tau on, into pieces, one after the other, one for each lane. To begin a walk at some tau is
@@ -264,7 +259,7 @@ class LaneWalk {
   }
 
   /// Stands in the cells behind as many crossings as there are lanes, from a number on, in a grid without levels.
-  /// Returns the lanes that it takes. Over all numbers no cell is left out, as L5 of WALK.md shows.
+  /// Returns the lanes that it takes. Over all numbers no cell is left out, as is argued in WALK.md.
   HWY_INLINE std::uint32_t stand(const Crossings& crossings, float from, WalkingPaths& cells) const {
     const FloatTag d;
     const ClippedPath& path = crossings.path;
@@ -463,6 +458,9 @@ class LaneWalk {
     const auto above = hn::Gt(hn::Min(at_entry, at_exit), high);
     return static_cast<std::uint32_t>(bits_of(d, hn::Or(below, above)));
   }
+
+  static HWY_INLINE Floats lanes_of(float one_for_all) { return hn::Set(FloatTag(), one_for_all); }
+  static HWY_INLINE Floats lanes_of(Floats one_each) { return one_each; }
 
   /// Puts one path into all lanes, but for where each stands and ends.
   HWY_INLINE void repeat(const ClippedPath& path, WalkingPaths& paths) const {

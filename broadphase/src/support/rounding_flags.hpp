@@ -1,0 +1,11 @@
+#pragma once
+
+// Error bounds hold for the operations as they are written. Our CMake passes the flags that keep them so.
+
+#if defined(__FAST_MATH__)
+#error "surehit's bounds do not hold under -ffast-math: compile the library without it"
+#endif
+
+#if !defined(SUREHIT_COMPILED_WITHOUT_FP_CONTRACTION)
+#error "compile surehit with -ffp-contract=off, and define SUREHIT_COMPILED_WITHOUT_FP_CONTRACTION to say so"
+#endif

@@ -1,0 +1,156 @@
+// Lists that paths have come to, for the kernel. Highway compiles this for each instruction set.
+
+#if defined(SUREHIT_LIST_JOBS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SUREHIT_LIST_JOBS_INL
+#undef SUREHIT_LIST_JOBS_INL
+#else
+#define SUREHIT_LIST_JOBS_INL
+#endif
+
+#include <hwy/cache_control.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "filter/block_kernel-inl.hpp"
+#include "query/batch_queries-inl.hpp"
+#include "query/query_walk-inl.hpp"
+#include "walk/lane_walk-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace surehit::detail::HWY_NAMESPACE {
+
+/// The lists that the paths of a batch have come to, cut into jobs. A job is as many triangles of one list as the
+/// kernel takes at once. The kernel runs over many jobs before anything is done about its verdicts, because a processor
+/// can predict neither the length of a list nor a verdict.
+template <typename Scalar, typename Visitor>
+class ListJobs {
+  using Kernel = BlockKernel<Scalar>;
+  /// The kernel's lanes, in the widest vector of today.
+  static constexpr std::size_t kernel_lanes = std::min(hn::MaxLanes(hn::ScalableTag<Scalar>()), 64 / sizeof(Scalar));
+  static constexpr std::size_t slots = max_slots<Scalar>;
+
+ public:
+  /// So many triangles of each list become jobs before the verdicts on any of them are used. If any hit will do, the
+  /// rest of a list is often not needed.
+  static constexpr std::size_t max_at_once = Visitor::wants_order ? 64 : 32;
+  static_assert(max_at_once % kernel_lanes == 0);
+  /// The kernel runs over so many jobs at once. More would take stack.
+  static constexpr std::size_t max_jobs = 256 / kernel_lanes;
+
+  /// Triangles that the path of a slot may meet.
+  struct Open {
+    std::size_t slot;
+    std::size_t from;  ///< The index in the list of lane 0.
+    Lanes lanes;
+    FirstLanes<Scalar> first;
+  };
+
+  void set_path(std::size_t slot, const KernelPath<Scalar>& path) { kernel_path_[slot] = path; }
+  [[nodiscard]] const TriangleList<Scalar>& list(std::size_t slot) const { return lists_[slot]; }
+
+  /// Finds the list of a slot's cell.
+  HWY_INLINE void find_list(std::size_t slot, const Query<Scalar>& query, CellWord word,
+                            const RangeWeights<Scalar>& weights) {
+    const TriangleList<Scalar>& list = lists_[slot] = list_of(query, word);
+    prefetch(list);
+    bounds_[slot] = Kernel::bounds(kernel_path_[slot], weights, list);
+    query.statistics.candidates += list.count;
+  }
+
+  /// Makes jobs of the slot's list, from one of its triangles on. Returns whether the list is longer than that.
+  HWY_INLINE bool add(std::size_t slot, std::size_t from) {
+    const std::size_t lanes = hn::Lanes(hn::ScalableTag<Scalar>());
+    const std::size_t left = lists_[slot].count - from;
+    for (std::size_t i = 0; i < max_at_once; i += lanes) {
+      jobs_[count_ + i / lanes] = {static_cast<std::uint16_t>(slot), static_cast<std::uint16_t>(i)};
+    }
+    count_ += (std::min(left, max_at_once) + lanes - 1) / lanes;
+    return left > max_at_once;
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  void clear() { count_ = 0; }
+
+  /// Runs the kernel over the next jobs, from job `first_job` on. `from` is what `add` was given. Returns those whose
+  /// path may meet a triangle.
+  template <typename Queries, typename Visitors>
+  HWY_NOINLINE std::span<const Open> classify(std::size_t first_job, std::size_t from, const Queries& queries,
+                                              const Visitors& visitors) {
+    const hn::ScalableTag<Scalar> d;
+    const auto some = std::span(jobs_).subspan(first_job, std::min(count_ - first_job, max_jobs));
+    std::size_t open = 0;
+    for (const Job& job : some) {
+      const std::size_t first_triangle = from + job.from;
+      const Kernel kernel(kernel_path_[job.slot], lists_[job.slot], first_triangle);
+      open_[open].slot = job.slot;
+      open_[open].from = first_triangle;
+      open_[open].lanes = kernel.classify(queries.weights_in(job.slot), bounds_[job.slot]);
+      if constexpr (Visitor::wants_order) {
+        const typename Kernel::Crossing crossing = kernel.crossing();
+        hn::Store(crossing.height, d, crossings_[open].height.data());
+        hn::Store(crossing.det, d, crossings_[open].det.data());
+      }
+      open += open_[open].lanes.possible != 0 ? 1 : 0;
+    }
+    if constexpr (Visitor::wants_order) {
+      for (std::size_t i = 0; i < open; ++i) find_first(i, queries, visitors);
+    }
+    return std::span(open_).first(open);
+  }
+
+ private:
+  struct Job {
+    std::uint16_t slot;
+    std::uint16_t from;  ///< Counted from those that were jobs before.
+  };
+  /// `BlockKernel::Crossing` in memory.
+  struct alignas(kernel_lanes * sizeof(Scalar)) Crossing {
+    std::array<Scalar, kernel_lanes> height;
+    std::array<Scalar, kernel_lanes> det;
+  };
+
+  /// Finds out which certain hits of an open job may be the first one.
+  template <typename Queries, typename Visitors>
+  HWY_INLINE void find_first(std::size_t i, const Queries& queries, const Visitors& visitors) {
+    const hn::ScalableTag<Scalar> d;
+    const auto& [height, det] = crossings_[i];
+    auto& [slot, from, lanes, first] = open_[i];
+    if (lanes.certain == lanes.possible && std::has_single_bit(lanes.certain)) [[likely]] {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes.certain));
+      first = Kernel::lone_first(bounds_[slot], height[lane], det[lane], lanes.certain);
+      return;
+    }
+    const Scalar limit = visitors[slot].t_upper();
+    first =
+        Kernel::first_of(bounds_[slot], {hn::Load(d, height.data()), hn::Load(d, det.data())}, lanes.certain, limit);
+    const bool is_clear = lanes.certain == lanes.possible && (first.lanes & (first.lanes - 1)) == 0;
+    if (!is_clear) [[unlikely]] {
+      Kernel::weigh_each(kernel_path_[slot], lists_[slot], from, queries.weights_in(slot), limit, lanes, first);
+    }
+  }
+
+  /// Fetches the beginning of a list into the cache, or what lies after it. More lines would cost more than they save.
+  /// A single path does not prefetch, because it needs the list at once.
+  static void prefetch(const TriangleList<Scalar>& list) {
+    constexpr std::size_t lines = 4;
+    constexpr std::size_t line = 64 / sizeof(Scalar);
+    for (std::size_t from = 0; from < lines * line; from += line) hwy::Prefetch(list.corners + from);
+  }
+
+  std::array<KernelPath<Scalar>, slots> kernel_path_;         ///< The path of each slot.
+  std::array<TriangleList<Scalar>, slots> lists_;             ///< The list that it has come to.
+  std::array<typename Kernel::Bounds, slots> bounds_;         ///< The bounds of the path and the list.
+  std::array<Job, slots * max_at_once / kernel_lanes> jobs_;  ///< Each slot has max_at_once / lanes of them at most.
+  std::size_t count_ = 0;                                     ///< The number of jobs.
+  std::array<Open, max_jobs> open_;                           ///< What the kernel says of some jobs.
+  std::array<Crossing, Visitor::wants_order ? max_jobs : 0> crossings_;  ///< Where the paths of `open_` cross.
+};
+
+}  // namespace surehit::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

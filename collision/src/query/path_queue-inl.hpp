@@ -1,0 +1,163 @@
+// The paths of a batch that wait for a lane. Highway compiles this for each instruction set.
+
+#if defined(SUREHIT_PATH_QUEUE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SUREHIT_PATH_QUEUE_INL
+#undef SUREHIT_PATH_QUEUE_INL
+#else
+#define SUREHIT_PATH_QUEUE_INL
+#endif
+
+#include <hwy/cache_control.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "filter/kernel_lanes-inl.hpp"
+#include "filter/kernel_path.hpp"
+#include "query/path_range.hpp"
+#include "surehit/path_span.hpp"
+#include "walk/lane_walk-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace surehit::detail::HWY_NAMESPACE {
+
+/// The paths of a batch that are not walked yet. It clips as many at a time as a vector has lanes. `Queries` is
+/// `SharedQuery` or `OwnQueries`. Those that no lane can walk are answered by `alone(index)`.
+template <typename Scalar, typename Queries, typename Alone>
+class PathQueue {
+ public:
+  PathQueue(const LaneWalk& walk, const Queries& queries, const PathSpan<Scalar>& paths, const Alone& alone)
+      : walk_(walk), queries_(queries), paths_(paths), alone_(alone) {}
+
+  /// Puts waiting paths into idle lanes, and returns the lanes that it filled. It calls `enter(lane, index,
+  /// kernel_path)` for each, and for double with the path's `WalkParameter` too.
+  template <bool has_levels, typename Enter>
+  HWY_INLINE std::uint32_t fill(std::uint32_t idle, WalkingPaths& lanes, const Enter& enter) {
+    std::uint32_t all_filled = 0;
+    while (idle != 0) {
+      if (waiting_ == 0 && !clip_next<has_levels>()) break;
+      alignas(max_lanes * sizeof(float)) LaneIndices from_lane = {};
+      std::uint32_t filled = 0;
+      for (; waiting_ != 0 && idle != 0; waiting_ &= waiting_ - 1, idle &= idle - 1) {
+        const auto from = static_cast<std::size_t>(std::countr_zero(waiting_));
+        const auto to = static_cast<std::size_t>(std::countr_zero(idle));
+        from_lane[to] = static_cast<std::int32_t>(from);
+        if constexpr (is_float) {
+          enter(to, first_ + from, kernel_paths_.at(from));
+        } else {
+          enter(to, first_ + from, kernel_paths_[from], taus_[from]);
+        }
+        filled |= std::uint32_t{1} << to;
+      }
+      lanes.take(filled, clipped_, from_lane);
+      all_filled |= filled;
+    }
+    return all_filled;
+  }
+
+ private:
+  static constexpr bool is_float = std::is_same_v<Scalar, float>;
+  static constexpr std::size_t path_size = 6;               ///< Scalars
+  static constexpr std::size_t paths_ahead = 64;            ///< Paths are prefetched so many before they are clipped.
+  static constexpr std::size_t line = 64 / sizeof(Scalar);  ///< Scalars in a cache line.
+
+  /// Clips the next paths until one of them can walk. Returns false if none is left.
+  template <bool has_levels>
+  HWY_INLINE bool clip_next() {
+    const std::size_t lanes = hn::Lanes(FloatTag());
+    while (next_ < paths_.size()) {
+      first_ = next_;
+      const std::size_t count = std::min(lanes, paths_.size() - next_);
+      next_ += count;
+      prefetch(next_ + paths_ahead);
+      const LaneWalk::Clipped clipped = clip(count);
+      queries_.of_batch().statistics.paths += count - static_cast<std::size_t>(std::popcount(clipped.apart));
+      for (std::uint32_t apart = clipped.apart; apart != 0; apart &= apart - 1) {
+        alone_(first_ + static_cast<std::size_t>(std::countr_zero(apart)));
+      }
+      waiting_ = leave_empty_space<has_levels>(clipped.inside);
+      if (waiting_ != 0) return true;
+    }
+    return false;
+  }
+
+  HWY_INLINE LaneWalk::Clipped clip(std::size_t count) {
+    if constexpr (is_float) {
+      std::array<float, path_size * max_lanes> copies;  // Whole lanes are read.
+      const bool can_read_all = is_packed_ && count == hn::Lanes(FloatTag());
+      const float* const numbers = can_read_all ? paths_.packed(first_) : copy_paths(count, copies);
+      const auto ends = queries_.ends(first_, count);
+      return walk_.clip(numbers, paths_.kind() == PathKind::segment, ends.first, ends.last, count, clipped_,
+                        kernel_paths_);
+    } else {
+      return clip_one_by_one(count);
+    }
+  }
+
+  HWY_NOINLINE const float* copy_paths(std::size_t count, std::array<float, path_size * max_lanes>& copies) const {
+    copies.fill(0);
+    for (std::size_t i = 0; i < count; ++i) paths_.copy(first_ + i, &copies[path_size * i]);
+    return copies.data();
+  }
+
+  /// Clips paths of doubles. They are clipped in double, and walked in float like all paths.
+  HWY_NOINLINE LaneWalk::Clipped clip_one_by_one(std::size_t count) {
+    const Grid& grid = queries_.of_batch().grid;
+    LaneWalk::Clipped result = {0, 0};
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const auto range = queries_.range(first_ + lane);
+      if (range.is_empty()) continue;
+      const Path<Scalar> path = paths_[first_ + lane];
+      const ClippedPath clipped(grid, path, range.first, range.last);
+      if (clipped.status == ClippedPath::Status::too_far) result.apart |= std::uint32_t{1} << lane;
+      if (clipped.status != ClippedPath::Status::clipped) continue;
+      result.inside |= std::uint32_t{1} << lane;
+      walk_.take(lane, clipped, clipped_);
+      kernel_paths_[lane] = KernelPath<Scalar>(path, grid.frame());
+      taus_[lane] = clipped.tau;
+    }
+    return result;
+  }
+
+  /// Fetches paths into the cache, as many as are clipped together. The processor does not fetch them by itself,
+  /// because much else is read between two such reads.
+  HWY_INLINE void prefetch(std::size_t first) const {
+    const std::size_t lanes = hn::Lanes(FloatTag());
+    if (first + lanes > paths_.size() || !is_packed_) return;
+    const Scalar* const numbers = paths_.packed(first);
+    for (std::size_t from = 0; from < path_size * lanes; from += line) hwy::Prefetch(numbers + from);
+  }
+
+  /// Steps the clipped paths that begin in empty cells, because most short ones end with this step. Returns the lanes
+  /// that still walk.
+  template <bool has_levels>
+  HWY_INLINE std::uint32_t leave_empty_space(std::uint32_t inside) {
+    const LaneWalk::Cells cells = walk_.look<has_levels>(clipped_, inside);
+    const std::uint32_t leaving = inside & ~LaneWalk::in_lists(cells, inside);
+    queries_.of_batch().statistics.cells += static_cast<std::uint64_t>(std::popcount(leaving));
+    return (inside & ~leaving) | walk_.advance(cells, leaving, clipped_);
+  }
+
+  struct None {};
+
+  WalkingPaths clipped_ = {};  ///< The paths that were clipped last, one in each lane.
+  std::conditional_t<is_float, KernelLanes, std::array<KernelPath<Scalar>, max_lanes>> kernel_paths_ = {};
+  [[no_unique_address]] std::conditional_t<is_float, None, std::array<WalkParameter, max_lanes>> taus_;
+  const LaneWalk& walk_;
+  const Queries& queries_;
+  const PathSpan<Scalar>& paths_;
+  const bool is_packed_ = paths_.is_packed();
+  const Alone& alone_;
+  std::size_t next_ = 0;       ///< The first path that is not clipped yet.
+  std::size_t first_ = 0;      ///< The path in lane 0 of `clipped_`.
+  std::uint32_t waiting_ = 0;  ///< The lanes of `clipped_` whose paths wait.
+};
+
+}  // namespace surehit::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,30 @@
+# A plugin that holds a static copy of the library links, works by pkg-config's flags, and shows nobody that copy.
+include("${CMAKE_CURRENT_LIST_DIR}/consumer_project.cmake")
+
+file(REMOVE_RECURSE "${TEST_FOLDER}")
+run("${CMAKE_COMMAND}" --install "${BUILD_FOLDER}" --prefix "${TEST_FOLDER}/installed")
+file(GLOB_RECURSE pc_file "${TEST_FOLDER}/installed/*/surehit.pc")
+get_filename_component(pc_folder "${pc_file}" DIRECTORY)
+execute_process(COMMAND "${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${pc_folder}" "${PKG_CONFIG}" --cflags --libs --static surehit
+  OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+
+file(WRITE "${TEST_FOLDER}/plugin.cpp" "#include <surehit/surehit.hpp>
+extern \"C\" __attribute__((visibility(\"default\"))) int hits() {
+  const float vertices[] = {0, 0, 0, 4, 0, 0, 0, 4, 0};
+  const int triangle[] = {0, 1, 2};
+  const surehit::Colliderf collider(surehit::TriangleMeshViewf(vertices, triangle));
+  return collider.any_hit(surehit::Segmentf{{1, 1, 1}, {1, 1, -1}}) ? 1 : 0;
+}
+")
+file(WRITE "${TEST_FOLDER}/host.cpp" "extern \"C\" int hits();\nint main() { return hits() == 1 ? 0 : 1; }\n")
+run("${COMPILER}" -std=c++20 -fPIC -shared -fvisibility=hidden -fvisibility-inlines-hidden "${TEST_FOLDER}/plugin.cpp"
+  -o "${TEST_FOLDER}/libplugin.so" ${flags})
+run("${COMPILER}" "${TEST_FOLDER}/host.cpp" -o "${TEST_FOLDER}/host" "${TEST_FOLDER}/libplugin.so" ${flags})
+run("${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${TEST_FOLDER}" "${TEST_FOLDER}/host")
+
+execute_process(COMMAND "${NM}" --dynamic --defined-only --demangle "${TEST_FOLDER}/libplugin.so"
+  OUTPUT_VARIABLE exported COMMAND_ERROR_IS_FATAL ANY)
+if(NOT exported MATCHES " hits" OR exported MATCHES "[^\n]*surehit::[^\n]*")
+  message(FATAL_ERROR "the plugin exports ${CMAKE_MATCH_0} of:\n${exported}")
+endif()

@@ -1,0 +1,57 @@
+# What a user includes shows no internal type, and draws no warning though it is no system header.
+file(REMOVE_RECURSE "${TEST_FOLDER}")
+file(MAKE_DIRECTORY "${TEST_FOLDER}")
+set(include_flags "-I${SOURCE_FOLDER}/broadphase/include" "-I${SOURCE_FOLDER}/collision/include"
+  -isystem "${EIGEN_FOLDER}" -std=c++20)
+
+file(WRITE "${TEST_FOLDER}/user.cpp" "#include <surehit/surehit.hpp>
+template struct surehit::BatchOptions<float>;
+int main() { return surehit::Colliderf().triangle_count() == 0 ? 0 : 1; }
+")
+execute_process(COMMAND "${COMPILER}" ${include_flags} -E "${TEST_FOLDER}/user.cpp"
+  OUTPUT_VARIABLE preprocessed COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB_RECURSE internal_headers RELATIVE "${SOURCE_FOLDER}"
+  "${SOURCE_FOLDER}/broadphase/src/*.hpp" "${SOURCE_FOLDER}/collision/src/*.hpp")
+foreach(header IN LISTS internal_headers)
+  file(STRINGS "${SOURCE_FOLDER}/${header}" definitions REGEX "^(struct|class|enum class) [A-Za-z0-9_]+.*{$")
+  foreach(definition IN LISTS definitions)
+    string(REGEX MATCH "^(struct|class|enum class) (alignas\\(.*\\) )?([A-Za-z0-9_]+)" ignored "${definition}")
+    set(type "${CMAKE_MATCH_3}")
+    if(type STREQUAL "ColliderState")  # which the headers name, and nothing more
+      continue()
+    endif()
+    if(preprocessed MATCHES "[^A-Za-z0-9_]${type}[^A-Za-z0-9_]")
+      message(FATAL_ERROR "users see ${type} of ${header}")
+    endif()
+    math(EXPR checked "${checked} + 1")
+  endforeach()
+endforeach()
+if(checked LESS 40)
+  message(FATAL_ERROR "only ${checked} internal types were found")
+endif()
+
+foreach(compiler IN LISTS COMPILER OTHER_COMPILER)
+  if(compiler)
+    execute_process(COMMAND "${compiler}" ${include_flags} -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
+      -fsyntax-only "${TEST_FOLDER}/user.cpp" COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
+  endif()
+endforeach()
+
+# Before C++20 there is one error, which says what is needed.
+list(REMOVE_ITEM include_flags -std=c++20)
+file(WRITE "${TEST_FOLDER}/old.cpp" "#include <surehit/surehit.hpp>\n")
+execute_process(COMMAND "${COMPILER}" ${include_flags} -std=c++17 -fsyntax-only "${TEST_FOLDER}/old.cpp"
+  RESULT_VARIABLE result ERROR_VARIABLE errors OUTPUT_VARIABLE errors)
+string(REGEX MATCHALL "error:" count "${errors}")
+list(LENGTH count count)
+if(result EQUAL 0 OR NOT errors MATCHES "surehit needs C\\+\\+20" OR NOT count EQUAL 1)
+  message(FATAL_ERROR "C++17 draws ${count} errors:\n${errors}")
+endif()
+
+# So does a number type that there is no collider of.
+file(WRITE "${TEST_FOLDER}/integers.cpp" "#include <surehit/surehit.hpp>\nsurehit::Collider<int> collider;\n")
+execute_process(COMMAND "${COMPILER}" ${include_flags} -std=c++20 -fsyntax-only "${TEST_FOLDER}/integers.cpp"
+  RESULT_VARIABLE result ERROR_VARIABLE errors OUTPUT_VARIABLE errors)
+if(result EQUAL 0 OR NOT errors MATCHES "FloatOrDouble")
+  message(FATAL_ERROR "Collider<int> is not refused by FloatOrDouble:\n${errors}")
+endif()
