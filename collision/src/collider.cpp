@@ -15,49 +15,24 @@
 #include "query/path_range.hpp"
 #include "query/query.hpp"
 #include "support/floating_point_environment.hpp"
+#include "support/in_parts.hpp"
 #include "surehit/intersect.hpp"
 
 namespace surehit {
 namespace {
 
-/// Large enough that what a task costs is nothing beside it, small enough that the last ones end together.
+/// The number of paths in a task of a batch. It is so large that the cost of a task is small in comparison. It is so
+/// small that the last tasks end at about the same time.
 constexpr std::size_t paths_in_a_task = 4096;
 
-/// By the executor's tasks, each of which holds an environment of its own, for it may run on another thread. Apart, so
-/// that other batches need not its stack.
-template <typename Answer>
-[[gnu::noinline]] void run_tasks(std::size_t count, const Executor& executor, QueryStatistics* statistics,
-                                 const Answer& answer) {
-  std::mutex mutex;
-  executor.run((count + paths_in_a_task - 1) / paths_in_a_task, [&](std::size_t task) {
-    const FloatingPointEnvironment environment;
-    const std::size_t first = task * paths_in_a_task;
-    QueryStatistics of_task;
-    answer(first, std::min(paths_in_a_task, count - first), of_task);
-    if (statistics == nullptr) return;
-    const std::lock_guard lock(mutex);
-    *statistics += of_task;
-  });
-}
-
-/// Calls `answer(first, count, statistics)` for parts of `count` paths: all at once, or by the executor's tasks.
-template <typename Answer>
-void answer_in_tasks(std::size_t count, const std::optional<Executor>& executor, QueryStatistics* statistics,
-                     const Answer& answer) {
-  if (count == 0) return;
-  if (executor) {
-    run_tasks(count, *executor, statistics, answer);
-    return;
-  }
-  const FloatingPointEnvironment environment;
-  QueryStatistics unread;
-  answer(std::size_t{0}, count, statistics != nullptr ? *statistics : unread);
-}
+/// Returns null if there is no executor.
+const Executor* address_of(const std::optional<Executor>& executor) { return executor ? &*executor : nullptr; }
 
 template <typename Scalar>
 using State = detail::ColliderState<Scalar>;
 
-/// A query of one path, and what it needs while it runs: the floating-point environment, and somewhere to count.
+/// A query of one path. It also has what the query needs while it runs: the floating-point environment, and a place to
+/// count.
 template <typename Scalar>
 class SingleQuery {
  public:
@@ -69,10 +44,12 @@ class SingleQuery {
 
  private:
   FloatingPointEnvironment environment_;
-  QueryStatistics unread_;
+  QueryStatistics unread_;  ///< Counts if the caller has no statistics.
   detail::Query<Scalar> query_;
 };
 
+/// Tries points before the hit. Each is twice as far back, in t, as the one before it. Returns the first one that the
+/// segment reaches without a hit, or the start of the segment if there is none.
 template <typename Scalar>
 [[gnu::noinline]] Vector3<Scalar> find_free_point(const State<Scalar>& state, const Segment<Scalar>& segment,
                                                   const Hit<Scalar>& hit, const QueryOptions<Scalar>& options,
@@ -80,7 +57,7 @@ template <typename Scalar>
   const FloatingPointEnvironment environment;
   const Path<Scalar> path = segment;
   if (!detail::is_finite(path) || !std::isfinite(hit.t)) return segment.start;
-  // s is t less a multiple of ulp(t), so that it is exact.
+  // Below, s is exact, because it is t minus a multiple of ulp(t).
   const Scalar ulp = std::nextafter(hit.t, std::numeric_limits<Scalar>::infinity()) - hit.t;
   for (Scalar back = ulp; hit.t - back > 0; back *= 2) {
     const Scalar s = hit.t - back;
@@ -89,27 +66,32 @@ template <typename Scalar>
     shortened.max_t = std::isnan(options.max_t) ? options.max_t : std::numeric_limits<Scalar>::infinity();
     if (options.min_t > 0) shortened.min_t = std::nextafter(options.min_t / s, Scalar{0});
     const SingleQuery<Scalar> query(state, shortened, filter, nullptr);
-    if (!detail::dispatch_any_hit<Scalar>(query.get(), free)) return free.end;
+    if (!state.searches->any(query.get(), free)) return free.end;
   }
   return segment.start;
 }
 
-/// Answers a batch: `ask(query, paths, path_options, first)` for each part of it, from path `first` on.
+/// Answers a batch in parts, in tasks of the executor. Without an executor, there is one part.
+/// `ask(query, paths, own_options, first)` answers the part that begins with path `first`.
 template <typename Scalar, typename Ask>
 void answer_batch(const State<Scalar>& state, const PathSpan<Scalar>& paths, std::size_t answers,
                   const BatchOptions<Scalar>& options, const Ask& ask) noexcept {
   const bool has_own_options = !options.path_options.empty();
   const std::size_t count =
       std::min({paths.size(), answers, has_own_options ? options.path_options.size() : paths.size()});
+  if (count == 0) return;
   const HitFilter<Scalar>* const filter = options.filter ? &*options.filter : nullptr;
-  answer_in_tasks(count, options.executor, options.statistics,
-                  [&](std::size_t first, std::size_t in_task, QueryStatistics& statistics) {
-                    const detail::Query<Scalar> query{state.grid, state.mesh, state.masks, options.options,
-                                                      filter,     statistics, first};
-                    const auto own_options =
-                        options.path_options.subspan(has_own_options ? first : 0, has_own_options ? in_task : 0);
-                    ask(query, paths.subspan(first, in_task), own_options, first);
-                  });
+  std::mutex mutex;
+  detail::in_parts(address_of(options.executor), count, paths_in_a_task, [&](std::size_t first, std::size_t last) {
+    QueryStatistics statistics;
+    const detail::Query<Scalar> query{state.grid, state.mesh, state.masks, options.options, filter, statistics, first};
+    const auto own_options =
+        has_own_options ? options.path_options.subspan(first, last - first) : std::span<const QueryOptions<Scalar>>();
+    ask(query, paths.subspan(first, last - first), own_options, first);
+    if (options.statistics == nullptr) return;
+    const std::lock_guard lock(mutex);
+    *options.statistics += statistics;
+  });
 }
 
 BuildResult check_masks(std::span<const std::uint32_t> masks, std::size_t triangle_count) {
@@ -124,8 +106,6 @@ BuildResult check_mesh(const TriangleMeshView<Scalar>& mesh, const BuildOptions&
   return check_masks(options.masks, mesh.triangle_count());
 }
 
-const Executor* address_of(const std::optional<Executor>& executor) { return executor ? &*executor : nullptr; }
-
 }  // namespace
 
 template <FloatOrDouble Scalar>
@@ -134,7 +114,9 @@ void detail::DeleteColliderState<Scalar>::operator()(State<Scalar>* state) const
 }
 
 template <FloatOrDouble Scalar>
-Collider<Scalar>::Collider(const Collider& other) : state_(other.state_ ? new State<Scalar>(*other.state_) : nullptr) {}
+Collider<Scalar>::Collider(const Collider& other) : state_(other.state_ ? new State<Scalar>(*other.state_) : nullptr) {
+  if (state_) state_->searches = detail::best_searches<Scalar>();  // A new collider chooses them in the same way.
+}
 
 template <FloatOrDouble Scalar>
 Collider<Scalar>& Collider<Scalar>::operator=(const Collider& other) {
@@ -145,7 +127,7 @@ Collider<Scalar>& Collider<Scalar>::operator=(const Collider& other) {
 template <FloatOrDouble Scalar>
 const State<Scalar>& Collider<Scalar>::state() const noexcept {
   if (state_) return *state_;
-  // Never destroyed: a collider may be asked until the program ends.
+  // It is never destroyed, because a collider may be asked until the program ends.
   alignas(State<Scalar>) static std::byte memory[sizeof(State<Scalar>)];
   static const State<Scalar>& empty = *new (memory) State<Scalar>;
   return empty;
@@ -194,7 +176,7 @@ BuildResult Collider<Scalar>::try_rebuild(const VertexView<Scalar>& vertices, co
                        std::to_string(vertices.size()) + " vertices for a mesh of " + std::to_string(vertex_count));
   }
   if (std::optional<InvalidMesh> invalid = find_invalid(mesh)) return *std::move(invalid);
-  if (!state_) return {};  // there were no vertices, and there are none
+  if (!state_) return {};  // The mesh has no vertices, and none are given.
   const Box<Scalar> box = box_of(mesh);
   auto& spare = state_->spare;
   spare.grid.rebuild(mesh, box, state_->grid_options, spare.scratch, address_of(executor));
@@ -247,7 +229,7 @@ GridSummary Collider<Scalar>::grid_summary() const noexcept {
 
 template <FloatOrDouble Scalar>
 std::size_t Collider<Scalar>::memory_bytes() const noexcept {
-  const auto& [mesh, masks, box, grid, grid_options, spare] = state();
+  const auto& [mesh, masks, box, grid, grid_options, spare, searches] = state();
   return grid.memory_bytes() + mesh.memory_bytes() + masks.capacity() * sizeof(std::uint32_t) +
          spare.grid.memory_bytes() + spare.mesh.memory_bytes() + spare.scratch.memory_bytes();
 }
@@ -256,7 +238,7 @@ template <FloatOrDouble Scalar>
 std::optional<Hit<Scalar>> Collider<Scalar>::first_hit(const Path<Scalar>& path, const QueryOptions<Scalar>& options,
                                                        QueryStatistics* statistics) const noexcept {
   const SingleQuery<Scalar> query(state(), options, nullptr, statistics);
-  return detail::dispatch_first_hit(query.get(), path);
+  return state().searches->first(query.get(), path);
 }
 
 template <FloatOrDouble Scalar>
@@ -264,21 +246,21 @@ std::optional<Hit<Scalar>> Collider<Scalar>::first_hit(const Path<Scalar>& path,
                                                        const QueryOptions<Scalar>& options,
                                                        QueryStatistics* statistics) const noexcept {
   const SingleQuery<Scalar> query(state(), options, &filter, statistics);
-  return detail::dispatch_first_hit(query.get(), path);
+  return state().searches->first(query.get(), path);
 }
 
 template <FloatOrDouble Scalar>
 bool Collider<Scalar>::any_hit(const Path<Scalar>& path, const QueryOptions<Scalar>& options,
                                QueryStatistics* statistics) const noexcept {
   const SingleQuery<Scalar> query(state(), options, nullptr, statistics);
-  return detail::dispatch_any_hit(query.get(), path);
+  return state().searches->any(query.get(), path);
 }
 
 template <FloatOrDouble Scalar>
 bool Collider<Scalar>::any_hit(const Path<Scalar>& path, HitFilter<Scalar> filter, const QueryOptions<Scalar>& options,
                                QueryStatistics* statistics) const noexcept {
   const SingleQuery<Scalar> query(state(), options, &filter, statistics);
-  return detail::dispatch_any_hit(query.get(), path);
+  return state().searches->any(query.get(), path);
 }
 
 template <FloatOrDouble Scalar>
@@ -286,7 +268,7 @@ void Collider<Scalar>::all_hits(const Path<Scalar>& path, std::vector<Hit<Scalar
                                 const QueryOptions<Scalar>& options, QueryStatistics* statistics) const {
   const SingleQuery<Scalar> query(state(), options, nullptr, statistics);
   hits.clear();
-  detail::dispatch_all_hits(query.get(), path, hits);
+  state().searches->all(query.get(), path, hits);
 }
 
 template <FloatOrDouble Scalar>
@@ -294,7 +276,7 @@ void Collider<Scalar>::all_hits(const Path<Scalar>& path, std::vector<Hit<Scalar
                                 const QueryOptions<Scalar>& options, QueryStatistics* statistics) const {
   const SingleQuery<Scalar> query(state(), options, &filter, statistics);
   hits.clear();
-  detail::dispatch_all_hits(query.get(), path, hits);
+  state().searches->all(query.get(), path, hits);
 }
 
 template <FloatOrDouble Scalar>
@@ -302,7 +284,7 @@ void Collider<Scalar>::first_hits(const PathSpan<Scalar>& paths, std::span<Hit<S
                                   const BatchOptions<Scalar>& options) const noexcept {
   answer_batch(state(), paths, hits.size(), options,
                [&](const auto& query, const auto& some, const auto& own_options, std::size_t first) {
-                 detail::dispatch_first_hits(query, some, own_options, &hits[first]);
+                 state().searches->each_first(query, some, own_options, hits.subspan(first, some.size()));
                });
 }
 
@@ -311,7 +293,7 @@ void Collider<Scalar>::any_hits(const PathSpan<Scalar>& paths, std::span<std::ui
                                 const BatchOptions<Scalar>& options) const noexcept {
   answer_batch(state(), paths, blocked.size(), options,
                [&](const auto& query, const auto& some, const auto& own_options, std::size_t first) {
-                 detail::dispatch_any_hits(query, some, own_options, &blocked[first]);
+                 state().searches->each_any(query, some, own_options, blocked.subspan(first, some.size()));
                });
 }
 

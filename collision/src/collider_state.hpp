@@ -5,29 +5,33 @@
 
 #include "grid/grid.hpp"
 #include "mesh/mesh_blocks.hpp"
+#include "query/query.hpp"
 #include "surehit/box.hpp"
 #include "surehit/collider.hpp"
 
 namespace surehit::detail {
 
-/// What a collider holds behind its pointer.
+/// The state of a collider. The collider has a pointer to it.
 template <FloatOrDouble Scalar>
 struct ColliderState {
-  /// What a rebuild is made in. Then it takes the place of what was.
+  /// The memory of a rebuild. It makes the new mesh and the new grid here. At the end it exchanges them with those in
+  /// use.
   struct Spare {
-    MeshBlocks<Scalar> mesh;
-    Grid grid;
-    GridScratch scratch;
+    MeshBlocks<Scalar> mesh;  ///< The next mesh.
+    Grid grid;                ///< The next grid.
+    GridScratch scratch;      ///< Other memory that the build of a grid needs.
   };
 
-  MeshBlocks<Scalar> mesh;
-  std::vector<std::uint32_t> masks;  ///< one a triangle, or none if all bits are set for all
-  Box<Scalar> box;
-  Grid grid;
-  GridOptions grid_options;
-  Spare spare;
+  MeshBlocks<Scalar> mesh;           ///< The collider's copy of the mesh.
+  std::vector<std::uint32_t> masks;  ///< The mask of each triangle. It is empty if all masks have all bits.
+  Box<Scalar> box;                   ///< The box of the mesh.
+  Grid grid;                         ///< The grid of the mesh.
+  GridOptions grid_options;          ///< The options that the grid was built with.
+  Spare spare;                       ///< The memory of a rebuild.
+  /// The searches for the best instruction set. They are chosen when the collider is made.
+  const Searches<Scalar>* searches = best_searches<Scalar>();
 
-  /// The state of a collider, for tests and benchmarks of its parts.
+  /// Returns the state of a collider. Tests and benchmarks of its parts use it.
   [[nodiscard]] static const ColliderState& of(const Collider<Scalar>& collider) noexcept { return collider.state(); }
 };
 

@@ -7,10 +7,12 @@
 #include "exact/exact_contact.hpp"
 #include "query/path_range.hpp"
 #include "support/floating_point_environment.hpp"
+#include "walk/direction.hpp"
 
 namespace surehit {
 namespace {
 
+/// Returns the point at t, rounded once, or NaN if the path or t is not finite.
 template <typename Scalar>
 Vector3<Scalar> point_of(const Path<Scalar>& path, Scalar t) {
   const FloatingPointEnvironment environment;
@@ -20,21 +22,25 @@ Vector3<Scalar> point_of(const Path<Scalar>& path, Scalar t) {
   return detail::exact_point(path, t);
 }
 
-/// In a wider type: there is neither overflow nor underflow, and its own roundings come to less than one of Scalar.
+/// Returns |t| |D|, computed in a wider type. In that type nothing overflows or underflows. All of its roundings
+/// together are less than one rounding of Scalar.
 template <typename Scalar>
 [[gnu::noinline]] Scalar distance_of(const Path<Scalar>& path, Scalar t) {
   using Wide = std::conditional_t<std::is_same_v<Scalar, float>, double, long double>;
   Wide sum = 0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const Wide way = path.has_end() ? Wide{path.toward[axis]} - Wide{path.start[axis]} : Wide{path.toward[axis]};
+    const Wide way = detail::direction_of(path.kind, Wide{path.start[axis]}, Wide{path.toward[axis]});
     sum += way * way;
   }
   return static_cast<Scalar>(std::fabs(Wide{t}) * std::sqrt(sum));
 }
 
-// The cross product arrives with its largest component in [1/2, 1) and each component within half an ulp of double. The
-// sum of squares, the root and the quotients add a few roundings of 2^-53 each, and the last one is to Scalar: in all
-// below 2^-50 + ulp(1)/2, and for double below 8 roundings of 2^-53 of a component that is at most 1: 2 ulp(1).
+// Let eps = 2^-53 be the unit roundoff of double, and let n be a component of the exact unit normal.
+//
+// Each component of the cross product is rounded once, so it is off by eps of itself. This turns the vector, and moves
+// n by at most 2 n (1 - n^2) eps. The sum of squares has three roundings, which are 1.5 eps of the length. The root and
+// the quotient have one rounding each. To first order, that is (2 n (1 - n^2) + 3.5 n) eps, at most 3.6 eps for n up to
+// 1. So a double is off by less than 4 eps = 2 ulp(1). For float, one more rounding adds at most ulp(1) / 2 of float.
 template <typename Scalar>
 [[gnu::noinline]] Vector3<Scalar> unit_normal(const Triangle<Scalar>& triangle) {
   const Vector3<double> cross = detail::exact_cross(triangle);

@@ -22,7 +22,7 @@ std::optional<Hit<Scalar>> intersect(const std::type_identity_t<Path<Scalar>>& p
   return narrowphase.hit(candidate);
 }
 
-// A path that is cut at hit.t still meets the triangle exactly if its exact t is not above hit.t.
+// A path that is cut at hit.t still meets the triangle if and only if the exact t is not above hit.t.
 template <FloatOrDouble Scalar>
 Scalar max_t_keeping(const std::type_identity_t<Path<Scalar>>& path, const Triangle<Scalar>& triangle,
                      const Hit<Scalar>& hit) noexcept {

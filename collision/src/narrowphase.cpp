@@ -10,13 +10,14 @@
 namespace surehit::detail {
 namespace {
 
-/// Rounds a number if all that its bounds allow rounds to the same one (Ziv 1991).
+/// Rounds a number between two bounds. Returns true if both bounds round to the same value (Ziv 1991).
 template <typename Scalar>
 bool try_round(double lower, double upper, Scalar& rounded) {
-  rounded = static_cast<Scalar>(upper) + Scalar{0};  // a zero is +0
+  rounded = static_cast<Scalar>(upper) + Scalar{0};  // A zero becomes +0.
   return static_cast<Scalar>(lower) == rounded;
 }
 
+/// Rounds t, u and v of a hit. Returns false if their bounds do not decide all of them.
 template <typename Scalar>
 bool try_round(const BoundedContact& bounded, Hit<Scalar>& hit) {
   if (bounded.verdict != Verdict::hit) return false;
@@ -52,7 +53,8 @@ bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact
   return admits(found);
 }
 
-// Apart, and so are the other two exact steps: their frames are large, and those of the grid's walk lie above them.
+// The three functions with exact steps are not inlined, because their stack frames are large. The frames of the walk
+// are on the stack at the same time.
 template <typename Scalar>
 [[gnu::noinline]] bool Narrowphase<Scalar>::find_exactly(const Triangle<Scalar>& triangle, Contact& found) const {
   const BoundedContact bounded = bounded_contact(path_, triangle, range_);
@@ -77,7 +79,8 @@ template <typename Scalar>
 bool Narrowphase<Scalar>::comes_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const {
   if (x.contact.t_upper < y.contact.t_lower) return true;
   if (y.contact.t_upper < x.contact.t_lower) return false;
-  // The usual tie in a level: floors that lie on floors. Where both sides are certain, both are crossed.
+  // In levels, most ties are floors that lie on floors. If neither contact is edge-on, the path crosses the plane, so
+  // both t are equal.
   if (x.contact.side != Side::edge_on && y.contact.side != Side::edge_on && share_axis_plane(x.triangle, y.triangle)) {
     return x.id < y.id;
   }

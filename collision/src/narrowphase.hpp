@@ -13,21 +13,21 @@
 
 namespace surehit::detail {
 
-/// Whether both triangles lie in one plane that is square to an axis. A path that crosses the plane meets either, if at
-/// all, at the same t.
+/// Returns true if both triangles lie in one plane that is perpendicular to an axis. If a path crosses this plane and
+/// meets both triangles, it meets them at the same t.
 template <typename Scalar>
 [[nodiscard]] bool share_axis_plane(const Triangle<Scalar>& x, const Triangle<Scalar>& y);
 
-/// A triangle that a path meets. Not set by itself, as a `Contact` is not.
+/// A triangle that a path may meet. `Candidate` without `{}` leaves all members unset, as `Contact` does.
 template <typename Scalar>
 struct Candidate {
-  std::uint32_t id;
-  Triangle<Scalar> triangle;
-  Contact contact;
+  std::uint32_t id;           ///< The id of the triangle.
+  Triangle<Scalar> triangle;  ///< The corners of the triangle.
+  Contact contact;            ///< The contact. It is set if the path meets the triangle.
 };
 
-/// One path, asked against triangles that the kernel did not call misses: in double first, what that leaves undecided
-/// with running error bounds, and what they leave undecided exactly.
+/// Decides one path against triangles that may be hit. The kernel has not called them misses. The first stage works in
+/// double. Running error bounds decide what it leaves undecided. Exact integers decide the rest.
 template <typename Scalar>
 class Narrowphase {
  public:
@@ -35,22 +35,27 @@ class Narrowphase {
               QueryStatistics& statistics)
       : path_(path), options_(options), range_(range), statistics_(statistics) {}
 
-  /// Fills in the contact, unless there is none or the options leave it out.
+  /// Returns true, with the contact in `found`, if the path meets the triangle and the options on contacts admit it.
+  /// Otherwise `found` has no meaning. Masks, filters and the ignored triangle are for the caller.
   [[nodiscard]] bool find_contact(const Triangle<Scalar>& triangle, Contact& found) const;
 
-  /// By exact t, then by id.
+  /// Returns true if x comes before y: by the exact t, then by the id.
   [[nodiscard]] bool comes_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const;
 
-  /// Puts what was found in order, each triangle once, though it was found in every cell that lists it.
+  /// Sorts the candidates by `comes_before`, and keeps each triangle once. Each cell that lists a triangle may find it.
   void sort(std::vector<Candidate<Scalar>>& found) const;
 
-  /// A contact as it is reported: t, u and v rounded once.
+  /// Returns the contact as it is reported. Each of t, u and v is the exact value, rounded once.
   [[nodiscard]] Hit<Scalar> hit(const Candidate<Scalar>& candidate) const;
 
  private:
+  /// Returns true if the options on contacts admit it: the culling, and the contacts to ignore.
   [[nodiscard]] bool admits(const Contact& contact) const;
+  /// Does the same with stages 3 and 4. It does not look at the options on contacts.
   [[nodiscard]] bool find_exactly(const Triangle<Scalar>& triangle, Contact& found) const;
+  /// Does the same as `comes_before`, exactly.
   [[nodiscard]] bool exactly_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const;
+  /// Rounds t, u and v with stages 3 and 4.
   void round_exactly(const Candidate<Scalar>& candidate, Hit<Scalar>& hit) const;
 
   const Path<Scalar>& path_;

@@ -72,15 +72,15 @@ class Unfiltered : BlockDeterminants<float> {
     return {bits_of(d, hn::And(taken, hn::Eq(t, all(least)))), least, least};
   }
 
-  [[nodiscard]] HWY_INLINE static FirstLanes<float> lone_first(const Bounds& /*bounds*/, float height, float det,
-                                                               std::uint64_t hits) {
+  [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of_one(const Bounds& /*bounds*/, float height, float det,
+                                                                 std::uint64_t hits) {
     const float t = height / det;
     return {hits, t, t};
   }
 
   /// Nothing is left open.
   template <typename... Any>
-  HWY_INLINE static void weigh_each(const Any&...) {}
+  HWY_INLINE static void classify_each(const Any&...) {}
 };
 
 /// The shipped kernel with its bounds of a list, but that lanes which these leave undecided are misses and t is as
@@ -98,15 +98,15 @@ class WithoutExactStage : public BlockKernel<float> {
                                                              std::uint64_t hits, float limit) {
     return Unfiltered::first_of({}, {crossing.height, crossing.det}, hits, limit);
   }
-  [[nodiscard]] HWY_INLINE static FirstLanes<float> lone_first(const Bounds& /*bounds*/, float height, float det,
-                                                               std::uint64_t hits) {
-    return Unfiltered::lone_first({}, height, det, hits);
+  [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of_one(const Bounds& /*bounds*/, float height, float det,
+                                                                 std::uint64_t hits) {
+    return Unfiltered::first_of_one({}, height, det, hits);
   }
   template <typename... Any>
-  HWY_INLINE static void weigh_each(const Any&...) {}
+  HWY_INLINE static void classify_each(const Any&...) {}
 };
 
-/// Keeps the hit of least t as computed; of equal ones the first that it is shown.
+/// Keeps the hit of least t as computed; of equal ones the first that it is given.
 template <typename AnyKernel>
 class FirstAsComputed {
  public:
@@ -118,14 +118,15 @@ class FirstAsComputed {
   void reset() { t_ = std::numeric_limits<float>::infinity(); }
 
   template <typename AnyPath>
-  HWY_INLINE bool meet(const Meeting<float, AnyPath>& meeting) {
-    if (!(meeting.first.t_lower < t_)) return false;
-    const auto lane = static_cast<std::size_t>(std::countr_zero(meeting.first.lanes));
-    t_ = meeting.first.t_lower;
-    entry_ = meeting.entry(lane);
-    triangle_ = meeting.triangle(lane);
-    hwy::Prefetch(meeting.query.grid.entries().data() + entry_);  // wanted when the path ends
-    return true;
+  HWY_INLINE std::uint64_t take_certain(const CandidateBlock<float, AnyPath>& block, bool& is_nearer) {
+    is_nearer = block.first.t_lower < t_;
+    if (!is_nearer) return 0;
+    const auto lane = static_cast<std::size_t>(std::countr_zero(block.first.lanes));
+    t_ = block.first.t_lower;
+    entry_ = block.entry(lane);
+    triangle_ = block.triangle(lane);
+    hwy::Prefetch(block.query.grid.entries().data() + entry_);  // The id is needed when the path ends.
+    return 0;
   }
   [[nodiscard]] float t_upper() const { return t_; }
   [[nodiscard]] double limit() const { return t_; }
@@ -160,8 +161,9 @@ class AnyAsComputed {
   void reset() { is_done_ = false; }
 
   template <typename AnyPath>
-  HWY_INLINE bool meet(const Meeting<float, AnyPath>& meeting) {
-    return is_done_ = meeting.lanes.certain != 0;
+  HWY_INLINE std::uint64_t take_certain(const CandidateBlock<float, AnyPath>& block, bool& /*is_nearer*/) {
+    is_done_ = block.lanes.certain != 0;
+    return 0;
   }
   [[nodiscard]] double limit() const { return 0; }
   [[nodiscard]] bool is_done() const { return is_done_; }
@@ -180,7 +182,7 @@ void first_hits_by(const Query<float>& query, std::span<const Segmentf> paths, s
     if (first.is_found()) hits[index] = first.hit(query, paths[index]);
   };
   const auto alone = [&](std::size_t index) {
-    hits[index] = dispatch_first_hit<float>(query, paths[index]).value_or(Hitf{});
+    hits[index] = search_first<float>(query, paths[index]).value_or(Hitf{});
   };
   search_paths<FirstAsComputed<Kernel>>(queries, PathSpan<float>(paths), finish, alone);
 }
@@ -192,7 +194,7 @@ void any_hits_by(const Query<float>& query, std::span<const Segmentf> paths, std
   const auto finish = [&](std::size_t index, const AnyAsComputed<Kernel>& any) {
     blocked[index] = any.is_done() ? 1 : 0;
   };
-  const auto alone = [&](std::size_t index) { blocked[index] = dispatch_any_hit<float>(query, paths[index]) ? 1 : 0; };
+  const auto alone = [&](std::size_t index) { blocked[index] = search_any<float>(query, paths[index]) ? 1 : 0; };
   search_paths<AnyAsComputed<Kernel>>(queries, PathSpan<float>(paths), finish, alone);
 }
 

@@ -28,14 +28,14 @@ class TriangleMeshViewTest : public testing::Test {
 };
 TYPED_TEST_SUITE(TriangleMeshViewTest, Scalars, ScalarNames);
 
-TYPED_TEST(TriangleMeshViewTest, ByDefaultIsEmptyAndValid) {
+TYPED_TEST(TriangleMeshViewTest, by_default_is_empty_and_valid) {
   const TriangleMeshView<TypeParam> view;
   EXPECT_EQ(view.vertex_count(), 0U);
   EXPECT_EQ(view.triangle_count(), 0U);
   EXPECT_FALSE(find_invalid(view).has_value());
 }
 
-TYPED_TEST(TriangleMeshViewTest, ReadsDenseArrays) {
+TYPED_TEST(TriangleMeshViewTest, reads_dense_arrays) {
   const auto view = this->view();
   EXPECT_EQ(view.vertex_count(), 4U);
   EXPECT_EQ(view.triangle_count(), 2U);
@@ -48,7 +48,7 @@ TYPED_TEST(TriangleMeshViewTest, ReadsDenseArrays) {
   EXPECT_FALSE(find_invalid(view).has_value());
 }
 
-TYPED_TEST(TriangleMeshViewTest, ReadsInterleavedArraysInPlace) {
+TYPED_TEST(TriangleMeshViewTest, reads_interleaved_arrays_in_place) {
   struct Corner {
     std::array<TypeParam, 3> position;
     std::array<TypeParam, 2> texture;
@@ -67,7 +67,7 @@ TYPED_TEST(TriangleMeshViewTest, ReadsInterleavedArraysInPlace) {
   EXPECT_FALSE(find_invalid(view).has_value());
 }
 
-TYPED_TEST(TriangleMeshViewTest, ReadsEigenMatricesMapsAndBlocks) {
+TYPED_TEST(TriangleMeshViewTest, reads_eigen_matrices_maps_and_blocks) {
   Eigen::Matrix<TypeParam, 3, Eigen::Dynamic> vertices(3, 4);
   vertices << 0, 3, 6, 9, 1, 4, 7, 10, 2, 5, 8, 11;
   Eigen::Matrix<std::int32_t, 3, Eigen::Dynamic> triangles(3, 2);
@@ -87,7 +87,7 @@ TYPED_TEST(TriangleMeshViewTest, ReadsEigenMatricesMapsAndBlocks) {
   EXPECT_EQ(of_blocks.corner(0, 0), 2U);
 }
 
-TYPED_TEST(TriangleMeshViewTest, ReadsSixteenBitIndices) {
+TYPED_TEST(TriangleMeshViewTest, reads_sixteen_bit_indices) {
   const std::vector<std::array<std::uint16_t, 3>> triangles = {{0, 1, 2}, {2, 1, 3}};
   const TriangleMeshView<TypeParam> dense(this->vertices, triangles);
   EXPECT_EQ(dense.triangle(1).a, this->vertices[2]);
@@ -115,7 +115,7 @@ TYPED_TEST(TriangleMeshViewTest, ReadsSixteenBitIndices) {
   EXPECT_EQ(of_columns.corner(0, 2), 3U);
 }
 
-TYPED_TEST(TriangleMeshViewTest, NamesTheFirstTriangleWithAnIndexOutOfRange) {
+TYPED_TEST(TriangleMeshViewTest, names_the_first_triangle_with_an_index_out_of_range) {
   this->triangles = {{0, 1, 2}, {0, 1, 4}, {9, 9, 9}};
   const auto invalid = find_invalid(this->view());
   ASSERT_TRUE(invalid.has_value());
@@ -124,7 +124,7 @@ TYPED_TEST(TriangleMeshViewTest, NamesTheFirstTriangleWithAnIndexOutOfRange) {
   EXPECT_STREQ(invalid->what(), "triangle 1: corner c is vertex 4, but the mesh has 4 vertices");
 }
 
-TYPED_TEST(TriangleMeshViewTest, ChecksEveryCornerAndTheLastTriangle) {
+TYPED_TEST(TriangleMeshViewTest, checks_every_corner_and_the_last_triangle) {
   for (std::size_t corner = 0; corner < 3; ++corner) {
     this->triangles = {{0, 1, 2}, {2, 1, 3}};
     this->triangles[1][corner] = 4;
@@ -135,7 +135,7 @@ TYPED_TEST(TriangleMeshViewTest, ChecksEveryCornerAndTheLastTriangle) {
   }
 }
 
-TYPED_TEST(TriangleMeshViewTest, TakesNegativeIndicesAsOutOfRange) {
+TYPED_TEST(TriangleMeshViewTest, takes_negative_indices_as_out_of_range) {
   const Eigen::Matrix<TypeParam, 3, 3> vertices = Eigen::Matrix<TypeParam, 3, 3>::Identity();
   const Eigen::Vector3i triangle(0, -1, 2);
   const auto invalid = find_invalid(TriangleMeshView<TypeParam>(vertices, triangle));
@@ -143,7 +143,7 @@ TYPED_TEST(TriangleMeshViewTest, TakesNegativeIndicesAsOutOfRange) {
   EXPECT_EQ(invalid->reason, Reason::index_out_of_range);
 }
 
-TYPED_TEST(TriangleMeshViewTest, NamesTheFirstNonFiniteVertexUsedOrNot) {
+TYPED_TEST(TriangleMeshViewTest, names_the_first_non_finite_vertex_used_or_not) {
   for (const TypeParam bad : {this->infinity, -this->infinity, this->nan}) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       auto vertices = this->vertices;
@@ -160,20 +160,20 @@ TYPED_TEST(TriangleMeshViewTest, NamesTheFirstNonFiniteVertexUsedOrNot) {
   }
 }
 
-TYPED_TEST(TriangleMeshViewTest, TakesTheLargestAndTheLeastNumbers) {
+TYPED_TEST(TriangleMeshViewTest, takes_the_largest_and_the_least_numbers) {
   this->vertices[0] = {std::numeric_limits<TypeParam>::max(), std::numeric_limits<TypeParam>::lowest(),
                        std::numeric_limits<TypeParam>::denorm_min()};
   EXPECT_FALSE(find_invalid(this->view()).has_value());
 }
 
-TYPED_TEST(TriangleMeshViewTest, NamesIndicesBeforeVertices) {
+TYPED_TEST(TriangleMeshViewTest, names_indices_before_vertices) {
   this->vertices[0][0] = this->nan;
   this->triangles[1][0] = 7;
   EXPECT_EQ(find_invalid(this->view())->reason, Reason::index_out_of_range);
 }
 
 /// Their count is checked before any is read.
-TYPED_TEST(TriangleMeshViewTest, RefusesMoreTrianglesThanIds) {
+TYPED_TEST(TriangleMeshViewTest, refuses_more_triangles_than_ids) {
   const TriangleMeshView<TypeParam> view(this->vertices,
                                          TriangleIndexView::strided(this->triangles.front().data(), no_triangle, 0));
   const auto invalid = find_invalid(view);

@@ -166,5 +166,19 @@ TYPED_TEST(BatchOptionsTest, read_paths_where_they_lie) {
             0U);
 }
 
+/// As single queries do.
+TYPED_TEST(BatchOptionsTest, statistics_count_the_paths_of_a_collider_without_triangles) {
+  const Collider<TypeParam> nothing;
+  const auto& segments = this->many_.segments;
+  std::vector<Hit<TypeParam>> hits(segments.size());
+  std::vector<std::uint8_t> blocked(segments.size(), 1);
+  QueryStatistics statistics;
+  nothing.first_hits(segments, hits, {.statistics = &statistics});
+  nothing.any_hits(segments, blocked, {.statistics = &statistics});
+  EXPECT_EQ(statistics.paths, 2 * segments.size());
+  EXPECT_EQ(statistics.candidates, 0U);
+  EXPECT_EQ(std::count(blocked.begin(), blocked.end(), 1), 0);
+}
+
 }  // namespace
 }  // namespace surehit::test

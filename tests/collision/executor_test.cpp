@@ -177,8 +177,9 @@ TYPED_TEST(BatchOnExecutor, gives_threads_something_to_share) {
   many.collider.any_hits(segments, blocked, {.executor = counting});
   EXPECT_GE(tasks, 4U);
   EXPECT_LE(tasks, 20U);
+  tasks = 0;
   many.collider.any_hits(segments.first(1000), blocked, {.executor = counting});
-  EXPECT_EQ(tasks, 1U);
+  EXPECT_EQ(tasks, 0U) << "too few paths to share";
 }
 
 TYPED_TEST(BatchOnExecutor, of_unequal_lengths_leaves_alone_what_is_beyond_the_shorter) {

@@ -50,7 +50,7 @@ class AxisView : public testing::Test {
 
 TYPED_TEST_SUITE(AxisView, Scalars, ScalarNames);
 
-TYPED_TEST(AxisView, SeesWhatIsAcrossTheAxis) {
+TYPED_TEST(AxisView, sees_what_is_across_the_axis) {
   using View = example::AxisView<TypeParam>;
   EXPECT_EQ(View(0).x({1, 2, 3}), 2);
   EXPECT_EQ(View(0).y({1, 2, 3}), 3);
@@ -60,7 +60,7 @@ TYPED_TEST(AxisView, SeesWhatIsAcrossTheAxis) {
   EXPECT_EQ(View(2).y({1, 2, 3}), 2);
 }
 
-TYPED_TEST(AxisView, DoesNotSeeHowFarAwayPointsAre) {
+TYPED_TEST(AxisView, does_not_see_how_far_away_points_are) {
   const example::AxisView<TypeParam> view(1);
   EXPECT_TRUE(view.coincide({1, 2, 3}, {1, 9, 3}));
   EXPECT_TRUE(view.coincide({0, 2, 3}, {-TypeParam{0}, 9, 3}));
@@ -69,14 +69,14 @@ TYPED_TEST(AxisView, DoesNotSeeHowFarAwayPointsAre) {
   EXPECT_EQ(view.orientation({0, 5, 0}, {0, -7, 1}, {1, 1, 0}), 1);
 }
 
-TYPED_TEST(AxisView, SeesATurnToTheLeftFromBeforeTheAxis) {
+TYPED_TEST(AxisView, sees_a_turn_to_the_left_from_before_the_axis) {
   EXPECT_EQ(example::AxisView<TypeParam>(2).orientation({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), 1);
   EXPECT_EQ(example::AxisView<TypeParam>(2).orientation({0, 0, 0}, {0, 1, 0}, {1, 0, 0}), -1);
   EXPECT_EQ(example::AxisView<TypeParam>(2).orientation({0, 0, 0}, {1, 1, 0}, {3, 3, 9}), 0);
   EXPECT_EQ(example::AxisView<TypeParam>(0).orientation({0, 0, 0}, {0, 1, 0}, {0, 0, 1}), 1);
 }
 
-TYPED_TEST(AxisView, IsExactWherePointsAreNearlyInLine) {
+TYPED_TEST(AxisView, is_exact_where_points_are_nearly_in_line) {
   Random random(1);
   for (std::size_t i = 0; i < case_count(20000) && !this->HasFatalFailure(); ++i) {
     // Squares of some underflow.
@@ -93,7 +93,7 @@ TYPED_TEST(AxisView, IsExactWherePointsAreNearlyInLine) {
   }
 }
 
-TYPED_TEST(AxisView, IsExactInWholeNumbers) {
+TYPED_TEST(AxisView, is_exact_in_whole_numbers) {
   Random random(2);
   for (std::size_t i = 0; i < case_count(20000) && !this->HasFatalFailure(); ++i) {
     const std::int64_t size = std::int64_t{1} << random.between(0, 23);
@@ -110,7 +110,7 @@ TYPED_TEST(AxisView, IsExactInWholeNumbers) {
   EXPECT_GT(this->seen_[1], case_count(2000)) << "in line";
 }
 
-TYPED_TEST(AxisView, IsExactForNumbersOfAnySize) {
+TYPED_TEST(AxisView, is_exact_for_numbers_of_any_size) {
   Random random(3);
   constexpr TypeParam least = std::numeric_limits<TypeParam>::denorm_min();
   constexpr TypeParam most = std::numeric_limits<TypeParam>::max();

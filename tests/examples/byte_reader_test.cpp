@@ -10,7 +10,7 @@ namespace {
 using example::ByteReader;
 using namespace std::string_view_literals;
 
-TEST(ByteReader, TakesNumbersInEitherOrderOfBytes) {
+TEST(ByteReader, takes_numbers_in_either_order_of_bytes) {
   ByteReader little("\x01\x02\x03\x04\x00\x00\x80\x3f"sv, std::endian::little);
   EXPECT_EQ(little.take<std::uint32_t>(), 0x04030201u);
   EXPECT_EQ(little.take<float>(), 1.0f);
@@ -19,14 +19,14 @@ TEST(ByteReader, TakesNumbersInEitherOrderOfBytes) {
   EXPECT_EQ(big.take<float>(), 1.0f);
 }
 
-TEST(ByteReader, KeepsTrackOfTheRest) {
+TEST(ByteReader, keeps_track_of_the_rest) {
   ByteReader reader("abcdef"sv, std::endian::little);
   reader.skip(2);
   EXPECT_EQ(reader.take<char>(), 'c');
   EXPECT_EQ(reader.rest(), "def");
 }
 
-TEST(ByteReader, RefusesToReadBeyondTheEnd) {
+TEST(ByteReader, refuses_to_read_beyond_the_end) {
   ByteReader reader("abc"sv, std::endian::little);
   EXPECT_EQ(error_of([&] { return reader.take<float>(); }), "the file ends too early");
   EXPECT_EQ(error_of([&] { return reader.skip(4), 0; }), "the file ends too early");

@@ -49,31 +49,31 @@ class EarClipper : public testing::Test {
 
 TYPED_TEST_SUITE(EarClipper, Scalars, ScalarNames);
 
-TYPED_TEST(EarClipper, CutsEarsUntilATriangleIsLeft) {
+TYPED_TEST(EarClipper, cuts_ears_until_a_triangle_is_left) {
   const auto triangles = this->clip({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, 1);
   ASSERT_TRUE(triangles);
   EXPECT_EQ(*triangles, (Triangles{{3, 0, 1}, {3, 1, 2}}));
 }
 
-TYPED_TEST(EarClipper, CutsNoEarThatACornerIsIn) {
+TYPED_TEST(EarClipper, cuts_no_ear_that_a_corner_is_in) {
   this->expect_area({{-4, 4, 0}, {0, 0, 0}, {4, 4, 0}, {0, 2, 0}}, 16);
   this->expect_area({{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {5, 2, 0}, {0, 9, 0}}, 99);
 }
 
-TYPED_TEST(EarClipper, FindsNoEarsInTheWrongTurn) {
+TYPED_TEST(EarClipper, finds_no_ears_in_the_wrong_turn) {
   EXPECT_FALSE(this->clip({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, -1));
   EXPECT_FALSE(this->clip({{-4, 4, 0}, {0, 0, 0}, {4, 4, 0}, {0, 2, 0}}, -1));
   EXPECT_FALSE(this->clip({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}}, -1)) << "not even a triangle's";
 }
 
-TYPED_TEST(EarClipper, LooksAlongItsAxis) {
+TYPED_TEST(EarClipper, looks_along_its_axis) {
   const example::AxisView<TypeParam> view(0);
   const std::vector<std::array<TypeParam, 3>> outline = {{7, 0, 0}, {-7, 4, 0}, {5, 4, 4}, {0, 0, 4}};
   EXPECT_TRUE(example::EarClipper<TypeParam>(view, outline, 1).clip());
   EXPECT_FALSE(example::EarClipper<TypeParam>(view, outline, -1).clip());
 }
 
-TYPED_TEST(EarClipper, CutsFoldsFirst) {
+TYPED_TEST(EarClipper, cuts_folds_first) {
   // A square with a slit, an antenna and a corner that is there twice, although its first corner is an ear.
   const std::vector<std::array<TypeParam, 3>> outline = {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {6, 0, 0},
                                                          {4, 0, 0}, {4, 4, 0}, {4, 4, 0}, {0, 4, 0},
@@ -86,7 +86,7 @@ TYPED_TEST(EarClipper, CutsFoldsFirst) {
   this->expect_area(outline, 32);
 }
 
-TYPED_TEST(EarClipper, CutsCornersOnALineLast) {
+TYPED_TEST(EarClipper, cuts_corners_on_a_line_last) {
   // So that no triangle is without area.
   const std::vector<std::array<TypeParam, 3>> outline = {{2, 0, 0}, {4, 0, 0}, {4, 3, 0},
                                                          {2, 3, 0}, {0, 3, 0}, {0, 0, 0}};
@@ -96,7 +96,7 @@ TYPED_TEST(EarClipper, CutsCornersOnALineLast) {
   this->expect_area(outline, 24);
 }
 
-TYPED_TEST(EarClipper, CutsEarsThatTheOutlineTouches) {
+TYPED_TEST(EarClipper, cuts_ears_that_the_outline_touches) {
   // A wall, its window, and a bridge between both.
   this->expect_area(
       {{0, 0, 0}, {6, 0, 0}, {6, 4, 0}, {0, 4, 0}, {0, 0, 0}, {2, 1, 0}, {2, 3, 0}, {4, 3, 0}, {4, 1, 0}, {2, 1, 0}},
@@ -107,13 +107,13 @@ TYPED_TEST(EarClipper, CutsEarsThatTheOutlineTouches) {
   this->expect_area({{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {3, 2, 0}, {2, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, 28);
 }
 
-TYPED_TEST(EarClipper, CutsNoBendOfABridgeOutside) {
+TYPED_TEST(EarClipper, cuts_no_bend_of_a_bridge_outside) {
   this->expect_area(
       {{0, 0, 0}, {2, 0, 0}, {3, -1, 0}, {3, 1, 0}, {2, 0, 0}, {0, 0, 0}, {0, 2, 0}, {1, 3, 0}, {-1, 3, 0}, {0, 2, 0}},
       4);
 }
 
-TYPED_TEST(EarClipper, RunsOutOfEarsWhereTheOutlineCrossesItself) {
+TYPED_TEST(EarClipper, runs_out_of_ears_where_the_outline_crosses_itself) {
   for (const int turn : {1, -1}) {
     EXPECT_FALSE(this->clip({{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}}, turn)) << "a bow tie";
     EXPECT_FALSE(this->clip({{0, 10, 0}, {6, -8, 0}, {-10, 3, 0}, {10, 3, 0}, {-6, -8, 0}}, turn)) << "a pentagram";

@@ -39,7 +39,7 @@ std::string description_of(const Mesh<double>& mesh) {
   return describe_float_loss(rounded(mesh), mesh).value_or("little is lost");
 }
 
-TEST(FloatLoss, DescribesWhatSurveyCoordinatesLose) {
+TEST(FloatLoss, describes_what_survey_coordinates_lose) {
   const Mesh<double> mesh =
       mesh_of({{5283911.5, 634250.25, 412.75}, {5283911.7, 634250.25, 412.75}, {5283911.5, 634250.45, 412.75}});
   EXPECT_TRUE(may_lose_in_float(rounded(mesh)));
@@ -48,7 +48,7 @@ TEST(FloatLoss, DescribesWhatSurveyCoordinatesLose) {
             "that measures 0.2; 1 of 1 triangles change by more than a hundredth of their longest side");
 }
 
-TEST(FloatLoss, DescribesAMeshThatIsSmallForWhereItIs) {
+TEST(FloatLoss, describes_a_mesh_that_is_small_for_where_it_is) {
   const Mesh<double> mesh = mesh_of({{0, 0, 1000.03}, {8, 0, 1000}, {0, 8, 1000}});
   EXPECT_TRUE(may_lose_in_float(rounded(mesh)));
   EXPECT_EQ(description_of(mesh),
@@ -56,7 +56,7 @@ TEST(FloatLoss, DescribesAMeshThatIsSmallForWhereItIs) {
             "a mesh that measures 8");
 }
 
-TEST(FloatLoss, DescribesOneSmallTriangleOfALargeMesh) {
+TEST(FloatLoss, describes_one_small_triangle_of_a_large_mesh) {
   const Mesh<double> mesh =
       mesh_of({{0, 0, 0}, {9000, 0, 0}, {0, 9000, 0}, {9000, 0, 0}, {9000.01, 0, 0}, {9000, 0.01, 0}});
   EXPECT_TRUE(may_lose_in_float(rounded(mesh)));
@@ -65,28 +65,28 @@ TEST(FloatLoss, DescribesOneSmallTriangleOfALargeMesh) {
             "mesh that measures 9e+03; 1 of 2 triangles change by more than a hundredth of their longest side");
 }
 
-TEST(FloatLoss, IsLittleInOrdinaryMeshes) {
+TEST(FloatLoss, is_little_in_ordinary_meshes) {
   const Mesh<double> mesh =
       mesh_of({{0.1, 0.2, 0.3}, {1.1, 0.2, 0.3}, {0.1, 1.7, 0.9}, {-3.3, 5.1, 1e-9}, {-3.2, 5.1, 0}, {-3.3, 5.2, 0}});
   EXPECT_FALSE(may_lose_in_float(rounded(mesh)));
   EXPECT_EQ(description_of(mesh), "little is lost");
 }
 
-TEST(FloatLoss, IsNothingWhereFloatsHoldTheCoordinates) {
+TEST(FloatLoss, is_nothing_where_floats_hold_the_coordinates) {
   const Mesh<double> mesh =
       mesh_of({{5283911.5, 634250.25, 412.75}, {5283912, 634250.25, 412.75}, {5283911.5, 634250.75, 412.75}});
   EXPECT_TRUE(may_lose_in_float(rounded(mesh))) << "floats alone cannot tell";
   EXPECT_EQ(description_of(mesh), "little is lost");
 }
 
-TEST(FloatLoss, IsOnlyThatOfVerticesInTriangles) {
+TEST(FloatLoss, is_only_that_of_vertices_in_triangles) {
   const Vertices vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5283911.7, 634250.3, 412.7}};
   EXPECT_EQ(description_of(mesh_of(vertices, {{0, 1, 2}})), "little is lost");
   EXPECT_EQ(description_of(mesh_of({{0.1, 0.1, 0.1}})), "little is lost") << "there are no triangles";
   EXPECT_FALSE(may_lose_in_float(rounded(mesh_of({{0.1, 0.1, 0.1}}))));
 }
 
-TEST(FloatLoss, IsNotThatOfTrianglesThatArePoints) {
+TEST(FloatLoss, is_not_that_of_triangles_that_are_points) {
   const Vertices vertices = {{0.1, 0.2, 0.3}, {1.1, 0.2, 0.3}, {0.1, 1.7, 0.9}, {0.7, 0.7, 0.7}};
   EXPECT_EQ(description_of(mesh_of(vertices, {{0, 1, 2}, {3, 3, 3}})), "little is lost");
   EXPECT_EQ(description_of(mesh_of(vertices, {{0, 0, 0}})), "little is lost") << "the mesh is a point";
@@ -94,7 +94,7 @@ TEST(FloatLoss, IsNotThatOfTrianglesThatArePoints) {
   EXPECT_EQ(description_of(mesh_of(vertices, {{0, 1, 2}, {1, 0, 1}})), "little is lost");
 }
 
-TEST(FloatLoss, MayBeWhereRoundingLengthensATriangle) {
+TEST(FloatLoss, may_be_where_rounding_lengthens_a_triangle) {
   // Each coordinate of one end goes down by almost half a unit, of the other end up. The mesh is large beside that.
   constexpr double unit_from_here = 1 << 23;
   const double low = unit_from_here + 0.499;
@@ -106,7 +106,7 @@ TEST(FloatLoss, MayBeWhereRoundingLengthensATriangle) {
 }
 
 /// Whoever asks `describe_float_loss` only where floats may lose something misses nothing.
-TEST(FloatLoss, MayBeWhereverItIsDescribed) {
+TEST(FloatLoss, may_be_wherever_it_is_described) {
   Random random(1);
   std::size_t described = 0;
   std::size_t certain = 0;

@@ -42,7 +42,7 @@ class MeshBuilder : public testing::Test {
 
 TYPED_TEST_SUITE(MeshBuilder, Scalars, ScalarNames);
 
-TYPED_TEST(MeshBuilder, NotesNoFacesWhereEachIsATriangle) {
+TYPED_TEST(MeshBuilder, notes_no_faces_where_each_is_a_triangle) {
   this->add_vertices();
   this->builder_.add_face({0, 1, 2});
   this->builder_.add_face({7, 6, 5});
@@ -57,7 +57,7 @@ TYPED_TEST(MeshBuilder, NotesNoFacesWhereEachIsATriangle) {
   EXPECT_TRUE(mesh.warnings.empty());
 }
 
-TYPED_TEST(MeshBuilder, NotesTheFaceOfEachTriangle) {
+TYPED_TEST(MeshBuilder, notes_the_face_of_each_triangle) {
   this->add_vertices();
   this->builder_.add_face({0, 1, 2});
   this->builder_.add_face({1, 2, 3});
@@ -73,14 +73,14 @@ TYPED_TEST(MeshBuilder, NotesTheFaceOfEachTriangle) {
   EXPECT_EQ(mesh.face_count(), 5u);
 }
 
-TYPED_TEST(MeshBuilder, NotesThatTheFirstFaceIsAPolygon) {
+TYPED_TEST(MeshBuilder, notes_that_the_first_face_is_a_polygon) {
   this->add_vertices();
   this->builder_.add_face({0, 1, 2, 3});
   this->builder_.add_face({5, 6, 7});
   EXPECT_EQ(this->builder_.finish().faces, (Faces{0, 0, 1}));
 }
 
-TYPED_TEST(MeshBuilder, CutsConcaveFaces) {
+TYPED_TEST(MeshBuilder, cuts_concave_faces) {
   this->add_vertices();
   // A wall, its window, and a bridge between both.
   this->builder_.add_face({0, 1, 2, 3, 0, 5, 8, 7, 6, 5});
@@ -94,7 +94,7 @@ TYPED_TEST(MeshBuilder, CutsConcaveFaces) {
   EXPECT_EQ(doubled_area, 2 * (4 * 4 - 2 * 2));
 }
 
-TYPED_TEST(MeshBuilder, KeepsTheOrderOfFacesThatComeBeforeTheirVertices) {
+TYPED_TEST(MeshBuilder, keeps_the_order_of_faces_that_come_before_their_vertices) {
   this->builder_.add_vertex({0, 0, 0});
   this->builder_.add_vertex({4, 0, 0});
   this->builder_.add_vertex({4, 4, 0});
@@ -110,7 +110,7 @@ TYPED_TEST(MeshBuilder, KeepsTheOrderOfFacesThatComeBeforeTheirVertices) {
   EXPECT_EQ(mesh.faces, (Faces{0, 1, 1, 2, 3}));
 }
 
-TYPED_TEST(MeshBuilder, NeedsThreeCorners) {
+TYPED_TEST(MeshBuilder, needs_three_corners) {
   this->add_vertices();
   EXPECT_EQ(this->error_of_face({4, 5}), "a face needs 3 corners or more, not 2");
   EXPECT_EQ(this->error_of_face({}), "a face needs 3 corners or more, not 0");
@@ -118,14 +118,14 @@ TYPED_TEST(MeshBuilder, NeedsThreeCorners) {
   EXPECT_TRUE(this->builder_.finish().triangles.empty());
 }
 
-TYPED_TEST(MeshBuilder, RefusesFacesThatCrossThemselves) {
+TYPED_TEST(MeshBuilder, refuses_faces_that_cross_themselves) {
   this->add_vertices();
   this->builder_.add_face({0, 1, 2, 3});
   EXPECT_EQ(this->error_of_face({0, 2, 1, 3}, 12),
             "face 1 of 4 corners has no valid triangulation: its outline crosses itself");
 }
 
-TYPED_TEST(MeshBuilder, NamesTheLineOfAFaceThatWaited) {
+TYPED_TEST(MeshBuilder, names_the_line_of_a_face_that_waited) {
   this->builder_.add_face({0, 1, 2, 3}, 3);
   this->builder_.add_face({0, 2, 1, 3}, 4);
   this->add_vertices();
@@ -133,13 +133,13 @@ TYPED_TEST(MeshBuilder, NamesTheLineOfAFaceThatWaited) {
             "line 4: face 1 of 4 corners has no valid triangulation: its outline crosses itself");
 }
 
-TYPED_TEST(MeshBuilder, NamesNoLineWhereThereIsNone) {
+TYPED_TEST(MeshBuilder, names_no_line_where_there_is_none) {
   this->builder_.add_face({0, 2, 1, 3});
   this->add_vertices();
   EXPECT_EQ(this->error_at_the_end(), "face 0 of 4 corners has no valid triangulation: its outline crosses itself");
 }
 
-TYPED_TEST(MeshBuilder, RefusesAVertexThatIsNotFinite) {
+TYPED_TEST(MeshBuilder, refuses_a_vertex_that_is_not_finite) {
   this->builder_.add_vertex({this->nan, 0, 0}, 5);
   this->add_vertices();
   this->builder_.add_vertex({0, this->infinity, this->nan}, 21);
@@ -150,7 +150,7 @@ TYPED_TEST(MeshBuilder, RefusesAVertexThatIsNotFinite) {
   EXPECT_EQ(this->error_of_face({1, 2, 3, 11}, 7), "face 1 uses vertex 11, of which z is infinite");
 }
 
-TYPED_TEST(MeshBuilder, RefusesItInAFaceThatWaitedAsWell) {
+TYPED_TEST(MeshBuilder, refuses_it_in_a_face_that_waited_as_well) {
   this->builder_.add_face({0, 1, 2}, 2);
   this->builder_.add_face({0, 1, 9}, 3);
   this->add_vertices();
@@ -158,7 +158,7 @@ TYPED_TEST(MeshBuilder, RefusesItInAFaceThatWaitedAsWell) {
   EXPECT_EQ(this->error_at_the_end(), "line 3: face 1 uses vertex 9 of line 13, of which y is nan");
 }
 
-TYPED_TEST(MeshBuilder, ReplacesVerticesThatAreNotFiniteAndNotUsed) {
+TYPED_TEST(MeshBuilder, replaces_vertices_that_are_not_finite_and_not_used) {
   this->builder_.add_vertex({this->nan, 1, 1}, 4);
   this->add_vertices();
   this->builder_.add_vertex({1, 1, this->infinity}, 20);
@@ -173,7 +173,7 @@ TYPED_TEST(MeshBuilder, ReplacesVerticesThatAreNotFiniteAndNotUsed) {
             Warnings{"2 vertices are not finite, the first of them vertex 0 of line 4; no face uses them"});
 }
 
-TYPED_TEST(MeshBuilder, ReplacesThemInAMeshWithoutTriangles) {
+TYPED_TEST(MeshBuilder, replaces_them_in_a_mesh_without_triangles) {
   this->builder_.add_vertex({1, 1, 1});
   this->builder_.add_vertex({1, this->nan, 1});
   const Mesh<TypeParam> mesh = this->builder_.finish();
@@ -182,13 +182,13 @@ TYPED_TEST(MeshBuilder, ReplacesThemInAMeshWithoutTriangles) {
             (Warnings{"1 vertex is not finite, the first of them vertex 1; no face uses them", example::no_triangles}));
 }
 
-TYPED_TEST(MeshBuilder, WarnsOfAMeshOfNothing) {
+TYPED_TEST(MeshBuilder, warns_of_a_mesh_of_nothing) {
   const Mesh<TypeParam> mesh = this->builder_.finish();
   EXPECT_EQ(mesh.warnings, Warnings{"the mesh has no triangles, so nothing is ever hit"});
   EXPECT_EQ(mesh.face_count(), 0u);
 }
 
-TEST(CheckedCorner, ChecksAnIndexAgainstTheVertices) {
+TEST(CheckedCorner, checks_an_index_against_the_vertices) {
   EXPECT_EQ(checked_corner(7, 8), 7u);
   EXPECT_EQ(checked_corner(0xffffffff, std::uint64_t{1} << 33), 0xffffffffu);
   EXPECT_EQ(error_of([] { return checked_corner(8, 8); }), "vertex index 8 is out of range, there are 8 vertices");

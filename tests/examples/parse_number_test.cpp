@@ -98,7 +98,7 @@ class ParseNumber : public testing::Test {
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(ParseNumber, Scalars);
 
-TYPED_TEST(ParseNumber, ReadsOrdinaryDecimals) {
+TYPED_TEST(ParseNumber, reads_ordinary_decimals) {
   this->expect_parses_to(0, "0");
   this->expect_parses_to(1, "1");
   this->expect_parses_to(1, "1.");
@@ -109,7 +109,7 @@ TYPED_TEST(ParseNumber, ReadsOrdinaryDecimals) {
   this->expect_parses_to(7, "0000000000000000000000000000000000000000000000000000000000000007");
 }
 
-TYPED_TEST(ParseNumber, ReadsHex) {
+TYPED_TEST(ParseNumber, reads_hex) {
   this->expect_parses_to(TypeParam{0.1875}, "0x1.8p-3");
   this->expect_parses_to(TypeParam{-0.1875}, "-0X1.8P-3");
   this->expect_parses_to(TypeParam{171}, "+0xaB");
@@ -117,13 +117,13 @@ TYPED_TEST(ParseNumber, ReadsHex) {
   this->expect_parses_to(16, "0x8.p+1");
 }
 
-TYPED_TEST(ParseNumber, KeepsTheSignOfZero) {
+TYPED_TEST(ParseNumber, keeps_the_sign_of_zero) {
   for (const char* text : {"-0", "-0.0e9", "-0x0p0", "-1e-9999", "-0x1p-9999", "-0e99999999999999999999"}) {
     this->expect_parses_to(-TypeParam{0}, text);
   }
 }
 
-TYPED_TEST(ParseNumber, RoundsWhatLiesAroundHalfWayCases) {
+TYPED_TEST(ParseNumber, rounds_what_lies_around_half_way_cases) {
   using Limits = std::numeric_limits<TypeParam>;
   using Bits = std::conditional_t<sizeof(TypeParam) == 4, std::uint32_t, std::uint64_t>;
   Random random(11);
@@ -142,7 +142,7 @@ TYPED_TEST(ParseNumber, RoundsWhatLiesAroundHalfWayCases) {
   }
 }
 
-TYPED_TEST(ParseNumber, RoundsAroundHalfOfTheLeastDenormal) {
+TYPED_TEST(ParseNumber, rounds_around_half_of_the_least_denormal) {
   const TypeParam least = std::numeric_limits<TypeParam>::denorm_min();
   const std::string half = this->half_way_above(0);
   for (const std::string sign : {"", "-"}) {
@@ -157,7 +157,7 @@ TYPED_TEST(ParseNumber, RoundsAroundHalfOfTheLeastDenormal) {
   this->expect_parses_to(least, "0x1.00000000000000000000000001p" + half_exponent);
 }
 
-TYPED_TEST(ParseNumber, RoundsWhatIsFarBelowTheLeastDenormalToZero) {
+TYPED_TEST(ParseNumber, rounds_what_is_far_below_the_least_denormal_to_zero) {
   for (const char* text : {"1e-400", "1e-99999999999999999999", "0x1p-9999", "0x1p-99999999999999999999",
                            "123456789012345678901234567890e-9999", "0.0000000001e-400",
                            "0xffffffffffffffffffffffffffffffp-9223372036854775808"}) {
@@ -165,7 +165,7 @@ TYPED_TEST(ParseNumber, RoundsWhatIsFarBelowTheLeastDenormalToZero) {
   }
 }
 
-TYPED_TEST(ParseNumber, ReadsUpToTheGreatestNumberAndRejectsWhatRoundsBeyond) {
+TYPED_TEST(ParseNumber, reads_up_to_the_greatest_number_and_rejects_what_rounds_beyond) {
   using Limits = std::numeric_limits<TypeParam>;
   const TypeParam greatest = Limits::max();
   // Half an ulp above the greatest number: from there on, to nearest is infinity.
@@ -188,7 +188,7 @@ TYPED_TEST(ParseNumber, ReadsUpToTheGreatestNumberAndRejectsWhatRoundsBeyond) {
   this->expect_parses_to(greatest, decimal_limit);
 }
 
-TYPED_TEST(ParseNumber, RejectsWhatIsFarBeyondTheGreatestNumber) {
+TYPED_TEST(ParseNumber, rejects_what_is_far_beyond_the_greatest_number) {
   for (const char* text : {"1e400", "-1e400", "1e99999999999999999999", "0x1p9999", "0x1p+99999999999999999999",
                            "0.0000000001e+500", "0x.0000000000000000001p9223372036854775807"}) {
     this->expect_beyond(text);
@@ -197,14 +197,14 @@ TYPED_TEST(ParseNumber, RejectsWhatIsFarBeyondTheGreatestNumber) {
   this->expect_beyond("0x1" + std::string(400, '0'));
 }
 
-TYPED_TEST(ParseNumber, LetsAnExponentMakeUpForManyZeros) {
+TYPED_TEST(ParseNumber, lets_an_exponent_make_up_for_many_zeros) {
   this->expect_parses_to(1, "1" + std::string(1000, '0') + "e-1000");
   this->expect_parses_to(1, "0." + std::string(999, '0') + "1e1000");
   this->expect_parses_to(1, "0x1" + std::string(1000, '0') + "p-4000");
   this->expect_parses_to(1, "0x." + std::string(999, '0') + "1p4000");
 }
 
-TYPED_TEST(ParseNumber, AgreesWithTheCLibraryOnRandomDecimals) {
+TYPED_TEST(ParseNumber, agrees_with_the_c_library_on_random_decimals) {
   Random random(21);
   const std::size_t cases = case_count(200000);
   const int limit = std::numeric_limits<TypeParam>::max_exponent10 * 5 / 4;
@@ -213,7 +213,7 @@ TYPED_TEST(ParseNumber, AgreesWithTheCLibraryOnRandomDecimals) {
   }
 }
 
-TYPED_TEST(ParseNumber, AgreesWithTheCLibraryOnRandomHex) {
+TYPED_TEST(ParseNumber, agrees_with_the_c_library_on_random_hex) {
   Random random(22);
   const std::size_t cases = case_count(200000);
   const int limit = std::numeric_limits<TypeParam>::max_exponent * 5 / 4;
@@ -222,7 +222,7 @@ TYPED_TEST(ParseNumber, AgreesWithTheCLibraryOnRandomHex) {
   }
 }
 
-TYPED_TEST(ParseNumber, RejectsWhatIsNoNumber) {
+TYPED_TEST(ParseNumber, rejects_what_is_no_number) {
   for (const char* text : {"",      "+",      "-",
                            ".",     "-.",     "e5",
                            "1e",    "1e+",    "1.2.3",
@@ -239,7 +239,7 @@ TYPED_TEST(ParseNumber, RejectsWhatIsNoNumber) {
   }
 }
 
-TYPED_TEST(ParseNumber, RejectsNonFiniteNumbersAsOldWindowsSpellsThem) {
+TYPED_TEST(ParseNumber, rejects_non_finite_numbers_as_old_windows_spells_them) {
   for (const char* text : {"1.#QNAN", "-1.#QNAN0", "1.#SNAN", "-1.#IND", "-1.#IND00", "1.#INF", "-1.#INF00", "1.#J"}) {
     const std::string error = example::quoted(text) + " is not a number";
     EXPECT_EQ(error_of([&] { return parse_number<TypeParam>(text); }), error);
@@ -247,7 +247,7 @@ TYPED_TEST(ParseNumber, RejectsNonFiniteNumbersAsOldWindowsSpellsThem) {
   }
 }
 
-TYPED_TEST(ParseNumber, MayTakeWhatIsNotFinite) {
+TYPED_TEST(ParseNumber, may_take_what_is_not_finite) {
   for (const char* text : {"nan", "NaN", "NAN", "+nan", "-nan", "nan()", "-nan(ind)", "nan(0x8000)"}) {
     EXPECT_TRUE(std::isnan(parse_number_or_non_finite<TypeParam>(text))) << text;
   }
@@ -258,7 +258,7 @@ TYPED_TEST(ParseNumber, MayTakeWhatIsNotFinite) {
   }
 }
 
-TYPED_TEST(ParseNumber, TakesFiniteNumbersAsBeforeWhereItMayTakeOthers) {
+TYPED_TEST(ParseNumber, takes_finite_numbers_as_before_where_it_may_take_others) {
   EXPECT_EQ(parse_number_or_non_finite<TypeParam>("-1.5e3"), -1500);
   EXPECT_EQ(parse_number_or_non_finite<TypeParam>("+0x1.8p1"), 3);
   const std::string beyond = error_of([] { return parse_number_or_non_finite<TypeParam>("-1e400"); });
@@ -270,7 +270,7 @@ TYPED_TEST(ParseNumber, TakesFiniteNumbersAsBeforeWhereItMayTakeOthers) {
   }
 }
 
-TEST(ParseNumberToFloat, DoesNotRoundToDoubleFirst) {
+TEST(ParseNumberToFloat, does_not_round_to_double_first) {
   // Above half-way between two floats by less than a double can tell: two roundings would go to the even one, below.
   const std::string text = "1.00000005960464477539062500000000000000001";
   EXPECT_EQ(parse_number<double>(text), 0x1.000001p0);
@@ -278,25 +278,25 @@ TEST(ParseNumberToFloat, DoesNotRoundToDoubleFirst) {
   EXPECT_EQ(parse_number<float>("0x1.0000010000000000000000001"), 0x1.000002p0f);
 }
 
-TEST(ParseNumberMessage, NamesTheTypeThatIsTooSmall) {
+TEST(ParseNumberMessage, names_the_type_that_is_too_small) {
   EXPECT_EQ(error_of([] { return parse_number<float>("1e39"); }), "'1e39' is beyond the largest float");
   EXPECT_EQ(error_of([] { return parse_number<double>("-1e309"); }), "'-1e309' is beyond the largest double");
 }
 
-TEST(ParseNumberMessage, StaysOneShortLine) {
+TEST(ParseNumberMessage, stays_one_short_line) {
   EXPECT_EQ(error_of([] { return parse_number<float>("\x1b[31m\xff"); }), "'?[31m?' is not a number");
   EXPECT_EQ(error_of([] { return parse_number<float>(std::string(100, 'x')); }),
             "'" + std::string(40, 'x') + "…' is not a number");
 }
 
-TEST(ParseInteger, ReadsAllOf64Bits) {
+TEST(ParseInteger, reads_all_of64_bits) {
   EXPECT_EQ(parse_integer("0"), 0);
   EXPECT_EQ(parse_integer("-17"), -17);
   EXPECT_EQ(parse_integer("9223372036854775807"), std::numeric_limits<std::int64_t>::max());
   EXPECT_EQ(parse_integer("-9223372036854775808"), std::numeric_limits<std::int64_t>::min());
 }
 
-TEST(ParseInteger, RejectsEverythingElse) {
+TEST(ParseInteger, rejects_everything_else) {
   for (const char* text : {"", "-", "1.0", "1e3", "0x1", "1 ", "seven"}) {
     EXPECT_EQ(error_of([&] { return parse_integer(text); }), example::quoted(text) + " is not an integer");
   }

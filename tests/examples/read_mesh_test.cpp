@@ -25,7 +25,7 @@ using Warnings = std::vector<std::string>;
 
 const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-TEST(ReadMesh, TellsTheFormatByTheEndingInEitherCase) {
+TEST(ReadMesh, tells_the_format_by_the_ending_in_either_case) {
   const TemporaryFolder folder;
   const std::string corners = "0 0 0\n1 0 0\n0 1 0\n";
   const std::string paths[] = {
@@ -47,7 +47,7 @@ TEST(ReadMesh, TellsTheFormatByTheEndingInEitherCase) {
   }
 }
 
-TEST(ReadMesh, NamesTheFileOfAnError) {
+TEST(ReadMesh, names_the_file_of_an_error) {
   const TemporaryFolder folder;
   const std::string bad = folder.write("bad.obj", "v 0 0 0\nv 1 x 0\n");
   EXPECT_EQ(error_of([&] { return read_mesh<float>(bad); }), bad + ": line 2: 'x' is not a number");
@@ -62,7 +62,7 @@ TEST(ReadMesh, NamesTheFileOfAnError) {
             folder.at("folder.obj") + ": cannot be read: Is a directory");
 }
 
-TEST(ReadMesh, HandsOnTheWarningsOfTheReaders) {
+TEST(ReadMesh, hands_on_the_warnings_of_the_readers) {
   const TemporaryFolder folder;
   const std::string nothing = folder.write("nothing.obj", "v 0 0 0\n");
   EXPECT_EQ(read_mesh<float>(nothing).warnings, Warnings{example::no_triangles});
@@ -92,7 +92,7 @@ void expect_float_alone_warns_of_loss(const std::string& path) {
   EXPECT_NE(warnings[0].find("x of vertex 1 is 5283911.7 and becomes 5283911.5"), std::string::npos) << warnings[0];
 }
 
-TEST(ReadMesh, WarnsOfWhatFloatLosesInEveryFormat) {
+TEST(ReadMesh, warns_of_what_float_loses_in_every_format) {
   const TemporaryFolder folder;
   const auto& [a, b, c] = survey_corners;
   const std::string corners = a + "\n" + b + "\n" + c + "\n";
@@ -117,7 +117,7 @@ TEST(ReadMesh, WarnsOfWhatFloatLosesInEveryFormat) {
   }
 }
 
-TEST(ReadMesh, DoesNotWarnOfWhatFloatHolds) {
+TEST(ReadMesh, does_not_warn_of_what_float_holds) {
   const TemporaryFolder folder;
   const std::string near = folder.write("near.obj", "v 0.1 0.2 0.3\nv 10.7 0.2 0.3\nv 0.1 10.9 0.3\nf 1 2 3\n");
   EXPECT_TRUE(read_mesh<float>(near).warnings.empty());
@@ -132,7 +132,7 @@ TEST(ReadMesh, DoesNotWarnOfWhatFloatHolds) {
             Warnings{example::no_triangles});
 }
 
-TEST(ReadMesh, WarnsOfAllThatThereIs) {
+TEST(ReadMesh, warns_of_all_that_there_is) {
   const TemporaryFolder folder;
   const auto& [a, b, c] = survey_corners;
   const std::string path = folder.write("a.obj", "v " + a + "\nv " + b + "\nv " + c + "\nv nan 0 0\nf 1 2 3\n");
@@ -144,7 +144,7 @@ TEST(ReadMesh, WarnsOfAllThatThereIs) {
 }
 
 /// An outline that crosses itself in float, since its corners are half a metre apart there, is no fault of the file's.
-TEST(ReadMesh, SaysOfAnErrorThatItIsOneInFloatAlone) {
+TEST(ReadMesh, says_of_an_error_that_it_is_one_in_float_alone) {
   const TemporaryFolder folder;
   const std::string survey =
       folder.write("survey.obj",
@@ -175,7 +175,7 @@ std::vector<std::array<double, 3>> corners_of(const Outline& outline, bool is_ti
   return corners;
 }
 
-TEST(ReadMesh, CutsGeneratedFacesAlikeInEveryFormat) {
+TEST(ReadMesh, cuts_generated_faces_alike_in_every_format) {
   Random random(20261125);
   std::size_t cut = 0;
   for (std::size_t i = 0; i < case_count(600); ++i) {
@@ -216,14 +216,14 @@ TEST(ReadMesh, CutsGeneratedFacesAlikeInEveryFormat) {
   EXPECT_GT(cut, case_count(600) / 4) << "most of them are no fans";
 }
 
-TEST(ReadMesh, ViewsAMeshOfNothing) {
+TEST(ReadMesh, views_a_mesh_of_nothing) {
   const example::Mesh<float> nothing;
   EXPECT_EQ(nothing.view().vertex_count(), 0u);
   EXPECT_EQ(nothing.view().triangle_count(), 0u);
   EXPECT_EQ(nothing.face_count(), 0u);
 }
 
-TEST(ReadMesh, TellsTheFaceOfATriangle) {
+TEST(ReadMesh, tells_the_face_of_a_triangle) {
   example::Mesh<float> mesh;
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 2, 3}};
   EXPECT_EQ(mesh.face_of(2), 2u);
@@ -244,7 +244,7 @@ void PrintTo(const SharedMesh& mesh, std::ostream* out) { *out << mesh.file; }
 
 class ReadSharedMesh : public testing::TestWithParam<SharedMesh> {};
 
-TEST_P(ReadSharedMesh, HasTheTrianglesThatItsReadmeTells) {
+TEST_P(ReadSharedMesh, has_the_triangles_that_its_readme_tells) {
   const std::string path = std::string(SUREHIT_MESH_FOLDER "/") + GetParam().file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not at hand";
   const auto mesh = read_mesh<float>(path);

@@ -47,7 +47,7 @@ std::string face_first_text_of(const SampleFace& face) {
   return text.substr(at) + text.substr(0, at);
 }
 
-TEST(ReadObj, ReadsVerticesAndTriangles) {
+TEST(ReadObj, reads_vertices_and_triangles) {
   const Mesh<float> mesh = read_obj<float>("v 0 -1 .5\nv 1e2 0x1.8p1 +4\r\nv 7 8 9\nf 3 1 2\n");
   EXPECT_EQ(mesh.vertices, (Floats{{0, -1, 0.5f}, {100, 3, 4}, {7, 8, 9}}));
   EXPECT_EQ(mesh.triangles, (Triangles{{2, 0, 1}}));
@@ -55,30 +55,30 @@ TEST(ReadObj, ReadsVerticesAndTriangles) {
   EXPECT_TRUE(mesh.warnings.empty());
 }
 
-TEST(ReadObj, RoundsToTheNearestOfEitherScalar) {
+TEST(ReadObj, rounds_to_the_nearest_of_either_scalar) {
   const std::string text = "v 0.1 1.00000005960464477539062500000000000000001 1e-60";
   EXPECT_EQ(read_obj<float>(text).vertices, (Floats{{0.1f, 0x1.000002p0f, 0}}));
   EXPECT_EQ(read_obj<double>(text).vertices, (Doubles{{0.1, 0x1.000001p0, 1e-60}}));
 }
 
-TEST(ReadObj, SplitsConvexPolygonsIntoFans) {
+TEST(ReadObj, splits_convex_polygons_into_fans) {
   EXPECT_EQ(read_obj<float>(square + "f 1 2 3 4").triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(read_obj<float>(square + "f 3 2 1 4").triangles, (Triangles{{2, 1, 0}, {2, 0, 3}}));
   const std::string pentagon = "v 0 0 7\nv 4 0 7\nv 5 3 7\nv 2 5 7\nv -1 3 7\nf 4 5 1 2 3\n";
   EXPECT_EQ(read_obj<float>(pentagon).triangles, (Triangles{{3, 4, 0}, {3, 0, 1}, {3, 1, 2}}));
 }
 
-TEST(ReadObj, CutsConcaveFaces) {
+TEST(ReadObj, cuts_concave_faces) {
   expect_every_sample_is_cut_rightly<double>([](const SampleFace& face) { return read_obj<double>(text_of(face)); });
   expect_every_sample_is_cut_rightly<float>([](const SampleFace& face) { return read_obj<float>(text_of(face)); });
 }
 
-TEST(ReadObj, CutsConcaveFacesBeforeTheirVertices) {
+TEST(ReadObj, cuts_concave_faces_before_their_vertices) {
   expect_every_sample_is_cut_rightly<float>(
       [](const SampleFace& face) { return read_obj<float>(face_first_text_of(face)); });
 }
 
-TEST(ReadObj, LeavesTheWindowOfAKeyholedWallOpen) {
+TEST(ReadObj, leaves_the_window_of_a_keyholed_wall_open) {
   expect_keyholed_wall_has_its_window([](const SampleFace& face) { return read_obj<double>(text_of(face)); });
   const std::string wall =
       "v 0 0 0\nv 6 0 0\nv 6 0 4\nv 0 0 4\nv 2 0 1\nv 2 0 3\nv 4 0 3\nv 4 0 1\nf 1 2 3 4 1 5 6 7 8 5\n";
@@ -88,7 +88,7 @@ TEST(ReadObj, LeavesTheWindowOfAKeyholedWallOpen) {
   EXPECT_TRUE(collider.any_hit(Segmentd{{1, -5, 2}, {1, 5, 2}}));
 }
 
-TEST(ReadObj, LeavesTheNotchOfADartOpen) {
+TEST(ReadObj, leaves_the_notch_of_a_dart_open) {
   for (const char* face : {"f 1 2 3 4", "f 2 3 4 1", "f 3 4 1 2", "f 4 1 2 3", "f 4 3 2 1", "f -1 -4 -3 -2"}) {
     const Mesh<float> mesh = read_obj<float>("v -4 4 0\nv 0 0 0\nv 4 4 0\nv 0 2 0\n" + std::string(face));
     const Colliderf collider(mesh.view());
@@ -98,7 +98,7 @@ TEST(ReadObj, LeavesTheNotchOfADartOpen) {
   }
 }
 
-TEST(ReadObj, TellsWhichFaceATriangleIsOf) {
+TEST(ReadObj, tells_which_face_a_triangle_is_of) {
   const std::string vertices = "v 0 0 0\nv 4 0 0\nv 4 2 0\nv 2 2 0\nv 2 4 0\nv 0 4 0\n";
   const std::string faces = "f 1 2 3\nf 1 2 3 4 5 6\nf 1 2 3 4\nf 4 5 6\n";
   const Faces expected = {0, 1, 1, 1, 1, 2, 2, 3};
@@ -118,7 +118,7 @@ TEST(ReadObj, TellsWhichFaceATriangleIsOf) {
   EXPECT_EQ(triangles.face_count(), 2u);
 }
 
-TEST(ReadObj, NamesTheFaceWhoseOutlineCrossesItself) {
+TEST(ReadObj, names_the_face_whose_outline_crosses_itself) {
   const std::string vertices = "v 0 0 0\nv 4 4 0\nv 4 0 0\nv 0 4 0\nv 9 2 0\n";
   EXPECT_EQ(error_in(vertices + "f 1 2 3 4\n"),
             "line 6: face 0 of 4 corners has no valid triangulation: its outline crosses itself");
@@ -132,25 +132,25 @@ TEST(ReadObj, NamesTheFaceWhoseOutlineCrossesItself) {
   EXPECT_EQ(error_in(upright), "line 5: face 0 of 4 corners has no valid triangulation: its outline crosses itself");
 }
 
-TEST(ReadObj, TakesEveryFormOfACorner) {
+TEST(ReadObj, takes_every_form_of_a_corner) {
   const std::string attributes = "vt 0 0\nvn 0 0 1\n";
   for (const char* face : {"f 1 2 3", "f 1/1 2/1 3/1", "f 1//1 2//1 3//1", "f 1/1/1 2/1/1 3/1/1", "f -4/-1/-1 -3 -2"}) {
     EXPECT_EQ(read_obj<float>(square + attributes + face).triangles, (Triangles{{0, 1, 2}})) << face;
   }
 }
 
-TEST(ReadObj, CountsNegativeIndicesBackFromTheNewestVertex) {
+TEST(ReadObj, counts_negative_indices_back_from_the_newest_vertex) {
   EXPECT_EQ(read_obj<float>(square + "f -4 -3 -2\nv 5 5 5\nf -1 1 -2").triangles, (Triangles{{0, 1, 2}, {4, 0, 3}}));
 }
 
-TEST(ReadObj, TakesFacesBeforeTheirVertices) {
+TEST(ReadObj, takes_faces_before_their_vertices) {
   EXPECT_EQ(read_obj<float>("f 1 2 3\n" + square).triangles, (Triangles{{0, 1, 2}}));
   // A face that has its vertices stays behind one that waits for them.
   EXPECT_EQ(read_obj<float>("v 9 9 9\nv 8 8 8\nv 7 7 8\nf 4 5 6\nf 1 2 3\n" + square).triangles,
             (Triangles{{3, 4, 5}, {0, 1, 2}}));
 }
 
-TEST(ReadObj, TakesAnyLineEnds) {
+TEST(ReadObj, takes_any_line_ends) {
   const std::string text = "# made by hand\n\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n";
   for (const std::string_view end : line_ends) {
     const Mesh<float> mesh = read_obj<float>(with_line_ends(text, end));
@@ -163,7 +163,7 @@ TEST(ReadObj, TakesAnyLineEnds) {
   EXPECT_EQ(read_obj<float>("v 0 0 0\nv 4 0 0 # the second\rv 0 4 0\nf 1 2 3").vertices, triangle_corners);
 }
 
-TEST(ReadObj, HitsWhatAnOldMacWrote) {
+TEST(ReadObj, hits_what_an_old_mac_wrote) {
   const Mesh<double> mesh = read_obj<double>("# made by hand\rv 0 0 0\rv 4 0 0\rv 0 4 0\rf 1 2 3\r");
   const auto hit = Colliderd(mesh.view()).first_hit(Segmentd{{1, 1, 5}, {1, 1, -5}});
   ASSERT_TRUE(hit);
@@ -173,7 +173,7 @@ TEST(ReadObj, HitsWhatAnOldMacWrote) {
   EXPECT_EQ(hit->v, 0.25);
 }
 
-TEST(ReadObj, CountsLinesByAnyEnds) {
+TEST(ReadObj, counts_lines_by_any_ends) {
   const std::string text = "# a\n\nv 0 0 0\nv 4 0 0\nv 0 x 0\n";
   for (const std::string_view end : line_ends) {
     EXPECT_EQ(error_in(with_line_ends(text, end)), "line 5: 'x' is not a number");
@@ -182,7 +182,7 @@ TEST(ReadObj, CountsLinesByAnyEnds) {
   EXPECT_EQ(error_in("v 0 0 0\r\r\n\n\rv 0 0\n"), "line 5: a vertex needs 3 coordinates, not 2");
 }
 
-TEST(ReadObj, ContinuesLinesWithAnyEnds) {
+TEST(ReadObj, continues_lines_with_any_ends) {
   const std::string text = "v 0 0 0\nv 4 0 \\\n 0\nv \\\n0\\\n 4 0\n# no more \\\nf 1 \\\n2\\\n\t3\n";
   for (const std::string_view end : line_ends) {
     const Mesh<float> mesh = read_obj<float>(with_line_ends(text, end));
@@ -197,7 +197,7 @@ TEST(ReadObj, ContinuesLinesWithAnyEnds) {
   }
 }
 
-TEST(ReadObj, TakesAClosingControlZ) {
+TEST(ReadObj, takes_a_closing_control_z) {
   for (const std::string_view closing : closing_control_z) {
     const Mesh<float> mesh = read_obj<float>(triangle + std::string(closing));
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
@@ -207,20 +207,20 @@ TEST(ReadObj, TakesAClosingControlZ) {
   EXPECT_EQ(error_in("v 0 0 0\x1a\nv 4 0 0"), "line 1: '0?' is not a number");
 }
 
-TEST(ReadObj, TakesCommentsBlankLinesAndContinuedLines) {
+TEST(ReadObj, takes_comments_blank_lines_and_continued_lines) {
   EXPECT_EQ(read_obj<float>("# a square\n\n" + square + "f 1 2 \\\n 3 4 # and its fan\n").triangles.size(), 2u);
   EXPECT_EQ(read_obj<float>(square + "f 1 2 3\\\n4").triangles.size(), 2u);
   EXPECT_EQ(read_obj<float>(square + "f 1 2 \\ # and so on\n 3 4").triangles.size(), 2u);
   EXPECT_EQ(read_obj<float>(" \t# indented\n" + square + "f 1 2 3\t# after a tab\nf 1 2 3 #4\n").triangles.size(), 2u);
 }
 
-TEST(ReadObj, BeginsNoCommentInsideAWord) {
+TEST(ReadObj, begins_no_comment_inside_a_word) {
   EXPECT_EQ(error_in(square + "f 1 2 3#4\n"), "line 5: '3#4' is not a face corner");
   EXPECT_EQ(error_in("v 0 0 0#1\n"), "line 1: '0#1' is not a number");
   EXPECT_EQ(read_obj<float>("o part#1\nusemtl #red\n" + triangle).triangles.size(), 1u);
 }
 
-TEST(ReadObj, NamesLineAndValueOfANumberThatOldWindowsWrote) {
+TEST(ReadObj, names_line_and_value_of_a_number_that_old_windows_wrote) {
   for (const std::string value : {"1.#QNAN", "-1.#IND00", "1.#INF", "1.#IND", "-1.#INF", "1.#QNAN0"}) {
     const std::string error = "line 3: '" + value + "' is not a number";
     EXPECT_EQ(error_in("v 0 0 0\nv 4 0 0\nv 0 4 " + value + "\nf 1 2 3\n"), error);
@@ -231,7 +231,7 @@ TEST(ReadObj, NamesLineAndValueOfANumberThatOldWindowsWrote) {
   }
 }
 
-TEST(ReadObj, ChecksEveryFieldOfAVertex) {
+TEST(ReadObj, checks_every_field_of_a_vertex) {
   EXPECT_EQ(error_in("v 0 0 0 v 4 0 0\n"), "line 1: 'v' is not a number");
   EXPECT_EQ(error_in("v x 0 0"), "line 1: 'x' is not a number");
   EXPECT_EQ(error_in("v 0 x 0"), "line 1: 'x' is not a number");
@@ -251,14 +251,14 @@ TEST(ReadObj, ChecksEveryFieldOfAVertex) {
   EXPECT_EQ(error_in("v 0 0 0 v 4 0 0 v 0 4 0"), too_many + "11 numbers");
 }
 
-TEST(ReadObj, PassesOverColorsOfVertices) {
+TEST(ReadObj, passes_over_colors_of_vertices) {
   const Floats expected = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
   EXPECT_EQ(read_obj<float>("v 1 2 3 1 0.5 0\nv 4 5 6 255 0 1\nv 7 8 9 -1 nan 2").vertices, expected);
   EXPECT_EQ(read_obj<float>("v 1 2 3 1 0.5 0 1\nv 4 5 6 0 0 0 0.5\nv 7 8 9 1 1 1 2").vertices, expected);
   EXPECT_EQ(read_obj<float>("v 1 2 3\nv 4 5 6 1 1 1\nv 7 8 9 1 1 1 1").vertices, expected);
 }
 
-TEST(ReadObj, DividesByAWeight) {
+TEST(ReadObj, divides_by_a_weight) {
   EXPECT_EQ(read_obj<float>("v 1 2 3 1\nv 1 2 3 1.0\nv 1 2 3 +1e0").vertices,
             (Floats{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}));
   EXPECT_EQ(read_obj<float>("v 2 -4 7 2\nv 2 -4 7 0.5\nv 2 -4 7 -1").vertices,
@@ -269,7 +269,7 @@ TEST(ReadObj, DividesByAWeight) {
   EXPECT_EQ(read_obj<float>("v 1e-38 1e-45 -1e-45 1e5").vertices, (Floats{{1e-38f / 1e5f, 0, -0.0f}}));
 }
 
-TEST(ReadObj, NamesAWeightThatMakesNoPoint) {
+TEST(ReadObj, names_a_weight_that_makes_no_point) {
   EXPECT_EQ(error_in(square + "v 1 2 3 0"), "line 5: a vertex of weight '0' is no point");
   EXPECT_EQ(error_in("v 1 2 3 -0.0"), "line 1: a vertex of weight '-0.0' is no point");
   EXPECT_EQ(error_in("v 1 2 3 1e-99"), "line 1: a vertex of weight '1e-99' is no point");
@@ -281,7 +281,7 @@ TEST(ReadObj, NamesAWeightThatMakesNoPoint) {
   EXPECT_EQ(read_obj<double>("v 1 1e38 3 1e-5").vertices[0][1], 1e38 / 1e-5);
 }
 
-TEST(ReadObj, WarnsOfVerticesThatAreNotFiniteWhereNoFaceUsesThem) {
+TEST(ReadObj, warns_of_vertices_that_are_not_finite_where_no_face_uses_them) {
   const Mesh<float> one = read_obj<float>("v 0 0 0\nv 4 0 0\nv nan 0 0\nv 0 4 0\nf 1 2 4\n");
   EXPECT_EQ(one.warnings, Warnings{"1 vertex is not finite, the first of them vertex 2 of line 3; no face uses them"});
   EXPECT_EQ(one.triangles, (Triangles{{0, 1, 3}}));
@@ -299,7 +299,7 @@ TEST(ReadObj, WarnsOfVerticesThatAreNotFiniteWhereNoFaceUsesThem) {
                                     example::no_triangles}));
 }
 
-TEST(ReadObj, NamesAFaceOfAVertexThatIsNotFinite) {
+TEST(ReadObj, names_a_face_of_a_vertex_that_is_not_finite) {
   const std::string vertices = "v 0 0 0\nv 4 0 inf\nv 0 4 0\nv 1 nan 0\nv 0 -inf nan 2\n";
   EXPECT_EQ(error_in(vertices + "f 1 3 2\n"), "line 6: face 0 uses vertex 1 of line 2, of which z is infinite");
   EXPECT_EQ(error_in(vertices + "f 1 1 1\nf 1 3 4\n"), "line 7: face 1 uses vertex 3 of line 4, of which y is nan");
@@ -309,12 +309,12 @@ TEST(ReadObj, NamesAFaceOfAVertexThatIsNotFinite) {
             "line 4: face 1 uses vertex 3 of line 8, of which y is nan");
 }
 
-TEST(ReadObj, PassesOverWhatAddsNoSurface) {
+TEST(ReadObj, passes_over_what_adds_no_surface) {
   EXPECT_TRUE(read_obj<float>("mtllib a.mtl\no name\ng\ns off\nusemtl red\nl 1 2\np 1\n").triangles.empty());
   EXPECT_EQ(read_obj<float>("vn 1.#QNAN 0 0\nvt x\n" + triangle).triangles.size(), 1u);
 }
 
-TEST(ReadObj, WarnsOfAMeshOfNothing) {
+TEST(ReadObj, warns_of_a_mesh_of_nothing) {
   for (const char* text : {"", "\n", "# nothing\n", "\x1a", "v 0 0 0\nv 4 0 0\nv 0 4 0\n", "o name\nl 1 2\n"}) {
     const Mesh<float> mesh = read_obj<float>(text);
     EXPECT_TRUE(mesh.triangles.empty()) << text;
@@ -323,7 +323,7 @@ TEST(ReadObj, WarnsOfAMeshOfNothing) {
   }
 }
 
-TEST(ReadObj, NamesTheLineOfAnError) {
+TEST(ReadObj, names_the_line_of_an_error) {
   EXPECT_EQ(error_in("\n\nv 0 0 x\n"), "line 3: 'x' is not a number");
   EXPECT_EQ(error_in("v 0 0 1e39"), "line 1: '1e39' is beyond the largest float");
   EXPECT_EQ(error_in(square + "f 1 2"), "line 5: a face needs 3 corners or more, not 2");
@@ -341,7 +341,7 @@ TEST(ReadObj, NamesTheLineOfAnError) {
   EXPECT_EQ(error_in("surf 0 1 0 1"), "line 1: unknown statement 'surf'");
 }
 
-TEST(ReadObj, MakesAnErrorOrAMeshOfAnyBytes) {
+TEST(ReadObj, makes_an_error_or_a_mesh_of_any_bytes) {
   expect_error_or_sound_mesh("# square\n" + square + "vt 0 0\nf 1 2 3 4\nf -4/1/2 -2//1 \\\n -1/1\ng end\n",
                              read_obj<float>);
   expect_error_or_sound_mesh(

@@ -62,7 +62,7 @@ std::string broken_at_each(std::size_t nth, const std::string& text) {
   return broken;
 }
 
-TEST(ReadOff, ReadsVerticesAndPolygons) {
+TEST(ReadOff, reads_vertices_and_polygons) {
   const Mesh<double> mesh = read_off<double>("OFF\n4 2 0\n0.1 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n3 3 2 1\n");
   const std::vector<std::array<double, 3>> expected = {{0.1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   EXPECT_EQ(mesh.vertices, expected);
@@ -71,17 +71,17 @@ TEST(ReadOff, ReadsVerticesAndPolygons) {
   EXPECT_EQ(mesh.face_count(), 2u);
 }
 
-TEST(ReadOff, CutsConcaveFaces) {
+TEST(ReadOff, cuts_concave_faces) {
   expect_every_sample_is_cut_rightly<double>([](const SampleFace& face) { return read_off<double>(text_of(face)); });
   expect_every_sample_is_cut_rightly<float>(
       [](const SampleFace& face) { return read_off<float>(broken_at_each(5, text_of(face))); });
 }
 
-TEST(ReadOff, LeavesTheWindowOfAKeyholedWallOpen) {
+TEST(ReadOff, leaves_the_window_of_a_keyholed_wall_open) {
   expect_keyholed_wall_has_its_window([](const SampleFace& face) { return read_off<double>(text_of(face)); });
 }
 
-TEST(ReadOff, TellsWhichFaceATriangleIsOf) {
+TEST(ReadOff, tells_which_face_a_triangle_is_of) {
   const std::string l = "0 0 0\n4 0 0\n4 2 0\n2 2 0\n2 4 0\n0 4 0\n";
   const Mesh<float> mesh = read_off<float>("OFF\n6 4 0\n" + l + "3 0 1 2\n6 0 1 2 3 4 5\n4 0 1 2 3 1 0 0\n3 3 4 5\n");
   EXPECT_EQ(mesh.faces, (Faces{0, 1, 1, 1, 1, 2, 2, 3}));
@@ -91,7 +91,7 @@ TEST(ReadOff, TellsWhichFaceATriangleIsOf) {
   EXPECT_EQ(triangles.face_of(1), 1u);
 }
 
-TEST(ReadOff, NamesTheFaceWhoseOutlineCrossesItself) {
+TEST(ReadOff, names_the_face_whose_outline_crosses_itself) {
   const std::string vertices = "0 0 0\n4 4 0\n4 0 0\n0 4 0\n";
   EXPECT_EQ(error_in("OFF\n4 1 0\n" + vertices + "4 0 1 2 3\n"),
             "line 7: face 0 of 4 corners has no valid triangulation: its outline crosses itself");
@@ -101,7 +101,7 @@ TEST(ReadOff, NamesTheFaceWhoseOutlineCrossesItself) {
             "line 7: face 1 of 4 corners has no valid triangulation: its outline crosses itself");
 }
 
-TEST(ReadOff, TakesCommentsAndBlankLinesAnywhere) {
+TEST(ReadOff, takes_comments_and_blank_lines_anywhere) {
   EXPECT_EQ(read_off<float>("# a\nOFF # b\n\n4 1 0 # c\n# d\n" + square + "\n4 0 1 2 3 # e\n# f\n").triangles.size(),
             2u);
   expect_reads(
@@ -111,13 +111,13 @@ TEST(ReadOff, TakesCommentsAndBlankLinesAnywhere) {
   EXPECT_EQ(error_in("OFF\n4 1 0\n" + square + "4 0 1 2 3#\n"), "line 7: '3#' is not an integer");
 }
 
-TEST(ReadOff, TakesAnyLineEnds) {
+TEST(ReadOff, takes_any_line_ends) {
   const std::string text = "OFF\n# a comment\n4 2 0\n" + square + "\n3 0 1 2\n3 3 2 1 255 0 0\n";
   for (const std::string_view end : line_ends) expect_reads(with_line_ends(text, end), square_corners, two_triangles);
   expect_reads(with_mixed_line_ends(text), square_corners, two_triangles);
 }
 
-TEST(ReadOff, CountsLinesByAnyEnds) {
+TEST(ReadOff, counts_lines_by_any_ends) {
   const std::string text = "OFF\n# a comment\n4 2 0\n\n0 0 0\n1 0 0\n1 x 0\n0 1 0\n3 0 1 2\n3 3 2 1\n";
   for (const std::string_view end : line_ends) {
     EXPECT_EQ(error_in(with_line_ends(text, end)), "line 7: 'x' is not a number");
@@ -125,7 +125,7 @@ TEST(ReadOff, CountsLinesByAnyEnds) {
   EXPECT_EQ(error_in(with_mixed_line_ends(text)), "line 7: 'x' is not a number");
 }
 
-TEST(ReadOff, TakesAClosingControlZ) {
+TEST(ReadOff, takes_a_closing_control_z) {
   for (const std::string_view closing : closing_control_z) {
     expect_reads("OFF\n4 2 0\n" + square + "3 0 1 2\n3 3 2 1" + std::string(closing), square_corners, two_triangles);
     expect_reads("OFF\n4 2 0\n" + square + "3 0 1 2\n3 3 2 1\n" + std::string(closing), square_corners, two_triangles);
@@ -133,14 +133,14 @@ TEST(ReadOff, TakesAClosingControlZ) {
   EXPECT_EQ(error_in("OFF\n4 1 0\n" + square + "4 0 1 2 3\n\x1a\n3 2 1 0"), "line 8: something follows the last face");
 }
 
-TEST(ReadOff, TakesItsFirstWordInAnyCaseOrNone) {
+TEST(ReadOff, takes_its_first_word_in_any_case_or_none) {
   for (const char* word :
        {"OFF\n", "off\n", "Off\n", "oFF ", "", "\n", "# no word\n", "\xef\xbb\xbfOFF\n", "OFF # a\n"}) {
     expect_reads(word + ("4 2 0\n" + square) + "3 0 1 2\n3 3 2 1\n", square_corners, two_triangles);
   }
 }
 
-TEST(ReadOff, TakesCountsWithAndWithoutEdges) {
+TEST(ReadOff, takes_counts_with_and_without_edges) {
   for (const char* header : {"OFF 4 2 0\n", "OFF4 2 0\n", "OFF\n4 2\n", "OFF 4 2\n", "off4 2\n", "4 2\n", "4 2 0\n",
                              "OFF\n4\n2\n0\n", "OFF 4\n2 0\n", "OFF\n4 2\n0\n", "OFF\n\n4\n\n2 # faces\n5\n",
                              "OFF\n4\n2\n", "OFF 4\n2\n", "OFF\n4 2 99 # edges\n"}) {
@@ -148,7 +148,7 @@ TEST(ReadOff, TakesCountsWithAndWithoutEdges) {
   }
 }
 
-TEST(ReadOff, TakesTheCountOfEdgesForNoCoordinate) {
+TEST(ReadOff, takes_the_count_of_edges_for_no_coordinate) {
   // Without its last word, the body of each would be one of four vertices and one face as well.
   expect_reads("OFF\n4 1\n0\n0 0 0\n1 0 0\n1 1 0\n0 1 3\n3 0 1 2\n", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 3}},
                {{0, 1, 2}});
@@ -159,7 +159,7 @@ TEST(ReadOff, TakesTheCountOfEdgesForNoCoordinate) {
                {{0, 1, 2}});
 }
 
-TEST(ReadOff, TakesFreeLineBreaks) {
+TEST(ReadOff, takes_free_line_breaks) {
   for (const char* header : {"OFF 4 2 0\n", "4 2 0\n", "off\n4\n2\n0\n"}) {
     const std::string text = header + square + "3 0 1 2\n3 3 2 1\n";
     expect_reads(broken_at_each(1, text), square_corners, two_triangles);
@@ -174,7 +174,7 @@ TEST(ReadOff, TakesFreeLineBreaks) {
   }
 }
 
-TEST(ReadOff, TakesFacesOverSeveralLinesAndSeveralInOne) {
+TEST(ReadOff, takes_faces_over_several_lines_and_several_in_one) {
   const std::string start = "OFF\n4 2 0\n" + square;
   for (const char* faces : {"3 0 1 2 3 3 2 1", "3\n0 1 2\n3 3\n2 1\n", "3 0\n1 2 3 3\n2\n1", "3 0 1\n2\n3 3 2 1"}) {
     expect_reads(start + faces, square_corners, two_triangles);
@@ -183,7 +183,7 @@ TEST(ReadOff, TakesFacesOverSeveralLinesAndSeveralInOne) {
   expect_reads("OFF\n4 1 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n4 0 1\n2 3", square_corners, square_fan);
 }
 
-TEST(ReadOff, PassesOverColorsOfFaces) {
+TEST(ReadOff, passes_over_colors_of_faces) {
   const std::string start = "OFF\n4 2 0\n" + square;
   expect_reads(start + "3 0 1 2 7\n3 3 2 1\n", square_corners, two_triangles);
   expect_reads(start + "3 0 1 2 255 128 0\n3 3 2 1 0.5 0.5 1e-1\n", square_corners, two_triangles);
@@ -198,7 +198,7 @@ TEST(ReadOff, PassesOverColorsOfFaces) {
   EXPECT_EQ(error_in(start + "3 0 1 2 red\n3 3 2 1\n"), "line 7: 'red' is not a number");
 }
 
-TEST(ReadOff, PassesOverWhatItsFirstWordAnnounces) {
+TEST(ReadOff, passes_over_what_its_first_word_announces) {
   const Floats vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
   const Triangles triangles = {{0, 1, 2}};
   const std::pair<const char*, const char*> attributes_of[] = {
@@ -216,7 +216,7 @@ TEST(ReadOff, PassesOverWhatItsFirstWordAnnounces) {
   expect_reads("COFF\n3 1 0\n0 0 0\n4 0 0 7\n0 4 0 1 1\n3 0 1 2\n", vertices, triangles);
 }
 
-TEST(ReadOff, PassesOverColorsOfVerticesUnderAPlainFirstWord) {
+TEST(ReadOff, passes_over_colors_of_vertices_under_a_plain_first_word) {
   const Floats vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
   for (const char* color : {" 255 0 0", " 0.5 0.25 0.125", " 255 0 0 255", " 3 0 1 2", " 0 0 0"}) {
     for (const char* word : {"OFF", "off", ""}) {
@@ -233,7 +233,7 @@ TEST(ReadOff, PassesOverColorsOfVerticesUnderAPlainFirstWord) {
   expect_reads("OFF\n3 1 0\n0 0 0\n4 0 0 1 0 0\n0 4 0 1 0 0 1\n3 0 1 2\n", vertices, {{0, 1, 2}});
 }
 
-TEST(ReadOff, NamesLineAndValueOfANumberThatOldWindowsWrote) {
+TEST(ReadOff, names_line_and_value_of_a_number_that_old_windows_wrote) {
   for (const std::string value : {"1.#QNAN", "-1.#IND00", "1.#INF", "1.#IND", "-1.#INF"}) {
     const std::string error = "'" + value + "' is not a number";
     EXPECT_EQ(error_in("OFF\n3 1 0\n0 0 0\n4 0 0\n0 4 " + value + "\n3 0 1 2\n"), "line 5: " + error);
@@ -249,7 +249,7 @@ TEST(ReadOff, NamesLineAndValueOfANumberThatOldWindowsWrote) {
   }
 }
 
-TEST(ReadOff, WarnsOfVerticesThatAreNotFiniteWhereNoFaceUsesThem) {
+TEST(ReadOff, warns_of_vertices_that_are_not_finite_where_no_face_uses_them) {
   const Mesh<float> mesh = read_off<float>("OFF\n5 1 0\n0 0 0\nnan 0 0\n4 0 0\n0 4 0\n0 -inf 0\n3 0 2 3\n");
   EXPECT_EQ(mesh.warnings,
             Warnings{"2 vertices are not finite, the first of them vertex 1 of line 4; no face uses them"});
@@ -260,7 +260,7 @@ TEST(ReadOff, WarnsOfVerticesThatAreNotFiniteWhereNoFaceUsesThem) {
             "line 6: face 0 uses vertex 2 of line 5, of which y is infinite");
 }
 
-TEST(ReadOff, WarnsOfAMeshOfNothing) {
+TEST(ReadOff, warns_of_a_mesh_of_nothing) {
   for (const char* text : {"OFF\n0 0 0\n", "OFF 0 0", "0 0\n", "OFF\n0\n0\n0\n", "OFF\n2 0 0\n0 0 0\n1 0 0\n"}) {
     const Mesh<float> mesh = read_off<float>(text);
     EXPECT_TRUE(mesh.triangles.empty()) << text;
@@ -268,7 +268,7 @@ TEST(ReadOff, WarnsOfAMeshOfNothing) {
   }
 }
 
-TEST(ReadOff, NamesTheLineOfAnErrorInItsHeader) {
+TEST(ReadOff, names_the_line_of_an_error_in_its_header) {
   EXPECT_EQ(error_in(""), "the file is empty");
   EXPECT_EQ(error_in("# nothing\n"), "line 1: the file is empty");
   EXPECT_EQ(error_in("ply\n"), "line 1: an OFF file begins with OFF, or without it with the counts, not with 'ply'");
@@ -291,7 +291,7 @@ TEST(ReadOff, NamesTheLineOfAnErrorInItsHeader) {
   EXPECT_EQ(error_in("OFF\n99999999999999999999 1 0\n"), "line 2: '99999999999999999999' is beyond 64 bits");
 }
 
-TEST(ReadOff, NamesTheLineOfAnErrorInItsBody) {
+TEST(ReadOff, names_the_line_of_an_error_in_its_body) {
   EXPECT_EQ(error_in("OFF\n4 1\n"), "line 2: the file ends before vertex 0");
   EXPECT_EQ(error_in("OFF\n4 1 0\n0 0 0\n"), "line 3: the file ends before vertex 1");
   EXPECT_EQ(error_in("OFF\n4 1 0\n0 0\n"), "line 3: the file ends within a vertex");
@@ -313,7 +313,7 @@ TEST(ReadOff, NamesTheLineOfAnErrorInItsBody) {
   EXPECT_EQ(error_in("OFF\n5 2 0\n" + square + "3 0 1 2\n3 3 2 1"), "line 7: a vertex has 3 coordinates, not 4");
 }
 
-TEST(ReadOff, NamesTheLineThatIsAtFaultInAFileOfLines) {
+TEST(ReadOff, names_the_line_that_is_at_fault_in_a_file_of_lines) {
   const std::string faces = "4 0 1 2 3\n3 0 1 2\n3 3 2 1\n";
   EXPECT_EQ(error_in("OFF\n4 3 0\n0 0 0\n1 0\n1 1 0\n0 1 0\n" + faces), "line 4: a vertex has 3 coordinates, not 2");
   EXPECT_EQ(error_in("OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0 0\n0 1 0\n" + faces),
@@ -338,7 +338,7 @@ TEST(ReadOff, NamesTheLineThatIsAtFaultInAFileOfLines) {
             "line 7: vertex index 4 is out of range, there are 4 vertices");
 }
 
-TEST(ReadOff, NamesTheLineThatIsAtFaultInAFileOfFreeLineBreaks) {
+TEST(ReadOff, names_the_line_that_is_at_fault_in_a_file_of_free_line_breaks) {
   EXPECT_EQ(error_in("OFF 4 2 0\n0 0 0 1 0 0\n1 1 0 0 x 0\n3 0 1 2 3 3 2 1\n"), "line 3: 'x' is not a number");
   EXPECT_EQ(error_in("OFF 4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2 3 3 2 4\n"),
             "line 4: vertex index 4 is out of range, there are 4 vertices");
@@ -361,7 +361,7 @@ const std::string cube =
     "OFF\n8 6 12\n0 0 0\n4 0 0\n4 4 0\n0 4 0\n0 0 4\n4 0 4\n4 4 4\n0 4 4\n4 3 2 1 0\n4 4 5 6 7\n4 5 4 0 1\n4 6 5 1 2\n"
     "4 7 6 2 3\n4 4 7 3 0\n";
 
-TEST(ReadOff, MakesAnErrorOfAWordTooFewOrTooManyInAFileOfLines) {
+TEST(ReadOff, makes_an_error_of_a_word_too_few_or_too_many_in_a_file_of_lines) {
   ASSERT_EQ(read_off<float>(cube).triangles.size(), 12u);
   std::vector<std::string> lines;
   for (std::size_t at = 0; at < cube.size(); at = cube.find('\n', at) + 1) {
@@ -443,7 +443,7 @@ std::string lines_of(const RandomMesh& mesh, const std::string& header, const st
   return text.str();
 }
 
-TEST(ReadOff, ReadsRandomMeshesInLines) {
+TEST(ReadOff, reads_random_meshes_in_lines) {
   constexpr const char* headers[] = {"OFF", "off", "", "OFF\n"};
   constexpr const char* attributes[] = {"", " 3 3 3", " 3 4 5 3"};
   constexpr const char* colors[] = {"", " 3", " 3 4 3", " 3 0 1 2"};
@@ -457,7 +457,7 @@ TEST(ReadOff, ReadsRandomMeshesInLines) {
   }
 }
 
-TEST(ReadOff, ReadsRandomMeshesInFreeLineBreaks) {
+TEST(ReadOff, reads_random_meshes_in_free_line_breaks) {
   constexpr std::pair<const char*, const char*> kinds[] = {{"OFF", ""},
                                                            {"off", ""},
                                                            {"", ""},
@@ -480,7 +480,7 @@ TEST(ReadOff, ReadsRandomMeshesInFreeLineBreaks) {
   }
 }
 
-TEST(ReadOff, TakesNoMemoryOnTheWordOfAHeader) {
+TEST(ReadOff, takes_no_memory_on_the_word_of_a_header) {
   EXPECT_EQ(error_in("OFF\n9223372036854775807 9223372036854775807 0\n0 0 0\n"),
             "line 3: the file ends before vertex 1");
   EXPECT_EQ(error_in("OFF\n0 9223372036854775807 0\n"), "line 2: the file ends before face 0");
@@ -488,7 +488,7 @@ TEST(ReadOff, TakesNoMemoryOnTheWordOfAHeader) {
             "line 7: a face of 9223372036854775807 corners has only 4 numbers");
 }
 
-TEST(ReadOff, MakesAnErrorOrAMeshOfAnyBytes) {
+TEST(ReadOff, makes_an_error_or_a_mesh_of_any_bytes) {
   expect_error_or_sound_mesh("OFF # square\n4 2 5\n" + square + "4 0 1 2 3\n3 0 1 2 0.5 0.5 0.5\n", read_off<float>);
   expect_error_or_sound_mesh("4 2\r0 0 0 1 0 0\r1 0 0 1 0 0\r1 1 0 1 0 0\r0 1 0 1 0 0\r\n3 0 1 2 3 0 1 2\r\n\x1a",
                              read_off<double>);

@@ -104,7 +104,7 @@ std::string big_endian_bytes_of(const SampleFace& face) { return bytes_of(face, 
 
 const std::string ascii_square = header("ascii", 4, 2) + "0 0 0\n1 0 0\n1 1 0\n0 0.1 0\n4 0 1 2 3\n3 3 2 1\n";
 
-TEST(ReadPly, ReadsText) {
+TEST(ReadPly, reads_text) {
   const Mesh<double> mesh = read_ply<double>(ascii_square);
   const std::vector<std::array<double, 3>> expected = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0.1, 0}};
   EXPECT_EQ(mesh.vertices, expected);
@@ -113,25 +113,25 @@ TEST(ReadPly, ReadsText) {
   EXPECT_TRUE(mesh.warnings.empty());
 }
 
-TEST(ReadPly, CutsConcaveFacesInText) {
+TEST(ReadPly, cuts_concave_faces_in_text) {
   expect_every_sample_is_cut_rightly<float>(
       [](const SampleFace& face) { return read_ply<float>(ascii_text_of(face)); });
 }
 
-TEST(ReadPly, CutsConcaveFacesInBytesOfEitherOrder) {
+TEST(ReadPly, cuts_concave_faces_in_bytes_of_either_order) {
   expect_every_sample_is_cut_rightly<double>(
       [](const SampleFace& face) { return read_ply<double>(little_endian_bytes_of(face)); });
   expect_every_sample_is_cut_rightly<float>(
       [](const SampleFace& face) { return read_ply<float>(big_endian_bytes_of(face)); });
 }
 
-TEST(ReadPly, LeavesTheWindowOfAKeyholedWallOpen) {
+TEST(ReadPly, leaves_the_window_of_a_keyholed_wall_open) {
   for (const auto write : {ascii_text_of, little_endian_bytes_of, big_endian_bytes_of}) {
     expect_keyholed_wall_has_its_window([&](const SampleFace& face) { return read_ply<double>(write(face)); });
   }
 }
 
-TEST(ReadPly, NamesTheFaceWhoseOutlineCrossesItself) {
+TEST(ReadPly, names_the_face_whose_outline_crosses_itself) {
   const SampleFace bow_tie = {{{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}}, {0, 1, 2, 3}};
   const std::string error = "face 0 of 4 corners has no valid triangulation: its outline crosses itself";
   EXPECT_EQ(error_in(ascii_text_of(bow_tie)), "line 14: " + error);
@@ -142,7 +142,7 @@ TEST(ReadPly, NamesTheFaceWhoseOutlineCrossesItself) {
             "line 17: face 2 of 4 corners has no valid triangulation: its outline crosses itself");
 }
 
-TEST(ReadPly, ReadsFacesBeforeTheirVertices) {
+TEST(ReadPly, reads_faces_before_their_vertices) {
   const std::string start =
       "ply\nformat ascii 1.0\nelement face 2\n" + face_line + "element vertex 6\n" + vertex_lines + "end_header\n";
   const std::string l = "0 0 0\n4 0 0\n4 2 0\n2 2 0\n2 4 0\n0 4 0\n";
@@ -156,7 +156,7 @@ TEST(ReadPly, ReadsFacesBeforeTheirVertices) {
             "line 10: face 0: vertex index 6 is out of range, there are 6 vertices");
 }
 
-TEST(ReadPly, TellsWhichFaceATriangleIsOf) {
+TEST(ReadPly, tells_which_face_a_triangle_is_of) {
   const std::string l = "0 0 0\n4 0 0\n4 2 0\n2 2 0\n2 4 0\n0 4 0\n";
   const Mesh<float> mesh = read_ply<float>(header("ascii", 6, 4) + l + "3 0 1 2\n6 0 1 2 3 4 5\n4 0 1 2 3\n3 3 4 5\n");
   EXPECT_EQ(mesh.faces, (Faces{0, 1, 1, 1, 1, 2, 2, 3}));
@@ -166,7 +166,7 @@ TEST(ReadPly, TellsWhichFaceATriangleIsOf) {
   EXPECT_EQ(triangles.face_of(1), 1u);
 }
 
-TEST(ReadPly, TakesAnyLineEndsInText) {
+TEST(ReadPly, takes_any_line_ends_in_text) {
   for (const std::string_view end : line_ends) {
     const Mesh<float> mesh = read_ply<float>(with_line_ends(ascii_square, end));
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {3, 2, 1}}));
@@ -190,7 +190,7 @@ std::string bytes_that_begin_with(std::string_view first, std::string_view line_
   return bytes;
 }
 
-TEST(ReadPly, ReadsBytesBehindAnyLineEndWhateverTheyBeginWith) {
+TEST(ReadPly, reads_bytes_behind_any_line_end_whatever_they_begin_with) {
   for (const std::string_view line_end : line_ends) {
     for (const std::string_view first :
          {"\x0a\x0b\x0c\x3d", "\x0d\x0b\x0c\x3d", "\x0d\x0a\x0c\x3d", "\x0a\x0d\x0c\x3d", "\x0a\x0a\x0a\x0a",
@@ -209,7 +209,7 @@ TEST(ReadPly, ReadsBytesBehindAnyLineEndWhateverTheyBeginWith) {
   }
 }
 
-TEST(ReadPly, ReadsBytesThatAreAllWhiteSpaceOrControlZ) {
+TEST(ReadPly, reads_bytes_that_are_all_white_space_or_control_z) {
   for (const std::string_view line_end : line_ends) {
     for (const char byte : {'\n', '\r', '\x1a', ' '}) {
       const std::string bytes =
@@ -222,7 +222,7 @@ TEST(ReadPly, ReadsBytesThatAreAllWhiteSpaceOrControlZ) {
   }
 }
 
-TEST(ReadPly, TakesAClosingControlZ) {
+TEST(ReadPly, takes_a_closing_control_z) {
   for (const std::string_view closing : closing_control_z) {
     EXPECT_EQ(read_ply<float>(ascii_square + std::string(closing)).triangles.size(), 3u);
   }
@@ -234,7 +234,7 @@ TEST(ReadPly, TakesAClosingControlZ) {
   EXPECT_EQ(error_in(ascii_square + "\x1a\n3 0 1 2\n"), "line 16: something follows the last element");
 }
 
-TEST(ReadPly, KeepsALastByteThatIsAControlZ) {
+TEST(ReadPly, keeps_a_last_byte_that_is_a_control_z) {
   const auto with_last = [](std::uint32_t last, const std::string& format, auto append) {
     std::string bytes = "ply\nformat " + format + " 1.0\nelement vertex 27\n" + vertex_lines +
                         "element face 1\nproperty list uchar uint vertex_indices\nend_header\n";
@@ -275,7 +275,7 @@ std::string binary_strips(const std::vector<std::int32_t>& strip, const std::str
   return bytes;
 }
 
-TEST(ReadPly, ReadsStripsOfTriangles) {
+TEST(ReadPly, reads_strips_of_triangles) {
   struct Case {
     std::vector<std::int32_t> strip;
     Triangles triangles;
@@ -312,7 +312,7 @@ TEST(ReadPly, ReadsStripsOfTriangles) {
   }
 }
 
-TEST(ReadPly, LetsAllTrianglesOfAStripLookTheSameWay) {
+TEST(ReadPly, lets_all_triangles_of_a_strip_look_the_same_way) {
   const Mesh<float> mesh = read_ply<float>(ascii_strips("6 0 1 2 3 4 5"));
   const Colliderf collider(mesh.view());
   for (const float x : {0.25f, 0.75f, 1.25f, 1.75f}) {
@@ -322,7 +322,7 @@ TEST(ReadPly, LetsAllTrianglesOfAStripLookTheSameWay) {
   }
 }
 
-TEST(ReadPly, ReadsSeveralStripsAndFacesBesideThem) {
+TEST(ReadPly, reads_several_strips_and_faces_beside_them) {
   EXPECT_EQ(read_ply<float>(ascii_strips("3 0 1 2\n4 2 3 4 5\n", 2)).triangles,
             (Triangles{{0, 1, 2}, {2, 3, 4}, {4, 3, 5}}));
   const std::string vertices = "0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n";
@@ -345,7 +345,7 @@ TEST(ReadPly, ReadsSeveralStripsAndFacesBesideThem) {
       1u);
 }
 
-TEST(ReadPly, NamesTheStripOfAnError) {
+TEST(ReadPly, names_the_strip_of_an_error) {
   EXPECT_EQ(error_in(ascii_strips("4 0 1 2 6\n")),
             "line 16: tristrips 0: vertex index 6 is out of range, there are 6 vertices");
   EXPECT_EQ(error_in(ascii_strips("3 0 1 2\n4 -1 0 -2 1\n", 2)),
@@ -363,7 +363,7 @@ TEST(ReadPly, NamesTheStripOfAnError) {
             "line 8: the element tristrips has no list 'vertex_indices' of integers");
 }
 
-TEST(ReadPly, ReadsAFileOfNoFaces) {
+TEST(ReadPly, reads_a_file_of_no_faces) {
   const std::string vertices = "ply\nformat ascii 1.0\nelement vertex 2\n" + vertex_lines;
   for (const std::string faces :
        {"", "element face 0\n", "element face 0\nproperty list uchar int vertex_indices\n",
@@ -379,7 +379,7 @@ TEST(ReadPly, ReadsAFileOfNoFaces) {
   EXPECT_EQ(read_ply<float>(bytes).warnings, Warnings{example::no_triangles});
 }
 
-TEST(ReadPly, SaysWhatIsWrongWithItsFirstLine) {
+TEST(ReadPly, says_what_is_wrong_with_its_first_line) {
   const std::string alone = "line 1: the first line of a PLY file is ply alone, but here it ";
   for (const char* blank : {"ply \n", "ply\t\n", " ply\n", "ply  \r\n", "ply \r", "ply "}) {
     EXPECT_EQ(error_in(blank + std::string("format ascii 1.0\n")).substr(0, alone.size()), alone) << blank;
@@ -394,7 +394,7 @@ TEST(ReadPly, SaysWhatIsWrongWithItsFirstLine) {
   EXPECT_EQ(error_in(""), "a PLY file begins with a line: ply");
 }
 
-TEST(ReadPly, NamesLineAndValueOfANumberThatOldWindowsWrote) {
+TEST(ReadPly, names_line_and_value_of_a_number_that_old_windows_wrote) {
   for (const std::string value : {"1.#QNAN", "-1.#IND00", "1.#INF", "1.#IND", "-1.#INF"}) {
     const std::string vertices = header("ascii", 3, 1) + "0 0 0\n4 0 0\n";
     EXPECT_EQ(error_in(vertices + "0 4 " + value + "\n3 0 1 2\n"),
@@ -405,7 +405,7 @@ TEST(ReadPly, NamesLineAndValueOfANumberThatOldWindowsWrote) {
   }
 }
 
-TEST(ReadPly, WarnsOfVerticesThatAreNotFiniteWhereNoFaceUsesThem) {
+TEST(ReadPly, warns_of_vertices_that_are_not_finite_where_no_face_uses_them) {
   const std::string text = header("ascii", 5, 1) + "0 0 0\nnan 0 0\n4 0 0\n0 -inf inf\n0 4 0\n";
   const Mesh<float> mesh = read_ply<float>(text + "3 0 2 4\n");
   EXPECT_EQ(mesh.warnings,
@@ -433,7 +433,7 @@ TEST(ReadPly, WarnsOfVerticesThatAreNotFiniteWhereNoFaceUsesThem) {
   }
 }
 
-TEST(ReadPly, ReadsTextWithPropertiesAndElementsThatNobodyNeeds) {
+TEST(ReadPly, reads_text_with_properties_and_elements_that_nobody_needs) {
   const Mesh<float> mesh = read_ply<float>(
       "ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty int id\r\nproperty float z\r\nproperty float y\r\n"
       "property float x\r\nproperty list uchar int tags\r\nelement nothing 5\r\nelement face 1\r\n"
@@ -445,7 +445,7 @@ TEST(ReadPly, ReadsTextWithPropertiesAndElementsThatNobodyNeeds) {
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
 }
 
-TEST(ReadPly, ReadsBytesInEitherOrder) {
+TEST(ReadPly, reads_bytes_in_either_order) {
   for (const std::string& bytes : {busy_binary_square("binary_little_endian", little_endian),
                                    busy_binary_square("binary_big_endian", big_endian)}) {
     const Mesh<double> mesh = read_ply<double>(bytes);
@@ -456,7 +456,7 @@ TEST(ReadPly, ReadsBytesInEitherOrder) {
   }
 }
 
-TEST(ReadPly, RoundsBinaryNumbersOnce) {
+TEST(ReadPly, rounds_binary_numbers_once) {
   const std::string bytes = busy_binary_square("binary_little_endian", little_endian);
   EXPECT_EQ(read_ply<float>(bytes).vertices[1][0], static_cast<float>(1.00000005960464477540));
   std::string integers =
@@ -470,7 +470,7 @@ TEST(ReadPly, RoundsBinaryNumbersOnce) {
   EXPECT_EQ(read_ply<double>(integers).vertices, doubles);
 }
 
-TEST(ReadPly, RoundsTextOnceWhateverTypeTheHeaderNames) {
+TEST(ReadPly, rounds_text_once_whatever_type_the_header_names) {
   std::string text = header("ascii", 1, 0) + "1.00000005960464477539062500000000000000001 0.1 1e-60\n";
   const std::vector<std::array<float, 3>> floats = {{0x1.000002p0f, 0.1f, 0}};
   const std::vector<std::array<double, 3>> doubles = {{0x1.000001p0, 0.1, 1e-60}};
@@ -478,7 +478,7 @@ TEST(ReadPly, RoundsTextOnceWhateverTypeTheHeaderNames) {
   EXPECT_EQ(read_ply<double>(text).vertices, doubles);
 }
 
-TEST(ReadPly, NamesTheLineOfAnErrorInTheHeader) {
+TEST(ReadPly, names_the_line_of_an_error_in_the_header) {
   EXPECT_EQ(error_in("solid\n"), "line 1: a PLY file begins with a line: ply");
   EXPECT_EQ(error_in("ply\nelement vertex 1\n"), "line 2: expected: format NAME VERSION");
   EXPECT_EQ(error_in("ply\nformat binary 1.0\n"), "line 2: unknown format 'binary'");
@@ -496,7 +496,7 @@ TEST(ReadPly, NamesTheLineOfAnErrorInTheHeader) {
   EXPECT_EQ(error_in_header("elements a 1\n"), "line 3: unknown header line 'elements a 1'");
 }
 
-TEST(ReadPly, NamesWhatTheHeaderLacks) {
+TEST(ReadPly, names_what_the_header_lacks) {
   const std::string faces = "element face 0\n" + face_line;
   EXPECT_EQ(error_in_header(faces), "line 5: the header has no element 'vertex'");
   EXPECT_EQ(error_in_header("element vertex 0\nproperty float x\nproperty float y\n" + faces),
@@ -509,7 +509,7 @@ TEST(ReadPly, NamesWhatTheHeaderLacks) {
   }
 }
 
-TEST(ReadPly, NamesTheLineAndTheElementOfAnErrorInText) {
+TEST(ReadPly, names_the_line_and_the_element_of_an_error_in_text) {
   const std::string vertices = header("ascii", 3, 1) + "0 0 0\n1 0 0\n1 1 0\n";
   EXPECT_EQ(error_in(header("ascii", 3, 1) + "0 0 0\n1 0\n"), "line 11: vertex 1: the line ends too early");
   EXPECT_EQ(error_in(header("ascii", 3, 1) + "0 0 0 0\n"), "line 10: vertex 0: '0' is more than the header announces");
@@ -524,7 +524,7 @@ TEST(ReadPly, NamesTheLineAndTheElementOfAnErrorInText) {
   EXPECT_EQ(error_in(vertices + "3 0 1 2\n3 0 1 2\n"), "line 14: something follows the last element");
 }
 
-TEST(ReadPly, NamesTheElementOfAnErrorInBytes) {
+TEST(ReadPly, names_the_element_of_an_error_in_bytes) {
   const std::string vertices = header("binary_little_endian", 1, 1) + std::string(12, '\0');
   EXPECT_EQ(error_in(header("binary_little_endian", 1, 1) + std::string(11, '\0')),
             "vertex 0: the file ends too early");
@@ -536,14 +536,14 @@ TEST(ReadPly, NamesTheElementOfAnErrorInBytes) {
 }
 
 /// A message ends at a byte 0 for those who read it as C does; a fuzzer found one that was empty.
-TEST(ReadPly, NamesAnElementWhoseNameIsNotPrintable) {
+TEST(ReadPly, names_an_element_whose_name_is_not_printable) {
   const std::string name(1, '\0');
   EXPECT_EQ(error_in("ply\nformat binary_little_endian 1.0\nelement " + name + " 8\nproperty double x\n" +
                      "element vertex 0\n" + vertex_lines + "element face 0\n" + face_line + "end_header\n"),
             "? 0: the file ends too early");
 }
 
-TEST(ReadPly, RejectsBinaryDoublesBeyondTheLargestFloat) {
+TEST(ReadPly, rejects_binary_doubles_beyond_the_largest_float) {
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty double x\nproperty float y\n"
       "property float z\nelement face 0\n" +
@@ -554,7 +554,7 @@ TEST(ReadPly, RejectsBinaryDoublesBeyondTheLargestFloat) {
   EXPECT_EQ(read_ply<double>(bytes).vertices[0][0], 1e39);
 }
 
-TEST(ReadPly, TakesNoMemoryOrTimeOnTheWordOfAHeader) {
+TEST(ReadPly, takes_no_memory_or_time_on_the_word_of_a_header) {
   constexpr std::uint64_t many = std::numeric_limits<std::int64_t>::max();
   EXPECT_EQ(error_in(header("ascii", many, many) + "0 0 0\n"), "line 10: vertex 1: the file ends too early");
   EXPECT_EQ(error_in(header("binary_little_endian", many, many)), "vertex 0: the file ends too early");
@@ -565,7 +565,7 @@ TEST(ReadPly, TakesNoMemoryOrTimeOnTheWordOfAHeader) {
                   .vertices.empty());
 }
 
-TEST(ReadPly, TakesNoMemoryOnTheWordOfAList) {
+TEST(ReadPly, takes_no_memory_on_the_word_of_a_list) {
   const std::string tags = "element a 1\nproperty list uint double tags\n";
   const std::string rest =
       "element vertex 0\n" + vertex_lines + "element face 1\nproperty list uint int vertex_indices\nend_header\n";
@@ -574,13 +574,13 @@ TEST(ReadPly, TakesNoMemoryOnTheWordOfAList) {
   EXPECT_EQ(error_in(start + rest + "\xff\xff\xff\xff"), "face 0: the file ends too early");
 }
 
-TEST(ReadPly, MakesAnErrorOrAMeshOfAnyText) {
+TEST(ReadPly, makes_an_error_or_a_mesh_of_any_text) {
   expect_error_or_sound_mesh(ascii_square, read_ply<float>);
   expect_error_or_sound_mesh(with_line_ends(ascii_strips("8 0 1 2 -1 2 3 4 5\n\x1a"), "\r"), read_ply<double>);
   expect_error_or_sound_mesh(ascii_text_of(placed(wall_plane, keyholed_wall)), read_ply<float>);
 }
 
-TEST(ReadPly, MakesAnErrorOrAMeshOfAnyBytes) {
+TEST(ReadPly, makes_an_error_or_a_mesh_of_any_bytes) {
   expect_error_or_sound_mesh(busy_binary_square("binary_little_endian", little_endian), read_ply<float>);
   expect_error_or_sound_mesh(busy_binary_square("binary_big_endian", big_endian), read_ply<double>);
   expect_error_or_sound_mesh(binary_strips({0, 1, 2, 3, -1, 3, 4, 5}, "binary_big_endian", big_endian),

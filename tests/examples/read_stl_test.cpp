@@ -70,7 +70,7 @@ void expect_facets(std::size_t count, const std::string& bytes, const Warnings& 
   EXPECT_EQ(mesh.warnings, warnings) << bytes;
 }
 
-TEST(ReadStl, ReadsText) {
+TEST(ReadStl, reads_text) {
   const Mesh<float> mesh = read_stl<float>("solid a name of its own\n" + facet + facet + "endsolid\n");
   EXPECT_EQ(mesh.vertices.size(), 6u);
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {3, 4, 5}}));
@@ -78,11 +78,11 @@ TEST(ReadStl, ReadsText) {
   EXPECT_TRUE(mesh.warnings.empty());
 }
 
-TEST(ReadStl, ReadsTextToTheNearestDouble) {
+TEST(ReadStl, reads_text_to_the_nearest_double) {
   EXPECT_EQ(read_stl<double>("solid\n" + facet + "endsolid").vertices[2][1], 0.1);
 }
 
-TEST(ReadStl, TakesAnyCaseSeveralSolidsAndMeaninglessNormals) {
+TEST(ReadStl, takes_any_case_several_solids_and_meaningless_normals) {
   const std::string capitals =
       "SOLID\nFACET NORMAL nan nan nan\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 0.1 0\nENDLOOP\nENDFACET\n"
       "ENDSOLID\n";
@@ -93,7 +93,7 @@ TEST(ReadStl, TakesAnyCaseSeveralSolidsAndMeaninglessNormals) {
                 "EndLoop\nEndFacet\nEndSolid A\n");
 }
 
-TEST(ReadStl, TakesAnEndOfTwoWords) {
+TEST(ReadStl, takes_an_end_of_two_words) {
   expect_facets(
       1,
       "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0.1 0\nend loop\nend facet\n"
@@ -106,7 +106,7 @@ TEST(ReadStl, TakesAnEndOfTwoWords) {
   EXPECT_EQ(error_in("end solid\n"), "line 1: expected solid, not 'end'");
 }
 
-TEST(ReadStl, TakesSolidsWithoutAnEnd) {
+TEST(ReadStl, takes_solids_without_an_end) {
   expect_facets(1, "solid\n" + facet);
   expect_facets(2, "solid\n" + facet + facet + "\n\n");
   expect_facets(2, "solid a\n" + facet + "solid b\n" + facet);
@@ -123,7 +123,7 @@ TEST(ReadStl, TakesSolidsWithoutAnEnd) {
   }
 }
 
-TEST(ReadStl, PassesOverLinesOfColors) {
+TEST(ReadStl, passes_over_lines_of_colors) {
   const std::string color = "color 0.5 0.5 0.5\n";
   std::string text;
   const std::string lines = "solid\n" + facet + facet + "endsolid\n";
@@ -135,7 +135,7 @@ TEST(ReadStl, PassesOverLinesOfColors) {
   expect_facets(2, text + "Color\n");
 }
 
-TEST(ReadStl, TakesAnyLineEnds) {
+TEST(ReadStl, takes_any_line_ends) {
   const std::string text = "solid a\n\n" + facet + "\nendsolid a\n";
   for (const std::string_view end : line_ends) {
     expect_facets(1, with_line_ends(text, end));
@@ -145,7 +145,7 @@ TEST(ReadStl, TakesAnyLineEnds) {
   expect_facets(1, with_mixed_line_ends(text));
 }
 
-TEST(ReadStl, TakesAClosingControlZ) {
+TEST(ReadStl, takes_a_closing_control_z) {
   for (const std::string_view closing : closing_control_z) {
     expect_facets(1, "solid a\n" + facet + "endsolid a" + std::string(closing));
     expect_facets(1, "solid a\n" + facet + "endsolid a\n" + std::string(closing));
@@ -154,14 +154,14 @@ TEST(ReadStl, TakesAClosingControlZ) {
   EXPECT_EQ(error_in("solid a\n" + facet + "endsolid a\n\x1a\nsolid b\n"), "line 10: expected solid, not '?'");
 }
 
-TEST(ReadStl, ReadsBytes) {
+TEST(ReadStl, reads_bytes) {
   const Mesh<double> mesh = read_stl<double>(binary_stl("made by hand", 1));
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
   EXPECT_EQ(mesh.vertices[2][1], double{0.1f});
   expect_facets(3, binary_stl("", 3));
 }
 
-TEST(ReadStl, TellsBytesFromTextThatTheyPretendToBe) {
+TEST(ReadStl, tells_bytes_from_text_that_they_pretend_to_be) {
   for (const std::string title :
        {"solid", "solid lies", "SOLID lies\n", " solid\r\nfacet normal 0 0 1\r\nouter loop"}) {
     for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{30}}) {
@@ -177,7 +177,7 @@ TEST(ReadStl, TellsBytesFromTextThatTheyPretendToBe) {
   }
 }
 
-TEST(ReadStl, PassesOverAFewBytesBehindTheLastTriangle) {
+TEST(ReadStl, passes_over_a_few_bytes_behind_the_last_triangle) {
   for (const std::size_t more : {std::size_t{1}, std::size_t{2}, std::size_t{49}}) {
     for (const char byte : {'\0', ' ', '\n', '\x1a', '\xff'}) {
       expect_facets(1, binary_stl("", 1) + std::string(more, byte));
@@ -194,7 +194,7 @@ TEST(ReadStl, PassesOverAFewBytesBehindTheLastTriangle) {
             (Warnings{"50 bytes follow the last of 0 triangles, and are passed over", example::no_triangles}));
 }
 
-TEST(ReadStl, PassesOverPayloadsOfTheSizeThatTheAttributeTells) {
+TEST(ReadStl, passes_over_payloads_of_the_size_that_the_attribute_tells) {
   expect_facets(1, binary_stl("", {{5, "bytes"}}));
   expect_facets(3, binary_stl("", {{1, "a"}, {0, ""}, {300, std::string(300, '\x7f')}}));
   expect_facets(2, binary_stl("solid", {{50, std::string(50, '\0')}, {65535, std::string(65535, 's')}}));
@@ -208,7 +208,7 @@ TEST(ReadStl, PassesOverPayloadsOfTheSizeThatTheAttributeTells) {
   EXPECT_EQ(error_in(cut), "a binary STL file of 2 triangles is 184 bytes long, not 183");
 }
 
-TEST(ReadStl, PassesOverAttributesThatAreColors) {
+TEST(ReadStl, passes_over_attributes_that_are_colors) {
   expect_facets(2, binary_stl("COLOR=\xff\xff\xff\xff", {{0x7c00, ""}, {0x801f, ""}}));
   expect_facets(3, binary_stl("", {{1, ""}, {65535, ""}, {50, ""}}));
   // Sizes would lead beyond the end, so a few bytes more make no doubt.
@@ -217,7 +217,7 @@ TEST(ReadStl, PassesOverAttributesThatAreColors) {
                 {"60 bytes follow the last of 1 triangles, and are passed over"});
 }
 
-TEST(ReadStl, NamesTheLengthThatTheCountAsksFor) {
+TEST(ReadStl, names_the_length_that_the_count_asks_for) {
   EXPECT_EQ(error_in(binary_stl("", 2).substr(0, 184 - 1)),
             "a binary STL file of 2 triangles is 184 bytes long, not 183");
   EXPECT_EQ(error_in(binary_stl("", 1).substr(0, 84)), "a binary STL file of 1 triangles is 134 bytes long, not 84");
@@ -225,14 +225,14 @@ TEST(ReadStl, NamesTheLengthThatTheCountAsksFor) {
             "a binary STL file of 3 triangles is 234 bytes long, not 134");
 }
 
-TEST(ReadStl, TakesNoMemoryOnTheWordOfAHeader) {
+TEST(ReadStl, takes_no_memory_on_the_word_of_a_header) {
   std::string bytes = binary_stl("", 1);
   bytes.replace(80, 4, "\xff\xff\xff\xff");
   EXPECT_EQ(error_in(bytes), "a binary STL file of 4294967295 triangles is 214748364834 bytes long, not 134");
 }
 
 /// A NUL in place of each byte, and between each two, of a text that is long enough for a binary file's header.
-TEST(ReadStl, NamesTheLineOfANulInText) {
+TEST(ReadStl, names_the_line_of_a_nul_in_text) {
   const std::string small =
       "solid a\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0.1 0\nendloop\nendfacet\n\n\n";
   ASSERT_EQ(small.size(), 85u);
@@ -260,7 +260,7 @@ TEST(ReadStl, NamesTheLineOfANulInText) {
   }
 }
 
-TEST(ReadStl, ReadsTextOfAnyLengthAsText) {
+TEST(ReadStl, reads_text_of_any_length_as_text) {
   const std::string text = "solid a name that takes bytes 80 to 83 along the lines of the file\n" + facet;
   for (std::size_t more = 0; more < 300; ++more) {
     expect_facets(2, "solid " + std::string(more, 'x') + "\n" + facet + facet);
@@ -270,7 +270,7 @@ TEST(ReadStl, ReadsTextOfAnyLengthAsText) {
   expect_facets(1, text);
 }
 
-TEST(ReadStl, WarnsOfAMeshOfNothing) {
+TEST(ReadStl, warns_of_a_mesh_of_nothing) {
   for (const std::string text : {"solid\nendsolid\n", "solid\n", "solid a\nend solid\n", "SOLID\ncolor 1 1 1\nENDSOLID",
                                  "solid a\nendsolid\nsolid b\nendsolid\n", "solid\nsolid\n\x1a"}) {
     const Mesh<float> mesh = read_stl<float>(text);
@@ -281,7 +281,7 @@ TEST(ReadStl, WarnsOfAMeshOfNothing) {
   EXPECT_EQ(read_stl<float>(binary_stl("solid", 0) + "\n").warnings, Warnings{example::no_triangles});
 }
 
-TEST(ReadStl, NamesTheLineOfAnErrorInText) {
+TEST(ReadStl, names_the_line_of_an_error_in_text) {
   EXPECT_EQ(error_in("hello"), "line 1: expected solid, not 'hello'");
   EXPECT_EQ(error_in(std::string(40, 'v') + std::string(60, ' ') + "\n"),
             "line 1: expected solid, not '" + std::string(40, 'v') + "'");
@@ -301,7 +301,7 @@ TEST(ReadStl, NamesTheLineOfAnErrorInText) {
             "line 8: expected endfacet, not 'endsolid'");
 }
 
-TEST(ReadStl, NamesLineAndValueOfANumberThatOldWindowsWrote) {
+TEST(ReadStl, names_line_and_value_of_a_number_that_old_windows_wrote) {
   for (const std::string value : {"1.#QNAN", "-1.#IND00", "1.#INF", "1.#IND", "-1.#INF"}) {
     const std::string start = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n";
     EXPECT_EQ(error_in(start + "vertex 0 " + value + " 0\n"), "line 5: '" + value + "' is not a number");
@@ -310,7 +310,7 @@ TEST(ReadStl, NamesLineAndValueOfANumberThatOldWindowsWrote) {
   }
 }
 
-TEST(ReadStl, NamesTheTriangleOfAnErrorInBytes) {
+TEST(ReadStl, names_the_triangle_of_an_error_in_bytes) {
   for (const float number : {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
                              std::numeric_limits<float>::quiet_NaN()}) {
     BinaryTriangle bad = {3, "abc", {{0, 0, 0}, {0, number, 0}, {0, 0, 0}}};
@@ -321,14 +321,14 @@ TEST(ReadStl, NamesTheTriangleOfAnErrorInBytes) {
   }
 }
 
-TEST(ReadStl, MakesAnErrorOrAMeshOfAnyText) {
+TEST(ReadStl, makes_an_error_or_a_mesh_of_any_text) {
   expect_error_or_sound_mesh("solid a\n" + facet + facet + "endsolid a\n", read_stl<float>);
   expect_error_or_sound_mesh(
       with_line_ends("SOLID a\ncolor 1 0 0\n" + facet + "end solid\nsolid b\n" + facet + "\x1a", "\r"),
       read_stl<double>);
 }
 
-TEST(ReadStl, MakesAnErrorOrAMeshOfAnyBytes) {
+TEST(ReadStl, makes_an_error_or_a_mesh_of_any_bytes) {
   expect_error_or_sound_mesh(binary_stl("title", 1), read_stl<double>);
   expect_error_or_sound_mesh(binary_stl("solid", {{3, "abc"}, {0, ""}, {60, std::string(60, 'x')}}), read_stl<float>);
 }

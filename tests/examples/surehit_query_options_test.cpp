@@ -10,7 +10,7 @@ namespace {
 /// What narrows a query, and what it is asked for besides.
 class SurehitQueryOptions : public SurehitQueryRun {};
 
-TEST_F(SurehitQueryOptions, CutsPathsToARangeOfT) {
+TEST_F(SurehitQueryOptions, cuts_paths_to_a_range_of_t) {
   write_squares();
   write("paths", "0.5 0.25 3  0.5 0.25 -1\n");
   const std::string header = "triangle,t,u,v,side\n";
@@ -39,7 +39,7 @@ TEST_F(SurehitQueryOptions, CutsPathsToARangeOfT) {
   expect_bad_input("first squares.obj paths --max-t 1e39", "--max-t: '1e39' is beyond the largest float");
 }
 
-TEST_F(SurehitQueryOptions, IgnoresContactsAtTheEndsOfPaths) {
+TEST_F(SurehitQueryOptions, ignores_contacts_at_the_ends_of_paths) {
   write_squares();
   write("paths", "0.5 0.25 1  0.5 0.25 0\n");
   expect_output("first squares.obj paths", "triangle,t,u,v,side\n2,0,0.25,0.25,front\n");
@@ -51,7 +51,7 @@ TEST_F(SurehitQueryOptions, IgnoresContactsAtTheEndsOfPaths) {
   expect_output("pair pairs --ignore-end-contact", "hit,t,u,v,side\n0,,,,\n");
 }
 
-TEST_F(SurehitQueryOptions, IgnoresATriangleOrAFace) {
+TEST_F(SurehitQueryOptions, ignores_a_triangle_or_a_face) {
   write_squares();
   write("paths", "0.5 0.5 3  0.5 0.5 -1\n");
   const std::string header = "triangle,t,u,v,side\n";
@@ -65,7 +65,7 @@ TEST_F(SurehitQueryOptions, IgnoresATriangleOrAFace) {
                    "--ignore-face: there is no face 2 among 2, which count from 0");
 }
 
-TEST_F(SurehitQueryOptions, TakesMasksOfTrianglesOrOfFaces) {
+TEST_F(SurehitQueryOptions, takes_masks_of_triangles_or_of_faces) {
   write_squares();
   write("paths", "0.5 0.5 3  0.5 0.5 -1\n");
   write("by_triangle", "# masks\n0x1\n1\n\n 2 \n4294967295\r\n");
@@ -96,7 +96,7 @@ TEST_F(SurehitQueryOptions, TakesMasksOfTrianglesOrOfFaces) {
   expect_bad_input("first squares.obj paths --masks none", "none: cannot be read: No such file or directory");
 }
 
-TEST_F(SurehitQueryOptions, NamesTheFacesThatTrianglesWereCutFrom) {
+TEST_F(SurehitQueryOptions, names_the_faces_that_triangles_were_cut_from) {
   write_squares();
   write("paths", "0.5 0.25 3  0.5 0.25 -1\n0.25 0.5 3  0.25 0.5 0.5\n9 9 9  8 8 8\n");
   expect_output("first squares.obj paths --ids triangle",
@@ -111,7 +111,7 @@ TEST_F(SurehitQueryOptions, NamesTheFacesThatTrianglesWereCutFrom) {
                 "path,face,t,u,v,side,tie\n0,0,0.5,0.25,0.25,front,1\n0,1,0.5,0.25,0.25,front,1\n");
 }
 
-TEST_F(SurehitQueryOptions, TellsPointsAndNormals) {
+TEST_F(SurehitQueryOptions, tells_points_and_normals) {
   write("tilted.obj", "v 0 0 0\nv 4 0 3\nv 0 4 0\nf 1 2 3\n");
   write("paths", "1 1 8  1 1 0\n9 9 9  8 8 8\n");
   const std::string hit = "0,0.90625,0.25,0.25,front";
@@ -129,7 +129,7 @@ TEST_F(SurehitQueryOptions, TellsPointsAndNormals) {
                 "hit,t,u,v,side,x,y,z,nx,ny,nz\n1,7.25,0.25,0.25,front" + point + normal + "\n0,,,,,,,,,,\n");
 }
 
-TEST_F(SurehitQueryOptions, TellsWhereAStepMayEnd) {
+TEST_F(SurehitQueryOptions, tells_where_a_step_may_end) {
   write_squares();
   write("paths", "0.5 0.25 2  0.5 0.25 -1\n9 9 9  8 8 8\n0.5 0.25 1  0.5 0.25 -1\n");
   expect_output("first squares.obj paths --free-points",
@@ -141,7 +141,7 @@ TEST_F(SurehitQueryOptions, TellsWhereAStepMayEnd) {
       "-1,,,,,,,,8,8,8\n0,0.5,0.25,0.25,front,0.5,0.25,0,0.5,0.25,1.1920929e-07\n");
 }
 
-TEST_F(SurehitQueryOptions, TellsTiesByTheExactT) {
+TEST_F(SurehitQueryOptions, tells_ties_by_the_exact_t) {
   // Both planes are met at t = 1/3 as floats have it, but the second one exactly is 2^-30 higher: met first.
   write("near.obj",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0x1p-30\nv 1 0 0x1p-30\nv 0 1 0x1p-30\nv 1 1 0\nf 1 2 3\nf 4 5 6\nf 2 7 3\n");

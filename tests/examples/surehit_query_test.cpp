@@ -69,18 +69,18 @@ class SurehitQuery : public SurehitQueryRun {
   }
 };
 
-TEST_F(SurehitQuery, AnswersPairs) {
+TEST_F(SurehitQuery, answers_pairs) {
   write("pairs", downwards + triangle + "\n5 5 1  5 5 -1  " + triangle + "\n0 0 -1  0 0 3  " + triangle +
                      "\n0 -1 0  0 0.5 0  " + triangle + "\n");
   expect_output("pair pairs", "hit,t,u,v,side\n1,0.5,0.25,0.5,front\n0,,,,\n1,0.25,0.25,0.5,back\n1,0,0.5,0,edge_on\n");
 }
 
-TEST_F(SurehitQuery, SkipsCommentsAndBlankLines) {
+TEST_F(SurehitQuery, skips_comments_and_blank_lines) {
   write("pairs", "# p q a b c\n\n  # more\r\n" + downwards + triangle + "\r\n \n");
   expect_output("pair pairs", "hit,t,u,v,side\n1,0.5,0.25,0.5,front\n");
 }
 
-TEST_F(SurehitQuery, AnswersNothingWithAHeader) {
+TEST_F(SurehitQuery, answers_nothing_with_a_header) {
   write_squares();
   expect_output("pair /dev/null", "hit,t,u,v,side\n");
   expect_output("first squares.obj /dev/null", "triangle,t,u,v,side\n");
@@ -88,7 +88,7 @@ TEST_F(SurehitQuery, AnswersNothingWithAHeader) {
   expect_output("all squares.obj /dev/null", "path,triangle,t,u,v,side,tie\n");
 }
 
-TEST_F(SurehitQuery, TakesWhiteSpaceAndCommasBetweenNumbers) {
+TEST_F(SurehitQuery, takes_white_space_and_commas_between_numbers) {
   const std::string expected = "hit,t,u,v,side\n1,0.5,0.25,0.5,front\n";
   for (const char* numbers : {"0,0,1,0,0,-1,-1,-1,0,1,-1,0,0,1,0", "0\\t0 1 , 0,0 ,-1, -1 -1 0 1 -1 0 0 1 0",
                               " +0x0p0 -0 0x1p+0 0 0 -0X.8P1 -1 -1 0 1e0 -1.0 0 0 10e-1 .0 "}) {
@@ -96,7 +96,7 @@ TEST_F(SurehitQuery, TakesWhiteSpaceAndCommasBetweenNumbers) {
   }
 }
 
-TEST_F(SurehitQuery, TakesSegmentsRaysAndLines) {
+TEST_F(SurehitQuery, takes_segments_rays_and_lines) {
   const std::string header = "hit,t,u,v,side\n";
   write("short", "0 0 3  0 0 2  " + triangle + "\n");
   expect_output("pair short --path segment", header + "0,,,,\n");
@@ -105,7 +105,7 @@ TEST_F(SurehitQuery, TakesSegmentsRaysAndLines) {
   expect_output("pair direction --path line", header + "1,1.5,0.25,0.5,front\n1,-1.5,0.25,0.5,front\n");
 }
 
-TEST_F(SurehitQuery, CullsSides) {
+TEST_F(SurehitQuery, culls_sides) {
   write("pairs", downwards + triangle + "\n0 0 -1  0 0 1  " + triangle + "\n0 -1 0  0 1 0  " + triangle + "\n");
   const std::string front = "1,0.5,0.25,0.5,front\n";
   const std::string back = "1,0.5,0.25,0.5,back\n";
@@ -115,32 +115,32 @@ TEST_F(SurehitQuery, CullsSides) {
   expect_output("pair pairs --cull front", "hit,t,u,v,side\n" + miss + back + miss);
 }
 
-TEST_F(SurehitQuery, RoundsToTheScalarAskedForAndBackToTheSameBits) {
+TEST_F(SurehitQuery, rounds_to_the_scalar_asked_for_and_back_to_the_same_bits) {
   write("third", "0 0 1  0 0 -2  " + triangle + "\n");
   expect_output("pair third", "hit,t,u,v,side\n1,0.33333334,0.25,0.5,front\n");
   expect_output("pair third --scalar float", "hit,t,u,v,side\n1,0.33333334,0.25,0.5,front\n");
   expect_output("pair third --scalar double", "hit,t,u,v,side\n1,0.3333333333333333,0.25,0.5,front\n");
 }
 
-TEST_F(SurehitQuery, PrintsAParameterBeyondAllNumbersAsInfinite) {
+TEST_F(SurehitQuery, prints_a_parameter_beyond_all_numbers_as_infinite) {
   write("slow", "0 0 0  0 0 1e-45  -1 -1 1e38  1 -1 1e38  0 1 1e38\n");
   expect_output("pair slow --path ray", "hit,t,u,v,side\n1,inf,0.25,0.5,back\n");
 }
 
-TEST_F(SurehitQuery, AnswersWhereAPathFirstMeetsAMesh) {
+TEST_F(SurehitQuery, answers_where_a_path_first_meets_a_mesh) {
   write_squares();
   write("paths", "0.5 0.25 -1  0.5 0.25 3\n0.5 0.25 3  0.5 0.25 -1\n9 9 9  8 8 8\n0 0.5 0.5  1 0.5 0.5\n");
   expect_output("first squares.obj paths",
                 "triangle,t,u,v,side\n0,0.25,0.25,0.25,back\n2,0.5,0.25,0.25,front\n-1,,,,\n-1,,,,\n");
 }
 
-TEST_F(SurehitQuery, AnswersWhetherAPathMeetsAMesh) {
+TEST_F(SurehitQuery, answers_whether_a_path_meets_a_mesh) {
   write_squares();
   write("paths", "0.5 0.25 -1  0.5 0.25 3\n9 9 9  8 8 8\n0.5 0.5 1  0.5 0.5 2\n");
   expect_output("any squares.obj paths", "hit\n1\n0\n1\n");
 }
 
-TEST_F(SurehitQuery, AnswersWhereAPathMeetsAMeshAtAll) {
+TEST_F(SurehitQuery, answers_where_a_path_meets_a_mesh_at_all) {
   write_squares();
   write("paths", "9 9 9  8 8 8\n0.5 0.25 3  0.5 0.25 -1\n0.5 0.5 -1  0.5 0.5 0.5\n");
   expect_output("all squares.obj paths",
@@ -148,7 +148,7 @@ TEST_F(SurehitQuery, AnswersWhereAPathMeetsAMeshAtAll) {
                 "2,0,0.6666667,0,0.5,back,1\n2,1,0.6666667,0.5,0,back,1\n");
 }
 
-TEST_F(SurehitQuery, WarnsOfAMeshOnce) {
+TEST_F(SurehitQuery, warns_of_a_mesh_once) {
   write("empty.obj", "v 0 0 0\n");
   write("unused.obj", "v nan 0 0\nv 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 inf 1\nf 2 3 4\n");
   write("survey.obj",
@@ -171,7 +171,7 @@ TEST_F(SurehitQuery, WarnsOfAMeshOnce) {
                 "hit\n1\n");
 }
 
-TEST_F(SurehitQuery, SaysWhatItsQueriesDid) {
+TEST_F(SurehitQuery, says_what_its_queries_did) {
   write_squares();
   // Three through both squares, one beside them, and four in the plane of one, which only exact arithmetic decides.
   std::string paths = "9 9 9  8 8 8\n";
@@ -204,7 +204,7 @@ TEST_F(SurehitQuery, SaysWhatItsQueriesDid) {
   }
 }
 
-TEST_F(SurehitQuery, SaysTheSameOfItsQueriesForAnyNumberOfThreads) {
+TEST_F(SurehitQuery, says_the_same_of_its_queries_for_any_number_of_threads) {
   write_squares();
   write("paths", random_paths(20000));
   const std::string arguments = "first squares.obj paths --path line --statistics -o answers.csv --threads ";
@@ -213,19 +213,19 @@ TEST_F(SurehitQuery, SaysTheSameOfItsQueriesForAnyNumberOfThreads) {
   EXPECT_EQ(run(arguments + "3").error, one.error);
 }
 
-TEST_F(SurehitQuery, SaysThatQueriesOfNoPathsDidNothing) {
+TEST_F(SurehitQuery, says_that_queries_of_no_paths_did_nothing) {
   write_squares();
   EXPECT_EQ(run("any squares.obj /dev/null --statistics").error,
             "statistic,count,per_million_paths,per_million_candidates\npaths,0,,\ncells,0,,\ncandidates,0,,\n"
             "undecided,0,,\nexact_decisions,0,,\nexact_orders,0,,\nexact_roundings,0,,\nunclipped,0,,\n");
 }
 
-TEST_F(SurehitQuery, ReadsStandardInput) {
+TEST_F(SurehitQuery, reads_standard_input) {
   write_squares();
   expect_output("any squares.obj - <<END\n0 0 -1 0 0 1\nEND\n", "hit\n1\n");
 }
 
-TEST_F(SurehitQuery, WritesTheSameForAnyNumberOfThreads) {
+TEST_F(SurehitQuery, writes_the_same_for_any_number_of_threads) {
   write_squares();
   write("paths", random_paths(20000));
   for (const std::string question : {"first", "any", "all"}) {
@@ -237,7 +237,7 @@ TEST_F(SurehitQuery, WritesTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST_F(SurehitQuery, WritesWhatStandardOutputGetsToAFile) {
+TEST_F(SurehitQuery, writes_what_standard_output_gets_to_a_file) {
   write_squares();
   write("paths", random_paths(100));
   const Outcome outcome = run("first squares.obj paths");
@@ -246,7 +246,7 @@ TEST_F(SurehitQuery, WritesWhatStandardOutputGetsToAFile) {
   EXPECT_EQ(folder_.file_count(), 3u);
 }
 
-TEST_F(SurehitQuery, ReplacesAnOldOutputFileOnlyWhenDone) {
+TEST_F(SurehitQuery, replaces_an_old_output_file_only_when_done) {
   write("pairs", downwards + triangle + "\n");
   write("bad", downwards + triangle + "\n1 2\n");
   write("answers.csv", "old");
@@ -257,7 +257,7 @@ TEST_F(SurehitQuery, ReplacesAnOldOutputFileOnlyWhenDone) {
   EXPECT_EQ(folder_.file_count(), 3u);
 }
 
-TEST_F(SurehitQuery, WritesThroughASymbolicLink) {
+TEST_F(SurehitQuery, writes_through_a_symbolic_link) {
   write("pairs", downwards + triangle + "\n");
   write("target.csv", "old");
   fs::create_symlink("target.csv", folder_.at("link.csv"));
@@ -266,7 +266,7 @@ TEST_F(SurehitQuery, WritesThroughASymbolicLink) {
   EXPECT_EQ(folder_.read("target.csv"), "hit,t,u,v,side\n1,0.5,0.25,0.5,front\n");
 }
 
-TEST_F(SurehitQuery, NamesTheLineOfBadPaths) {
+TEST_F(SurehitQuery, names_the_line_of_bad_paths) {
   write_squares();
   const std::string good = "0 0 0 1 1 1\n";
   const std::pair<std::string, std::string> lines[] = {
@@ -293,7 +293,7 @@ TEST_F(SurehitQuery, NamesTheLineOfBadPaths) {
   expect_bad_input("pair missing", "missing: cannot be read: No such file or directory");
 }
 
-TEST_F(SurehitQuery, NamesTheLineOfABadMesh) {
+TEST_F(SurehitQuery, names_the_line_of_a_bad_mesh) {
   write("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n");
   expect_bad_input("first bad.obj /dev/null", "bad.obj: line 3: vertex index 3 is out of range, there are 2 vertices");
   expect_bad_input("any missing.ply /dev/null", "missing.ply: cannot be read: No such file or directory");
@@ -303,7 +303,7 @@ TEST_F(SurehitQuery, NamesTheLineOfABadMesh) {
   expect_bad_input("all bad.mesh /dev/null", "bad.mesh: a mesh file's name ends in .obj, .ply, .stl or .off");
 }
 
-TEST_F(SurehitQuery, RefusesWrongUsageInOneLine) {
+TEST_F(SurehitQuery, refuses_wrong_usage_in_one_line) {
   write("pairs", downwards + triangle + "\n");
   for (const char* arguments : {"",
                                 "pair",
@@ -340,7 +340,7 @@ TEST_F(SurehitQuery, RefusesWrongUsageInOneLine) {
   }
 }
 
-TEST_F(SurehitQuery, HelpsWithEveryCommand) {
+TEST_F(SurehitQuery, helps_with_every_command) {
   for (const char* arguments : {"--help", "pair --help", "first --help", "any --help", "all --help"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 0) << arguments;
@@ -355,7 +355,7 @@ TEST_F(SurehitQuery, HelpsWithEveryCommand) {
   }
 }
 
-TEST_F(SurehitQuery, SaysThatItsOutputCannotBeWritten) {
+TEST_F(SurehitQuery, says_that_its_output_cannot_be_written) {
   write("pairs", downwards + triangle + "\n");
   if (fs::exists("/dev/full")) {
     for (const char* arguments : {"pair pairs -o /dev/full", "pair pairs >/dev/full"}) {
@@ -371,7 +371,7 @@ TEST_F(SurehitQuery, SaysThatItsOutputCannotBeWritten) {
       << outcome.error;
 }
 
-TEST_F(SurehitQuery, LeavesNoPartOfAFileWhenTheDiskIsFull) {
+TEST_F(SurehitQuery, leaves_no_part_of_a_file_when_the_disk_is_full) {
   write_squares();
   write("paths", random_paths(20000));
   const std::size_t files = folder_.file_count();

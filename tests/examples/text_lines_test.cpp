@@ -26,7 +26,7 @@ Fields ends_of(std::string_view text) {
   return found;
 }
 
-TEST(TextLines, EndInAnyWayAndTheLastOneInNone) {
+TEST(TextLines, end_in_any_way_and_the_last_one_in_none) {
   TextLines lines("one\r\n\ntwo\rthree");
   for (const char* expected : {"one", "", "two", "three"}) {
     ASSERT_TRUE(lines.next());
@@ -38,7 +38,7 @@ TEST(TextLines, EndInAnyWayAndTheLastOneInNone) {
   EXPECT_EQ(lines.line(), "three");
 }
 
-TEST(TextLines, AreTheSameWithEachEnd) {
+TEST(TextLines, are_the_same_with_each_end) {
   const Fields expected = {"one", "", "", "two", "three"};
   for (const std::string_view end : line_ends) {
     EXPECT_EQ(lines_of(with_line_ends("one\n\n\ntwo\nthree\n", end)), expected);
@@ -47,25 +47,25 @@ TEST(TextLines, AreTheSameWithEachEnd) {
   EXPECT_EQ(lines_of(with_mixed_line_ends("one\n\n\ntwo\nthree\n")), expected);
 }
 
-TEST(TextLines, TakeAReturnAndALineFeedForOneEndInThisOrderAlone) {
+TEST(TextLines, take_a_return_and_a_line_feed_for_one_end_in_this_order_alone) {
   EXPECT_EQ(ends_of("a\r\nb\n\rc\r\r\nd"), (Fields{"\r\n", "\n", "\r", "\r", "\r\n", ""}));
   EXPECT_EQ(lines_of("a\r\nb\n\rc\r\r\nd"), (Fields{"a", "b", "", "c", "", "d"}));
   EXPECT_EQ(ends_of("\r"), Fields{"\r"});
   EXPECT_EQ(lines_of("\r"), Fields{""});
 }
 
-TEST(TextLines, AreNotMadeUpByALastLineEnd) {
+TEST(TextLines, are_not_made_up_by_a_last_line_end) {
   for (const std::string_view end : line_ends) EXPECT_EQ(lines_of("one" + std::string(end)), Fields{"one"});
   EXPECT_EQ(lines_of(""), Fields{});
 }
 
-TEST(TextLines, PassOverAByteOrderMark) {
+TEST(TextLines, pass_over_a_byte_order_mark) {
   EXPECT_EQ(lines_of("\xef\xbb\xbfone"), Fields{"one"});
   EXPECT_EQ(lines_of("\xef\xbb\xbf"), Fields{});
   EXPECT_EQ(lines_of("one\xef\xbb\xbf"), Fields{"one\xef\xbb\xbf"});
 }
 
-TEST(TextLines, EndBeforeAClosingControlZ) {
+TEST(TextLines, end_before_a_closing_control_z) {
   for (const std::string_view closing : closing_control_z) {
     const std::string text = "one\ntwo" + std::string(closing);
     Fields fields;
@@ -83,14 +83,14 @@ TEST(TextLines, EndBeforeAClosingControlZ) {
   EXPECT_EQ(lines_of("\xef\xbb\xbf\x1a\n"), Fields{});
 }
 
-TEST(TextLines, KeepAControlZThatSomethingFollows) {
+TEST(TextLines, keep_a_control_z_that_something_follows) {
   EXPECT_EQ(lines_of("one\x1a\ntwo"), (Fields{"one\x1a", "two"}));
   EXPECT_EQ(lines_of("\x1aone\n\x1a"), Fields{"\x1aone"});
   using namespace std::string_view_literals;
   EXPECT_EQ(lines_of("one\n\x1a\0"sv), (Fields{"one", "\x1a\0"sv}));
 }
 
-TEST(TextLines, TellWhatFollowsTheLine) {
+TEST(TextLines, tell_what_follows_the_line) {
   TextLines lines("header\nbytes\nand more\x1a\n");
   EXPECT_TRUE(lines.next());
   EXPECT_EQ(lines.rest(), "bytes\nand more\x1a\n");
@@ -104,7 +104,7 @@ TEST(TextLines, TellWhatFollowsTheLine) {
   }
 }
 
-TEST(TextLines, AreNamedInErrors) {
+TEST(TextLines, are_named_in_errors) {
   const auto read_to_the_end = [](TextLines& lines) -> int {
     while (lines.next()) continue;
     throw example::InputError("something is wrong");
@@ -120,7 +120,7 @@ TEST(TextLines, AreNamedInErrors) {
   EXPECT_EQ(error_at_the_end(""), "something is wrong");
 }
 
-TEST(Split, TakesAnyWhiteSpace) {
+TEST(Split, takes_any_white_space) {
   Fields fields = {"from before"};
   example::split(" \t one\vtwo  three\r", fields);
   EXPECT_EQ(fields, (Fields{"one", "two", "three"}));
@@ -128,7 +128,7 @@ TEST(Split, TakesAnyWhiteSpace) {
   EXPECT_EQ(fields, Fields{});
 }
 
-TEST(WithoutComment, CutsAtTheFirstHashThatBeginsAWord) {
+TEST(WithoutComment, cuts_at_the_first_hash_that_begins_a_word) {
   EXPECT_EQ(example::without_comment("1 2 # 3 # 4"), "1 2 ");
   EXPECT_EQ(example::without_comment("1 2\t#3"), "1 2\t");
   EXPECT_EQ(example::without_comment("1 2 ##"), "1 2 ");
@@ -138,7 +138,7 @@ TEST(WithoutComment, CutsAtTheFirstHashThatBeginsAWord) {
   EXPECT_EQ(example::without_comment(""), "");
 }
 
-TEST(WithoutComment, KeepsAHashInsideAWord) {
+TEST(WithoutComment, keeps_a_hash_inside_a_word) {
   EXPECT_EQ(example::without_comment("1.#QNAN 2"), "1.#QNAN 2");
   EXPECT_EQ(example::without_comment("-1.#IND00 2#3 # 1.#INF"), "-1.#IND00 2#3 ");
   EXPECT_EQ(example::without_comment("a##b #"), "a##b ");

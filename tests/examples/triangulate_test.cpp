@@ -314,52 +314,52 @@ class Triangulate : public testing::Test {
 
 TYPED_TEST_SUITE(Triangulate, Scalars, ScalarNames);
 
-TYPED_TEST(Triangulate, CutsSimplePolygons) {
+TYPED_TEST(Triangulate, cuts_simple_polygons) {
   this->expect_all_cut(30, true, draw_simple);
   if (!runs_all_cases()) return;
   EXPECT_GT(this->fans_, 100);
 }
 
-TYPED_TEST(Triangulate, CutsPolygonsWithCornersOnTheirEdges) {
+TYPED_TEST(Triangulate, cuts_polygons_with_corners_on_their_edges) {
   this->expect_all_cut(10, true, [](Random& random) { return with_corners_on_edges(draw_simple(random), 3, random); });
 }
 
-TYPED_TEST(Triangulate, CutsRectilinearPolygons) {
+TYPED_TEST(Triangulate, cuts_rectilinear_polygons) {
   this->expect_all_cut(12, true, [](Random& random) { return draw_rim_of_squares(4 + random.below(25), random); });
 }
 
-TYPED_TEST(Triangulate, CutsWallsWithWindows) {
+TYPED_TEST(Triangulate, cuts_walls_with_windows) {
   this->expect_all_cut(4, true, [](Random& random) { return draw_wall(1 + random.below(5), false, random); });
 }
 
-TYPED_TEST(Triangulate, CutsWallsWithWindowsThatTouch) {
+TYPED_TEST(Triangulate, cuts_walls_with_windows_that_touch) {
   this->expect_all_cut(16, false, [](Random& random) { return draw_wall(1 + random.below(5), true, random); });
 }
 
-TYPED_TEST(Triangulate, CutsIslandsWithBridges) {
+TYPED_TEST(Triangulate, cuts_islands_with_bridges) {
   this->expect_all_cut(8, true, [](Random& random) { return draw_islands(2 + random.below(4), random); });
 }
 
-TYPED_TEST(Triangulate, CutsPolygonsWithSlitsAndAntennas) {
+TYPED_TEST(Triangulate, cuts_polygons_with_slits_and_antennas) {
   this->expect_all_cut(15, true,
                        [](Random& random) { return with_spikes(draw_simple(random), 1 + random.below(5), random); });
 }
 
-TYPED_TEST(Triangulate, CutsPolygonsWithRepeatedCorners) {
+TYPED_TEST(Triangulate, cuts_polygons_with_repeated_corners) {
   this->expect_all_cut(12, true, [](Random& random) { return with_repeated_corners(draw_simple(random), random); });
 }
 
-TYPED_TEST(Triangulate, CutsPolygonsWithFoldedEdges) {
+TYPED_TEST(Triangulate, cuts_polygons_with_folded_edges) {
   this->expect_all_cut(25, false, [](Random& random) { return with_folded_edges(draw_simple(random), random); });
 }
 
-TYPED_TEST(Triangulate, CutsOutlinesThatTouchThemselvesInAnyWay) {
+TYPED_TEST(Triangulate, cuts_outlines_that_touch_themselves_in_any_way) {
   this->expect_all_cut(120, false,
                        [](Random& random) { return draw_crowded(4 + random.below(24), random.between(1, 4), random); });
 }
 
 /// Earlier versions of the code refused one or the other.
-TYPED_TEST(Triangulate, CutsWhatIsHardToCut) {
+TYPED_TEST(Triangulate, cuts_what_is_hard_to_cut) {
   const std::vector<Outline> outlines = {
       // Two triangles and a bridge that bends: left of the bend is nothing, although it looks like an ear.
       {{0, 0}, {2, 0}, {3, -1}, {3, 1}, {2, 0}, {0, 0}, {0, 2}, {1, 3}, {-1, 3}, {0, 2}},
@@ -410,7 +410,7 @@ TYPED_TEST(Triangulate, CutsWhatIsHardToCut) {
 }
 
 /// Points that are in one line but for a unit in their last place.
-TYPED_TEST(Triangulate, CutsSlivers) {
+TYPED_TEST(Triangulate, cuts_slivers) {
   Random random(1);
   std::size_t cut = 0;
   for (std::size_t i = 0; i < case_count(1500) && !this->HasFatalFailure(); ++i) {
@@ -432,7 +432,7 @@ TYPED_TEST(Triangulate, CutsSlivers) {
   EXPECT_GT(cut, 100u);
 }
 
-TYPED_TEST(Triangulate, CutsTheLargestPolygons) {
+TYPED_TEST(Triangulate, cuts_the_largest_polygons) {
   Random random(1);
   // Differences of these numbers overflow.
   const int exponent = std::numeric_limits<TypeParam>::max_exponent - 3;
@@ -447,7 +447,7 @@ TYPED_TEST(Triangulate, CutsTheLargestPolygons) {
 }
 
 /// Whatever the fan leaves to be cut has ears with nothing on their edges.
-TYPED_TEST(Triangulate, MakesNoTrianglesWithoutAreaOfSimplePolygons) {
+TYPED_TEST(Triangulate, makes_no_triangles_without_area_of_simple_polygons) {
   Random random(1);
   std::size_t looked_at = 0;
   for (std::size_t i = 0; i < case_count(100); ++i) {
@@ -467,7 +467,7 @@ TYPED_TEST(Triangulate, MakesNoTrianglesWithoutAreaOfSimplePolygons) {
   EXPECT_GT(looked_at, 500u);
 }
 
-TYPED_TEST(Triangulate, CutsConvexPolygonsIntoFans) {
+TYPED_TEST(Triangulate, cuts_convex_polygons_into_fans) {
   Random random(1);
   const auto expect_fans = [&](const Vertices<TypeParam>& vertices) {
     for (std::size_t i = 0; i < 2 * vertices.size(); ++i) {
@@ -484,7 +484,7 @@ TYPED_TEST(Triangulate, CutsConvexPolygonsIntoFans) {
   }
 }
 
-TYPED_TEST(Triangulate, CutsWhatHasNoArea) {
+TYPED_TEST(Triangulate, cuts_what_has_no_area) {
   Random random(1);
   for (std::size_t i = 0; i < case_count(60) && !this->HasFatalFailure(); ++i) {
     const Plane plane = random.one_in(2) ? draw_axis_plane(random) : draw_whole_plane(random);
@@ -514,7 +514,7 @@ void expect_refused(const Vertices<Scalar>& vertices) {
   }
 }
 
-TYPED_TEST(Triangulate, RefusesOutlinesThatCrossThemselves) {
+TYPED_TEST(Triangulate, refuses_outlines_that_cross_themselves) {
   const std::vector<Outline> outlines = {
       {{0, 0}, {8, 8}, {8, 0}, {0, 8}},                                  // a bow tie
       {{0, 0}, {9, 3}, {9, 0}, {0, 9}},                                  // with sides of two sizes
@@ -542,7 +542,7 @@ TYPED_TEST(Triangulate, RefusesOutlinesThatCrossThemselves) {
 }
 
 /// What is cut although it crosses itself, as a slit may that goes through a wall, is cut rightly.
-TYPED_TEST(Triangulate, RefusesWhateverItCannotCutRightly) {
+TYPED_TEST(Triangulate, refuses_whatever_it_cannot_cut_rightly) {
   Random random(1);
   std::size_t cut = 0;
   std::size_t refused = 0;
@@ -583,7 +583,7 @@ TYPED_TEST(Triangulate, RefusesWhateverItCannotCutRightly) {
   EXPECT_GT(crossing, 500u);
 }
 
-TYPED_TEST(Triangulate, CutsLargePolygons) {
+TYPED_TEST(Triangulate, cuts_large_polygons) {
   Random random(1);
   const std::size_t size = runs_all_cases() ? 5000 : 500;
   const std::vector<Outline> outlines = {
@@ -605,7 +605,7 @@ TYPED_TEST(Triangulate, CutsLargePolygons) {
   }
 }
 
-TYPED_TEST(Triangulate, CutsADart) {
+TYPED_TEST(Triangulate, cuts_a_dart) {
   const Vertices<TypeParam> vertices = {{-4, 4, 0}, {0, 0, 0}, {4, 4, 0}, {0, 2, 0}};
   Triangles triangles;
   ASSERT_TRUE(example::triangulate(vertices, {0, 1, 2, 3}, triangles));
@@ -617,7 +617,7 @@ TYPED_TEST(Triangulate, CutsADart) {
   EXPECT_EQ(triangles, (Triangles{{0, 1, 3}, {1, 2, 3}}));
 }
 
-TYPED_TEST(Triangulate, LeavesAWindowOpen) {
+TYPED_TEST(Triangulate, leaves_a_window_open) {
   const Vertices<TypeParam> vertices = {{0, 0, 0}, {6, 0, 0}, {6, 0, 4}, {0, 0, 4},
                                         {2, 0, 1}, {2, 0, 3}, {4, 0, 3}, {4, 0, 1}};
   Triangles triangles;
@@ -640,7 +640,7 @@ TYPED_TEST(Triangulate, LeavesAWindowOpen) {
   EXPECT_EQ(area, 6 * 4 - 2 * 2);
 }
 
-TYPED_TEST(Triangulate, SeesAtOnceThatALoopIsWalkedAgainAndAgain) {
+TYPED_TEST(Triangulate, sees_at_once_that_a_loop_is_walked_again_and_again) {
   const Vertices<TypeParam> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   Corners corners;
   for (int i = 0; i < 5000; ++i) corners.insert(corners.end(), {0, 1, 2});
@@ -649,7 +649,7 @@ TYPED_TEST(Triangulate, SeesAtOnceThatALoopIsWalkedAgainAndAgain) {
   EXPECT_TRUE(triangles.empty());
 }
 
-TYPED_TEST(Triangulate, LeavesTrianglesAsTheyAre) {
+TYPED_TEST(Triangulate, leaves_triangles_as_they_are) {
   const Vertices<TypeParam> vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   Triangles triangles = {{7, 8, 9}};
   EXPECT_TRUE(example::triangulate(vertices, {2, 0, 1}, triangles));
@@ -657,7 +657,7 @@ TYPED_TEST(Triangulate, LeavesTrianglesAsTheyAre) {
   EXPECT_EQ(triangles, (Triangles{{7, 8, 9}, {2, 0, 1}, {1, 1, 1}}));
 }
 
-TYPED_TEST(Triangulate, NamesCornersByTheirVertices) {
+TYPED_TEST(Triangulate, names_corners_by_their_vertices) {
   const Vertices<TypeParam> vertices = {{9, 9, 9}, {1, 1, 0}, {9, 9, 9}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}};
   Triangles triangles;
   EXPECT_TRUE(example::triangulate(vertices, {3, 5, 1, 4}, triangles));

@@ -77,8 +77,8 @@ class ColliderCase {
   }
 
  private:
-  /// In float more than the lanes of any instruction set, and no whole number of them; in double there are none.
-  static constexpr std::size_t batch_size = sizeof(Scalar) == 4 ? 37 : 3;
+  /// More than the lanes of any instruction set, and not a multiple of them.
+  static constexpr std::size_t batch_size = 37;
 
   void edit(ByteSource& bytes) {
     std::vector<Vector3<Scalar>*> points;

@@ -55,7 +55,7 @@ TYPED_TEST_SUITE(BruteForceComparison, Scalars, ScalarNames);
 
 /// An axis of little width and many cells, along which a path is far away in cells though near in space: it drifts
 /// across the others at a rate that is next to nothing, for a long time.
-TYPED_TEST(BruteForceComparison, DriftAcrossAThinMeshOfManyCells) {
+TYPED_TEST(BruteForceComparison, drift_across_a_thin_mesh_of_many_cells) {
   const auto mesh = this->single({{0, 0, 0}, {1, 0, TypeParam(0x1p-19)}, {0, 1, TypeParam(0x1p-19)}});
   GridComparison<TypeParam> comparison(mesh.view(), {},
                                        {{.resolution = {1, 1, 2048}}, {}, {.resolution = {7, 1, 300}}});
@@ -72,7 +72,7 @@ TYPED_TEST(BruteForceComparison, DriftAcrossAThinMeshOfManyCells) {
   EXPECT_GE(comparison.hit_count(), 20U);
 }
 
-TYPED_TEST(BruteForceComparison, EmptyMesh) {
+TYPED_TEST(BruteForceComparison, empty_mesh) {
   GridComparison<TypeParam> comparison(TriangleMeshView<TypeParam>{});
   comparison.expect_same(Line<TypeParam>{{0, 0, 0}, {1, 1, 1}});
   comparison.expect_same(Segment<TypeParam>{{0, 0, 0}, {0, 0, 0}});
@@ -80,26 +80,26 @@ TYPED_TEST(BruteForceComparison, EmptyMesh) {
   EXPECT_EQ(comparison.statistics().cells, 0U);
 }
 
-TYPED_TEST(BruteForceComparison, SingleTriangle) {
+TYPED_TEST(BruteForceComparison, single_triangle) {
   this->compare(this->single({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), 250);
   this->compare(this->single({{-3, 1, 2}, {4, -2, 7}, {1, 9, -5}}), 250);
 }
 
-TYPED_TEST(BruteForceComparison, ScatteredTriangles) {
+TYPED_TEST(BruteForceComparison, scattered_triangles) {
   this->compare(scattered_triangles<TypeParam>(1000, TypeParam{0.2F}, this->random_), 250);
 }
 
-TYPED_TEST(BruteForceComparison, RoughGround) {
+TYPED_TEST(BruteForceComparison, rough_ground) {
   this->compare(rough_ground<TypeParam>(24, TypeParam{0.1F}, this->random_), 250);
 }
 
-TYPED_TEST(BruteForceComparison, SmoothSurface) {
+TYPED_TEST(BruteForceComparison, smooth_surface) {
   const auto bowl = smooth_bowl<TypeParam>(24);
   this->compare(bowl, 250);
   this->compare(placed<TypeParam>(bowl, TypeParam{100}, {1e5, -1e5, 1e5}), 100);
 }
 
-TYPED_TEST(BruteForceComparison, SpotsCrowdedWithSmallTriangles) {
+TYPED_TEST(BruteForceComparison, spots_crowded_with_small_triangles) {
   const auto ground = rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_);
   const auto uneven = with_small_copy(ground, {TypeParam{0.3F}, TypeParam{-0.2F}, TypeParam{0.1F}});
   EXPECT_EQ(Collider<TypeParam>(uneven.view(), BuildOptions{compared_grids().back(), {}}).grid_summary().levels,
@@ -107,7 +107,7 @@ TYPED_TEST(BruteForceComparison, SpotsCrowdedWithSmallTriangles) {
   this->compare(uneven, 250);
 }
 
-TYPED_TEST(BruteForceComparison, LongPathsFromFarOutside) {
+TYPED_TEST(BruteForceComparison, long_paths_from_far_outside) {
   const auto mesh = rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_);
   for (const TypeParam distance :
        {TypeParam{1e6F}, TypeParam{1e12F}, TypeParam{1e18F}, TypeParam{1e19F}, this->magnitude(1e30F, 1e200)}) {
@@ -119,7 +119,7 @@ TYPED_TEST(BruteForceComparison, LongPathsFromFarOutside) {
   }
 }
 
-TYPED_TEST(BruteForceComparison, LongPathsToTheirOwnNegative) {
+TYPED_TEST(BruteForceComparison, long_paths_to_their_own_negative) {
   const auto mesh = placed<TypeParam>(lattice_cube<TypeParam>(4), TypeParam{1} / 4, {-0.5, -0.5, -0.5});
   GridComparison<TypeParam> comparison(mesh.view());
   const std::size_t paths = case_count(50);
@@ -134,7 +134,7 @@ TYPED_TEST(BruteForceComparison, LongPathsToTheirOwnNegative) {
   EXPECT_EQ(comparison.statistics().unclipped, 0U);
 }
 
-TYPED_TEST(BruteForceComparison, LongPathsThroughTheOrigin) {
+TYPED_TEST(BruteForceComparison, long_paths_through_the_origin) {
   const auto mesh = placed<TypeParam>(lattice_cube<TypeParam>(4), TypeParam{1} / 4, {-0.5, -0.5, -0.5});
   GridComparison<TypeParam> comparison(mesh.view());
   const std::size_t paths = case_count(30);
@@ -147,7 +147,7 @@ TYPED_TEST(BruteForceComparison, LongPathsThroughTheOrigin) {
   EXPECT_EQ(comparison.statistics().unclipped, 0U);
 }
 
-TYPED_TEST(BruteForceComparison, LongPathsThatEndNearTheirStart) {
+TYPED_TEST(BruteForceComparison, long_paths_that_end_near_their_start) {
   const auto mesh = rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_);
   GridComparison<TypeParam> comparison(mesh.view());
   PathDrawer<TypeParam> drawer(mesh.view(), 1);
@@ -161,7 +161,7 @@ TYPED_TEST(BruteForceComparison, LongPathsThatEndNearTheirStart) {
   EXPECT_GT(comparison.hit_count(), 0U);
 }
 
-TYPED_TEST(BruteForceComparison, AxisParallelAndZeroComponentDirections) {
+TYPED_TEST(BruteForceComparison, axis_parallel_and_zero_component_directions) {
   for (const auto& mesh : {lattice_cube<TypeParam>(6), rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_)}) {
     GridComparison<TypeParam> comparison(mesh.view());
     PathDrawer<TypeParam> drawer(mesh.view(), 1);
@@ -171,7 +171,7 @@ TYPED_TEST(BruteForceComparison, AxisParallelAndZeroComponentDirections) {
 }
 
 /// Triangles and paths that lie in the planes between cells, as near as a Scalar comes.
-TYPED_TEST(BruteForceComparison, PointsExactlyOnCellPlanes) {
+TYPED_TEST(BruteForceComparison, points_exactly_on_cell_planes) {
   constexpr std::uint32_t cells = 6;
   const std::vector<GridOptions> grids = {
       {.resolution = {cells, cells, cells}, .crowded = 0}, {.resolution = {3, 2, 1}}, {}};
@@ -205,7 +205,7 @@ TYPED_TEST(BruteForceComparison, PointsExactlyOnCellPlanes) {
   EXPECT_GT(comparison.hit_count(), case_count(1250) / 10);
 }
 
-TYPED_TEST(BruteForceComparison, ExtentsOfTheLargestNumbers) {
+TYPED_TEST(BruteForceComparison, extents_of_the_largest_numbers) {
   const TypeParam huge = this->magnitude(3e38F, 1.7e308);
   this->compare(
       placed<TypeParam>(scattered_triangles<TypeParam>(200, TypeParam{0.25F}, this->random_), huge / 2, {0, 0, 0}),
@@ -216,7 +216,7 @@ TYPED_TEST(BruteForceComparison, ExtentsOfTheLargestNumbers) {
   this->compare(spanning, 75);
 }
 
-TYPED_TEST(BruteForceComparison, ExtentsOfTheLeastNumbers) {
+TYPED_TEST(BruteForceComparison, extents_of_the_least_numbers) {
   constexpr TypeParam least = std::numeric_limits<TypeParam>::denorm_min();
   this->compare(placed<TypeParam>(lattice_cube<TypeParam>(4), least, {0, 0, 0}), 100);
   this->compare(placed<TypeParam>(lattice_cube<TypeParam>(1), least, {0, 0, 0}), 100);
@@ -224,7 +224,7 @@ TYPED_TEST(BruteForceComparison, ExtentsOfTheLeastNumbers) {
   this->compare(this->single({{-least, 0, 0}, {least, 0, least}, {0, 1, -least}}), 100);
 }
 
-TYPED_TEST(BruteForceComparison, ExtentsOfTheLeastNumbersSeenFromOne) {
+TYPED_TEST(BruteForceComparison, extents_of_the_least_numbers_seen_from_one) {
   constexpr TypeParam least = std::numeric_limits<TypeParam>::denorm_min();
   const auto mesh = placed<TypeParam>(lattice_cube<TypeParam>(4), least, {0, 0, 0});
   GridComparison<TypeParam> comparison(mesh.view());
@@ -233,7 +233,7 @@ TYPED_TEST(BruteForceComparison, ExtentsOfTheLeastNumbersSeenFromOne) {
   EXPECT_GT(comparison.hit_count(), 0U);
 }
 
-TYPED_TEST(BruteForceComparison, ExtentZero) {
+TYPED_TEST(BruteForceComparison, extent_zero) {
   const TypeParam far = TypeParam{1e30F};
   for (const Vector3<TypeParam>& point :
        {Vector3<TypeParam>{0, 0, 0}, Vector3<TypeParam>{far, -far, far}, Vector3<TypeParam>{0, far, 1}}) {
@@ -247,7 +247,7 @@ TYPED_TEST(BruteForceComparison, ExtentZero) {
   }
 }
 
-TYPED_TEST(BruteForceComparison, FlatMeshes) {
+TYPED_TEST(BruteForceComparison, flat_meshes) {
   for (const int axis : {0, 1, 2}) {
     const auto ground = scattered_triangles<TypeParam>(100, TypeParam{0.3F}, this->random_);
     this->compare(flattened<TypeParam>(ground, axis, 0), 50);
@@ -259,7 +259,7 @@ TYPED_TEST(BruteForceComparison, FlatMeshes) {
 }
 
 /// As thin as numbers go where everything else is as large as they go: no scale suits all axes.
-TYPED_TEST(BruteForceComparison, FlatMeshFarAwayOnItsOwnAxis) {
+TYPED_TEST(BruteForceComparison, flat_mesh_far_away_on_its_own_axis) {
   const TypeParam far = this->magnitude(1e38F, 1e300);
   const TypeParam small = this->magnitude(1e-38F, 1e-300);
   for (const int axis : {0, 1, 2}) {
@@ -270,7 +270,7 @@ TYPED_TEST(BruteForceComparison, FlatMeshFarAwayOnItsOwnAxis) {
   }
 }
 
-TYPED_TEST(BruteForceComparison, OutOfRangeConversionsToInteger) {
+TYPED_TEST(BruteForceComparison, out_of_range_conversions_to_integer) {
   constexpr std::uint32_t absurd = std::numeric_limits<std::uint32_t>::max();
   const auto mesh = rough_ground<TypeParam>(4, TypeParam{0.3F}, this->random_);
   const std::vector<GridOptions> grids = {
@@ -291,22 +291,22 @@ TYPED_TEST(BruteForceComparison, OutOfRangeConversionsToInteger) {
   EXPECT_GT(comparison.hit_count(), 0U);
 }
 
-TYPED_TEST(BruteForceComparison, LineOfNeedles) { this->compare(line_of_needles<TypeParam>(500, this->random_), 50); }
+TYPED_TEST(BruteForceComparison, line_of_needles) { this->compare(line_of_needles<TypeParam>(500, this->random_), 50); }
 
-TYPED_TEST(BruteForceComparison, MeshFarFromTheOrigin) {
+TYPED_TEST(BruteForceComparison, mesh_far_from_the_origin) {
   const auto ground = rough_ground<TypeParam>(16, TypeParam{0.3F}, this->random_);
   this->compare(placed<TypeParam>(ground, TypeParam{100}, {1e7, -1e7, 1e7}), 75);
   this->compare(placed<TypeParam>(ground, TypeParam{1}, {1e7, 0, 0}), 75);
 }
 
-TYPED_TEST(BruteForceComparison, ManyIdenticalTriangles) {
+TYPED_TEST(BruteForceComparison, many_identical_triangles) {
   GeneratedMesh<TypeParam> mesh = rough_ground<TypeParam>(3, TypeParam{0.3F}, this->random_);
   const auto once = mesh.triangles;
   for (int i = 0; i < 20; ++i) mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());
   this->compare(mesh, 50);
 }
 
-TYPED_TEST(BruteForceComparison, ClosedLatticeThroughItsVerticesAndEdges) {
+TYPED_TEST(BruteForceComparison, closed_lattice_through_its_vertices_and_edges) {
   constexpr std::uint32_t size = 8;
   const auto mesh = lattice_cube<TypeParam>(size);
   GridComparison<TypeParam> comparison(mesh.view());
@@ -318,7 +318,7 @@ TYPED_TEST(BruteForceComparison, ClosedLatticeThroughItsVerticesAndEdges) {
   EXPECT_GT(comparison.hit_count(), case_count(1250) / 4);
 }
 
-TYPED_TEST(BruteForceComparison, RaysWithTinyAndHugeDirections) {
+TYPED_TEST(BruteForceComparison, rays_with_tiny_and_huge_directions) {
   const auto mesh = rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_);
   GridComparison<TypeParam> comparison(mesh.view());
   PathDrawer<TypeParam> drawer(mesh.view(), 1);
@@ -340,7 +340,7 @@ TYPED_TEST(BruteForceComparison, RaysWithTinyAndHugeDirections) {
 }
 
 /// Under flushing and rounding upwards, a grid is built and walked as it is without.
-TYPED_TEST(BruteForceComparison, OtherFloatingPointEnvironments) {
+TYPED_TEST(BruteForceComparison, other_floating_point_environments) {
   const auto mesh = placed<TypeParam>(rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_),
                                       256 * std::numeric_limits<TypeParam>::denorm_min(), {0, 0, 0});
   PathDrawer<TypeParam> drawer(mesh.view(), 1);
@@ -367,7 +367,7 @@ TYPED_TEST(BruteForceComparison, OtherFloatingPointEnvironments) {
   EXPECT_GT(hit_count, 0U);
 }
 
-TYPED_TEST(BruteForceComparison, MasksAndIgnoredTriangles) {
+TYPED_TEST(BruteForceComparison, masks_and_ignored_triangles) {
   const auto mesh = scattered_triangles<TypeParam>(300, TypeParam{0.5F}, this->random_);
   std::vector<std::uint32_t> masks(mesh.triangles.size());
   for (auto& mask : masks) mask = static_cast<std::uint32_t>(this->random_.below(8));

@@ -40,7 +40,7 @@ class LargeMeshComparison : public testing::Test {
 };
 TYPED_TEST_SUITE(LargeMeshComparison, Scalars, ScalarNames);
 
-TYPED_TEST(LargeMeshComparison, OneHugeTriangleAmongAMillion) {
+TYPED_TEST(LargeMeshComparison, one_huge_triangle_among_a_million) {
   auto mesh = placed<TypeParam>(scattered_triangles<TypeParam>(this->million, 0.01F, this->random_), 0.001F, {0, 0, 0});
   mesh.add({{-1, -1, -1}, {1, -1, 1}, {-1, 1, 1}});
   this->compare(mesh, 4);
@@ -48,7 +48,7 @@ TYPED_TEST(LargeMeshComparison, OneHugeTriangleAmongAMillion) {
   this->compare(mesh, 1);
 }
 
-TYPED_TEST(LargeMeshComparison, AMillionTrianglesInOneCell) {
+TYPED_TEST(LargeMeshComparison, a_million_triangles_in_one_cell) {
   auto mesh = placed<TypeParam>(scattered_triangles<TypeParam>(this->million, 0.001F, this->random_), 1e-4F, {0, 0, 0});
   mesh.add({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}});
   mesh.add({{-1, -1, -1}, {-1, -1, -1}, {-1, -1, -1}});
@@ -56,7 +56,7 @@ TYPED_TEST(LargeMeshComparison, AMillionTrianglesInOneCell) {
 }
 
 /// A grid as fine as is asked for would list each of them in all of its cells.
-TYPED_TEST(LargeMeshComparison, HundredThousandTrianglesInEveryCell) {
+TYPED_TEST(LargeMeshComparison, hundred_thousand_triangles_in_every_cell) {
   GeneratedMesh<TypeParam> mesh;
   for (std::size_t i = 0; i < this->million / 10; ++i) {
     const TypeParam height = this->random_.template symmetric<TypeParam>();
@@ -65,7 +65,7 @@ TYPED_TEST(LargeMeshComparison, HundredThousandTrianglesInEveryCell) {
   this->compare(mesh, 2, {{.resolution = {200, 200, 1}}});
 }
 
-TYPED_TEST(LargeMeshComparison, TwoMillionTriangles) {
+TYPED_TEST(LargeMeshComparison, two_million_triangles) {
   const auto mesh = rough_ground<TypeParam>(1000, 0.01F, this->random_);
   ASSERT_EQ(mesh.triangles.size(), 2 * this->million);
   this->compare(mesh, 10, {{}});

@@ -49,12 +49,12 @@ class RealMeshComparison : public testing::Test {
 };
 TYPED_TEST_SUITE(RealMeshComparison, Scalars, ScalarNames);
 
-TYPED_TEST(RealMeshComparison, Bunny) { this->compare_file("stanford-bunny.obj"); }
-TYPED_TEST(RealMeshComparison, Ogre) { this->compare_file("ogre.obj"); }
-TYPED_TEST(RealMeshComparison, Dungeon) { this->compare_file("dungeon.obj"); }
-TYPED_TEST(RealMeshComparison, NavigationTest) { this->compare_file("nav_test.obj"); }
+TYPED_TEST(RealMeshComparison, bunny) { this->compare_file("stanford-bunny.obj"); }
+TYPED_TEST(RealMeshComparison, ogre) { this->compare_file("ogre.obj"); }
+TYPED_TEST(RealMeshComparison, dungeon) { this->compare_file("dungeon.obj"); }
+TYPED_TEST(RealMeshComparison, navigation_test) { this->compare_file("nav_test.obj"); }
 
-TYPED_TEST(RealMeshComparison, BuiltInLevel) {
+TYPED_TEST(RealMeshComparison, built_in_level) {
   const auto level = example::build_level();
   example::Mesh<TypeParam> mesh;
   mesh.triangles = level.mesh.triangles;

@@ -63,20 +63,20 @@ class Watertight : public testing::Test {
 };
 TYPED_TEST_SUITE(Watertight, Scalars, ScalarNames);
 
-TYPED_TEST(Watertight, AMillionSegmentsThroughClosedMesh) {
+TYPED_TEST(Watertight, a_million_segments_through_closed_mesh) {
   const auto mesh = bumpy_octahedron<TypeParam>(50, this->random_);
   ASSERT_EQ(mesh.triangles.size(), 20'000U);
   this->scan(mesh, 10'000, 1'000'000);
 }
 
-TYPED_TEST(Watertight, DenseFans) {
+TYPED_TEST(Watertight, dense_fans) {
   const auto mesh = double_fan<TypeParam>(500);
   ASSERT_EQ(mesh.triangles.size(), 8'000U);
   this->scan(mesh, 100, 2'500);
 }
 
 /// Exactly at the tips, where thousands of edges meet, and past them by an ulp or a few.
-TYPED_TEST(Watertight, TipsOfDenseFans) {
+TYPED_TEST(Watertight, tips_of_dense_fans) {
   const auto mesh = double_fan<TypeParam>(500);
   const Collider<TypeParam> collider(mesh.view());
   const std::size_t paths = case_count(1000);
@@ -91,7 +91,7 @@ TYPED_TEST(Watertight, TipsOfDenseFans) {
 }
 
 /// From the origin, twice a vertex is twice as far as the surface.
-TYPED_TEST(Watertight, ExactAimsMeetTheSurfaceWhereItIs) {
+TYPED_TEST(Watertight, exact_aims_meet_the_surface_where_it_is) {
   const auto mesh = bumpy_octahedron<TypeParam>(20, this->random_);
   const Collider<TypeParam> collider(mesh.view());
   for (const auto& triangle : mesh.triangles) {

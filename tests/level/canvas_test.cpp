@@ -19,7 +19,7 @@ float light(const Canvas& canvas) {
   return sum;
 }
 
-TEST(Canvas, ShapesCoverTheirArea) {
+TEST(Canvas, shapes_cover_their_area) {
   Canvas line(100, 100, black);
   line.draw_line({10, 20}, {90, 80}, 3, white);
   EXPECT_NEAR(light(line), 100 * 3, 15);
@@ -33,7 +33,7 @@ TEST(Canvas, ShapesCoverTheirArea) {
   EXPECT_FLOAT_EQ(light(rectangle), 100);
 }
 
-TEST(Canvas, CutsOffWhatLiesOutside) {
+TEST(Canvas, cuts_off_what_lies_outside) {
   Canvas canvas(10, 10, black);
   canvas.draw_line({-1e4f, 5}, {1e4f, 5}, 2, white);
   canvas.draw_disc({1e9f, -1e9f}, 3, white);
@@ -41,7 +41,7 @@ TEST(Canvas, CutsOffWhatLiesOutside) {
   EXPECT_NEAR(light(canvas), 20, 0.01);
 }
 
-TEST(Canvas, PngNamesItsSize) {
+TEST(Canvas, png_names_its_size) {
   const std::string png = encode_png(Canvas(300, 2, white));
   ASSERT_GT(png.size(), 24u);
   EXPECT_EQ(png.substr(1, 3), "PNG");

@@ -21,9 +21,9 @@ std::uint64_t hash_of(const Mesh<float>& mesh) {
   return hash;
 }
 
-TEST(Level, IsTheSameOnEveryPlatform) { EXPECT_EQ(hash_of(build_level().mesh), 0xfe826125160626d2u); }
+TEST(Level, is_the_same_on_every_platform) { EXPECT_EQ(hash_of(build_level().mesh), 0xfe826125160626d2u); }
 
-TEST(Level, IsValidAndOfTheSizeAskedFor) {
+TEST(Level, is_valid_and_of_the_size_asked_for) {
   const auto triangles_at = [](float detail) {
     const Level level = build_level({detail});
     EXPECT_FALSE(find_invalid(level.mesh.view())) << detail;
@@ -34,7 +34,7 @@ TEST(Level, IsValidAndOfTheSizeAskedFor) {
   EXPECT_GE(triangles_at(3), 700'000u);
 }
 
-TEST(Level, HasNoTriangleWithoutArea) {
+TEST(Level, has_no_triangle_without_area) {
   const Level level = build_level();
   const TriangleMeshViewf view = level.mesh.view();
   for (std::uint32_t i = 0; i < view.triangle_count(); ++i) {
@@ -42,7 +42,7 @@ TEST(Level, HasNoTriangleWithoutArea) {
   }
 }
 
-TEST(Level, EyeStandsInTheHall) {
+TEST(Level, eye_stands_in_the_hall) {
   const Level level = build_level();
   const Colliderf collider(level.mesh.view());
   const Vector3f eye(level.eye[0], level.eye[1], level.eye[2]);
@@ -54,7 +54,7 @@ TEST(Level, EyeStandsInTheHall) {
   EXPECT_EQ(ceiling->t, 4 - level.eye[2]);
 }
 
-TEST(Level, WallsAreSolid) {
+TEST(Level, walls_are_solid) {
   const Level level = build_level();
   const Colliderf collider(level.mesh.view());
   const auto below_eye_height = [&](float x, float y) {

@@ -12,12 +12,12 @@ namespace {
 constexpr Point low = {-1, 2, 0};
 constexpr Point high = {6, 7.5f, 3.25f};
 
-TEST(Room, HasTwoTrianglesForEachCellOfItsSides) {
+TEST(Room, has_two_triangles_for_each_cell_of_its_sides) {
   EXPECT_EQ(build_room(low, high, {1, 1, 1}).triangles.size(), 12u);
   EXPECT_EQ(build_room(low, high, {3, 5, 2}).triangles.size(), 4u * (3 * 5 + 5 * 2 + 2 * 3));
 }
 
-TEST(Room, IsClosed) {
+TEST(Room, is_closed) {
   const Mesh<float> room = build_room(low, high, {3, 5, 2});
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const auto& triangle : room.triangles) {
@@ -29,7 +29,7 @@ TEST(Room, IsClosed) {
   }
 }
 
-TEST(Room, SharesItsVertices) {
+TEST(Room, shares_its_vertices) {
   const Mesh<float> room = build_room(low, high, {3, 5, 2});
   const std::set<Point> distinct(room.vertices.begin(), room.vertices.end());
   EXPECT_EQ(distinct.size(), room.vertices.size());
@@ -37,7 +37,7 @@ TEST(Room, SharesItsVertices) {
   EXPECT_TRUE(distinct.contains(high));
 }
 
-TEST(Room, LooksInwards) {
+TEST(Room, looks_inwards) {
   const Mesh<float> room = build_room(low, high, {3, 5, 2});
   const TriangleMeshViewf view = room.view();
   const Vector3f middle(2.5f, 4.75f, 1.625f);

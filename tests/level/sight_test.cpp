@@ -23,7 +23,7 @@ Figures look(const Mesh<float>& mesh, const Vector3f& from, float height, std::s
   return figures;
 }
 
-TEST(Sight, EverythingIsVisibleInAnEmptyRoom) {
+TEST(Sight, everything_is_visible_in_an_empty_room) {
   const std::size_t points = test::case_count(1'000'000);
   const Figures figures = look(build_room(low, high, {7, 5, 3}), eye, 0.4f, points, 2);
   EXPECT_GE(figures.points, points);
@@ -31,7 +31,7 @@ TEST(Sight, EverythingIsVisibleInAnEmptyRoom) {
   EXPECT_EQ(figures.without_floor, 0u);
 }
 
-TEST(Sight, AScreenHidesWhatIsBehindIt) {
+TEST(Sight, a_screen_hides_what_is_behind_it) {
   MeshBuilder builder(1);
   builder.add_box({2, low[1], low[2]}, {3, high[1], high[2]});
   Mesh<float> mesh = builder.take();
@@ -63,7 +63,7 @@ TEST(Sight, AScreenHidesWhatIsBehindIt) {
   EXPECT_GT(inside, 100u);
 }
 
-TEST(Sight, PointsAreAtTheirHeightAboveTheFloor) {
+TEST(Sight, points_are_at_their_height_above_the_floor) {
   const Mesh<float> room = build_room(low, high, {1, 1, 1});
   const Colliderf collider(room.view());
   const FloorPlan plan(collider, eye.z(), 100, 1);
@@ -72,7 +72,7 @@ TEST(Sight, PointsAreAtTheirHeightAboveTheFloor) {
   EXPECT_TRUE(std::ranges::all_of(through_the_ceiling, [](Sight sight) { return sight == Sight::hidden; }));
 }
 
-TEST(Sight, IsTheSameForAnyNumberOfThreads) {
+TEST(Sight, is_the_same_for_any_number_of_threads) {
   const Level level = build_level({0.3f});
   const Colliderf collider(level.mesh.view());
   const Vector3f from(level.eye[0], level.eye[1], level.eye[2]);
@@ -83,7 +83,7 @@ TEST(Sight, IsTheSameForAnyNumberOfThreads) {
   EXPECT_GT(std::ranges::count(alone, Sight::hidden), 0);
 }
 
-TEST(FloorPlan, GrowsUntilEnoughPointsHaveAFloor) {
+TEST(FloorPlan, grows_until_enough_points_have_a_floor) {
   const Level level = build_level({0.3f});
   const Colliderf collider(level.mesh.view());
   const FloorPlan plan(collider, level.eye[2], 10'000, 1);
@@ -91,7 +91,7 @@ TEST(FloorPlan, GrowsUntilEnoughPointsHaveAFloor) {
   EXPECT_LT(plan.floor_count(), plan.size()) << "walls are no floor";
 }
 
-TEST(FloorPlan, SaysWhereThereIsNone) {
+TEST(FloorPlan, says_where_there_is_none) {
   const Mesh<float> room = build_room(low, high, {1, 1, 1});
   const Colliderf collider(room.view());
   EXPECT_THROW(FloorPlan(collider, low[2] - 1, 100, 1), std::runtime_error);

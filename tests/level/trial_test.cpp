@@ -25,7 +25,7 @@ class StickySweep : public Sweep {
   }
 };
 
-TEST(Trial, NothingEscapesTheLibrary) {
+TEST(Trial, nothing_escapes_the_library) {
   const Arena arena = build_arena();
   const TrialReport report = run_trial("", arena, ExactSweep(arena.walls), small);
   EXPECT_EQ(report.points, small.points);
@@ -37,7 +37,7 @@ TEST(Trial, NothingEscapesTheLibrary) {
   EXPECT_GT(report.bounces, 2 * report.steps) << "several walls a step";
 }
 
-TEST(Trial, SomeEscapeFloatArithmeticWithEpsilon) {
+TEST(Trial, some_escape_float_arithmetic_with_epsilon) {
   const Arena arena = build_arena();
   const TrialReport report = run_trial("", arena, EpsilonSweep(arena.walls, 1e-3f), small);
   EXPECT_GT(report.escaped, 0u);
@@ -50,7 +50,7 @@ TEST(Trial, SomeEscapeFloatArithmeticWithEpsilon) {
   }
 }
 
-TEST(Trial, CountsEscapesAndPointsOutside) {
+TEST(Trial, counts_escapes_and_points_outside) {
   const Arena arena = build_arena();
   const TrialReport report = run_trial("", arena, BlindSweep(), small);
   EXPECT_EQ(report.escaped, small.points);
@@ -59,7 +59,7 @@ TEST(Trial, CountsEscapesAndPointsOutside) {
   EXPECT_EQ(report.bounces, 0u);
 }
 
-TEST(Trial, CountsPointsThatNeverMove) {
+TEST(Trial, counts_points_that_never_move) {
   const Arena arena = build_arena();
   TrialOptions options = small;
   options.steps = 2;
@@ -69,7 +69,7 @@ TEST(Trial, CountsPointsThatNeverMove) {
   EXPECT_EQ(report.length_completed, 0);
 }
 
-TEST(Trial, IsTheSameForAnyNumberOfThreads) {
+TEST(Trial, is_the_same_for_any_number_of_threads) {
   const Arena arena = build_arena();
   TrialOptions options = small;
   options.points = 20;
@@ -82,7 +82,7 @@ TEST(Trial, IsTheSameForAnyNumberOfThreads) {
   for (std::size_t i = 0; i < one.trails.size(); ++i) EXPECT_EQ(one.trails[i].positions, two.trails[i].positions);
 }
 
-TEST(Flight, KeepsItsEnergy) {
+TEST(Flight, keeps_its_energy) {
   const Arena arena = build_arena();
   const ExactSweep sweep(arena.walls);
   const Course course = Flight(arena, sweep).fly({{40.5f, 34, 33}, {0, 48, 1}}, 400);

@@ -31,13 +31,13 @@ class WallCheckTest : public testing::Test {
   WallCheck check_{arena_};
 };
 
-TEST_F(WallCheckTest, SeesAWayThroughAWall) {
+TEST_F(WallCheckTest, sees_a_way_through_a_wall) {
   EXPECT_TRUE(is_breach({42, 42, 42}, {45, 45, 45}));
   EXPECT_FALSE(is_breach({42, 42, 42}, {42.5f, 42.5f, 42.5f}));
   EXPECT_FALSE(is_breach({50, 41, 41}, {41, 41, 50})) << "beside it";
 }
 
-TEST_F(WallCheckTest, TellsAnUlp) {
+TEST_F(WallCheckTest, tells_an_ulp) {
   const float below = std::nextafter(43.0f, 0.0f);
   const float above = std::nextafter(43.0f, 99.0f);
   EXPECT_TRUE(is_breach({42, 42, 42}, {43, 43, 43})) << "ends on it";
@@ -50,7 +50,7 @@ TEST_F(WallCheckTest, TellsAnUlp) {
   EXPECT_FALSE(is_breach({43, 43, 40}, {45, 45, std::nextafter(42.0f, 0.0f)}));
 }
 
-TEST_F(WallCheckTest, KnowsTheWallsOwnPlane) {
+TEST_F(WallCheckTest, knows_the_walls_own_plane) {
   EXPECT_TRUE(is_breach({50, 38, 41}, {38, 50, 41})) << "along an edge";
   EXPECT_TRUE(is_breach({50, 37, 42}, {37, 50, 42})) << "through the middle";
   EXPECT_TRUE(is_breach({42, 43, 44}, {43, 42, 44})) << "within";
@@ -62,20 +62,20 @@ TEST_F(WallCheckTest, KnowsTheWallsOwnPlane) {
   EXPECT_FALSE(is_breach({50, 38, 41}, {50, 38, 41})) << "a point beside it";
 }
 
-TEST_F(WallCheckTest, SeesAWayOutOfTheRoom) {
+TEST_F(WallCheckTest, sees_a_way_out_of_the_room) {
   EXPECT_TRUE(is_breach({33, 33, 33}, {33, 33, 31}));
   EXPECT_TRUE(is_breach({33, 33, 33}, {33, 33, 32})) << "onto the floor";
   EXPECT_FALSE(is_breach({33, 33, 33}, {33, 33, std::nextafter(32.0f, 99.0f)}));
   EXPECT_TRUE(is_breach({33, 33, 33}, {33, 33, 1e30f}));
 }
 
-TEST_F(WallCheckTest, FindsTheFirstBreachOfACourse) {
+TEST_F(WallCheckTest, finds_the_first_breach_of_a_course) {
   const std::vector<Vector3f> course = {{42, 42, 42}, {41, 42, 42}, {42, 42, 42}, {45, 45, 45}, {42, 42, 42}};
   EXPECT_EQ(check_.first_breach(course), 2u);
   EXPECT_EQ(check_.first_breach(std::span(course).first(3)), std::nullopt);
 }
 
-TEST_F(WallCheckTest, AgreesWithTheLibraryOnWaysThatGrazeTheLattice) {
+TEST_F(WallCheckTest, agrees_with_the_library_on_ways_that_graze_the_lattice) {
   const Arena arena = build_arena();
   const WallCheck check(arena);
   const Colliderf collider(arena.walls.view());
@@ -96,7 +96,7 @@ TEST_F(WallCheckTest, AgreesWithTheLibraryOnWaysThatGrazeTheLattice) {
   EXPECT_LT(breaches, 18'000u);
 }
 
-TEST(WallCheck, RefusesARoomThatItCannotCheck) {
+TEST(WallCheck, refuses_a_room_that_it_cannot_check) {
   Arena arena = room_with_a_wall();
   arena.room.low.x() = 31;
   EXPECT_THROW(WallCheck{arena}, std::invalid_argument);

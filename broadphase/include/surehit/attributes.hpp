@@ -1,14 +1,15 @@
 #pragma once
 
-/// Marks what a shared library exports. Everything else in it is hidden, and so is all of a static library.
-/// `SUREHIT_SHARED` is set by the targets of CMake and by surehit.pc where the library is shared.
+/// Marks a symbol that a shared library exports. All other symbols are hidden, and so are all of a static library. The
+/// CMake targets and surehit.pc define `SUREHIT_SHARED` if the library is shared.
 #if defined(SUREHIT_SHARED)
 #define SUREHIT_API __attribute__((visibility("default")))
 #else
 #define SUREHIT_API
 #endif
 
-/// Marks a parameter that the result refers to, so that Clang warns where it would dangle.
+/// Marks a parameter that the result refers to. Clang then warns if the result outlives the argument. Other compilers
+/// ignore the mark.
 #if defined(__has_cpp_attribute)
 #if __has_cpp_attribute(clang::lifetimebound)
 #define SUREHIT_LIFETIMEBOUND [[clang::lifetimebound]]

@@ -13,22 +13,25 @@
 namespace surehit {
 
 namespace detail {
+/// A segment, a ray or a line.
 template <typename T, typename Scalar>
 concept PathOf = std::same_as<T, Segment<Scalar>> || std::same_as<T, Ray<Scalar>> || std::same_as<T, Line<Scalar>>;
+/// A range of paths of one kind that does not dangle in a view.
 template <typename Range, typename Scalar>
 concept RangeOfPaths = ViewableRange<Range> && PathOf<RangeElement<Range>, Scalar>;
 }  // namespace detail
 
-/// Paths of one kind in memory that somebody else owns. It copies nothing and must not outlive the paths.
+/// A view of paths of one kind in memory that the user owns. It copies nothing, and must not outlive the paths.
 ///
-/// Paths are read fastest where each is six Scalars side by side, as in a `Segment`, and where they lie side by side.
+/// Packed paths are read fastest, see `is_packed`.
 template <FloatOrDouble Scalar>
 class PathSpan {
  public:
-  /// No paths.
+  /// Makes a view of no paths.
   PathSpan() = default;
 
-  /// A range of segments, of rays or of lines that lie side by side.
+  /// Makes a view of a range of segments, of rays or of lines that lie side by side. A temporary container does not
+  /// compile.
   template <detail::RangeOfPaths<Scalar> Paths>
   PathSpan(Paths&& paths SUREHIT_LIFETIMEBOUND) noexcept
       : kind_(kind_of<detail::RangeElement<Paths>>), size_(std::ranges::size(paths)) {
@@ -38,26 +41,33 @@ class PathSpan {
     toward_ = start_ + path_bytes / 2;
   }
 
-  /// Path i goes from starts[i] to ends[i], or from origins[i] along directions[i]. Where one view is longer, the rest
-  /// of it is not read. A view that `find_invalid` would refuse counts as no paths.
+  /// Returns a view of segments from starts[i] to ends[i]. It has as many paths as the shorter view has points. It has
+  /// none if `VertexView::is_valid` is false for one of the views.
   [[nodiscard]] static PathSpan segments(const VertexView<Scalar>& starts, const VertexView<Scalar>& ends) {
     return {PathKind::segment, starts, ends};
   }
+  /// Returns a view of rays from origins[i] along directions[i]. Its size is as in `segments`.
   [[nodiscard]] static PathSpan rays(const VertexView<Scalar>& origins, const VertexView<Scalar>& directions) {
     return {PathKind::ray, origins, directions};
   }
+  /// Returns a view of lines through origins[i] along directions[i]. Its size is as in `segments`.
   [[nodiscard]] static PathSpan lines(const VertexView<Scalar>& origins, const VertexView<Scalar>& directions) {
     return {PathKind::line, origins, directions};
   }
 
+  /// Returns the kind of all paths. It is `segment` for a default view.
   [[nodiscard]] PathKind kind() const { return kind_; }
+  /// Returns the number of paths.
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// Returns true if there are no paths.
   [[nodiscard]] bool empty() const { return size_ == 0; }
+  /// Returns a copy of path i, which must be below `size()`.
   [[nodiscard]] Path<Scalar> operator[](std::size_t i) const {
     Scalar x[6];
     copy(i, x);
     return {kind_, {x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
   }
+  /// Returns a view of `count` paths, from path `first` on. All of them must be in this view.
   [[nodiscard]] PathSpan subspan(std::size_t first, std::size_t count) const {
     PathSpan some = *this;
     some.start_ = start_at(first);
@@ -66,20 +76,21 @@ class PathSpan {
     return some;
   }
 
-  /// Whether each path is six Scalars side by side, and the paths lie side by side.
+  /// Returns true if each path is six Scalars side by side, as in a `Segment`, and the paths lie side by side.
   [[nodiscard]] bool is_packed() const {
     return start_stride_ == path_bytes && toward_stride_ == path_bytes && toward_ == start_ + path_bytes / 2;
   }
-  /// The six Scalars of path i. Valid only if the paths are packed.
+  /// Returns the six Scalars of path i. The paths must be packed, and i must be below `size()`.
   [[nodiscard]] const Scalar* packed(std::size_t i) const { return reinterpret_cast<const Scalar*>(start_at(i)); }
-  /// Copies the six Scalars of path i.
+  /// Copies the six Scalars of path i to `numbers`: first the start or origin, then the end or direction. i must be
+  /// below `size()`.
   void copy(std::size_t i, Scalar* numbers) const {
     std::memcpy(numbers, start_at(i), path_bytes / 2);
     std::memcpy(numbers + 3, toward_at(i), path_bytes / 2);
   }
 
  private:
-  static constexpr std::size_t path_bytes = 6 * sizeof(Scalar);
+  static constexpr std::size_t path_bytes = 6 * sizeof(Scalar);  ///< The size of a packed path.
   template <typename AnyPath>
   static constexpr PathKind kind_of = std::same_as<AnyPath, Segment<Scalar>> ? PathKind::segment
                                       : std::same_as<AnyPath, Ray<Scalar>>   ? PathKind::ray
@@ -98,13 +109,13 @@ class PathSpan {
 
   PathKind kind_ = PathKind::segment;
   std::size_t size_ = 0;
-  const std::byte* start_ = nullptr;   ///< the first start or origin
-  const std::byte* toward_ = nullptr;  ///< the first end or direction
-  std::size_t start_stride_ = path_bytes;
-  std::size_t toward_stride_ = path_bytes;
+  const std::byte* start_ = nullptr;        ///< The first start or origin.
+  const std::byte* toward_ = nullptr;       ///< The first end or direction.
+  std::size_t start_stride_ = path_bytes;   ///< The bytes from one start or origin to the next.
+  std::size_t toward_stride_ = path_bytes;  ///< The bytes from one end or direction to the next.
 };
 
-using PathSpanf = PathSpan<float>;
-using PathSpand = PathSpan<double>;
+using PathSpanf = PathSpan<float>;   ///< Paths in float.
+using PathSpand = PathSpan<double>;  ///< Paths in double.
 
 }  // namespace surehit

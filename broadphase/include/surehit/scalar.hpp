@@ -7,7 +7,7 @@
 
 namespace surehit {
 
-/// The number types that surehit answers in. `Collider<int>` and the like do not compile.
+/// A number type in which surehit answers: float or double. `Collider<int>` and the like do not compile.
 template <typename T>
 concept FloatOrDouble = std::same_as<T, float> || std::same_as<T, double>;
 

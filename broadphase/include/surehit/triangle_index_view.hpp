@@ -10,55 +10,64 @@
 namespace surehit {
 
 namespace detail {
-/// 32-bit integers, signed ones too: a negative index is out of range. Or unsigned 16-bit ones.
+/// A 32-bit integer, or an unsigned 16-bit integer. The 32 bits may have a sign. A negative index is out of range.
 template <typename T>
 concept VertexIndex = std::same_as<T, std::uint16_t> ||
     (std::integral<T> && sizeof(T) == sizeof(std::uint32_t) && !std::same_as<T, bool>);
 
+/// The index type of a triple. It has no `type` if T is not a triple.
 template <typename T>
 struct IndexOfTriple {};
+/// The index type of a `std::array<Index, 3>`.
 template <typename Index>
 struct IndexOfTriple<std::array<Index, 3>> {
-  using type = Index;
+  using type = Index;  ///< The index type.
 };
+/// The index type of a `Index[3]`.
 template <typename Index>
 struct IndexOfTriple<Index[3]> {
-  using type = Index;
+  using type = Index;  ///< The index type.
 };
+/// The index type of a `Eigen::Matrix<Index, 3, 1>`.
 template <typename Index>
 struct IndexOfTriple<Eigen::Matrix<Index, 3, 1>> {
-  using type = Index;
+  using type = Index;  ///< The index type.
 };
+/// The same as a type.
 template <typename T>
 using IndexOfTripleT = typename IndexOfTriple<T>::type;
+/// A range of triples of indices that does not dangle in a view.
 template <typename Range>
 concept RangeOfTriangles = ViewableRange<Range> && VertexIndex<IndexOfTripleT<RangeElement<Range>>>;
+/// A range of indices that does not dangle in a view.
 template <typename Range>
 concept RangeOfIndices = ViewableRange<Range> && VertexIndex<RangeElement<Range>>;
 }  // namespace detail
 
-/// Triangles in memory that somebody else owns: three indices of vertices each, of 32 bits, or of 16 without sign. It
-/// copies nothing and must not outlive the indices.
+/// A view of triangles in memory that the user owns. A triangle is three indices of vertices, of 32 bits or of 16 bits
+/// without sign. The view copies nothing, and must not outlive the indices.
 ///
-/// A view is not checked when it is made: `find_invalid` checks it, and so does every build.
+/// A view is not checked when it is made. `find_invalid` checks it, and so does every build.
 class TriangleIndexView {
  public:
-  /// No triangles.
+  /// Makes a view of no triangles.
   TriangleIndexView() = default;
 
-  /// A range of triangles that lie side by side: `std::array<Index, 3>`, `Index[3]` or `Eigen::Matrix<Index, 3, 1>`.
+  /// Makes a view of a range of triangles that lie side by side. A triangle is a `std::array<Index, 3>`, an `Index[3]`
+  /// or an `Eigen::Matrix<Index, 3, 1>`. A temporary container does not compile.
   template <detail::RangeOfTriangles Triangles>
   TriangleIndexView(Triangles&& triangles SUREHIT_LIFETIMEBOUND) noexcept
       : triples_(detail::TripleArray::of_triples(triangles)),
         index_size_(sizeof(detail::IndexOfTripleT<detail::RangeElement<Triangles>>)) {}
 
-  /// A range of the indices a, b, c, a, b, c, …; a build refuses a size that is no multiple of three.
+  /// Makes a view of a range of the indices a, b, c, a, b, c, and so on. A build refuses a size that is not a multiple
+  /// of three. A temporary container does not compile.
   template <detail::RangeOfIndices Indices>
   TriangleIndexView(Indices&& indices SUREHIT_LIFETIMEBOUND) noexcept
       : triples_(detail::TripleArray::of_numbers(indices)), index_size_(sizeof(detail::RangeElement<Indices>)) {}
 
-  /// An Eigen matrix or a map of one, 3×N and column-major: a triangle each column. An expression that is not memory
-  /// does not compile.
+  /// Makes a view of a column-major 3×N Eigen matrix, or of a map or a block of one. A column is a triangle. An
+  /// expression that is not memory does not compile, and neither does a temporary matrix.
   template <detail::ViewableMatrix Matrix>
   TriangleIndexView(Matrix&& matrix SUREHIT_LIFETIMEBOUND) noexcept
       : triples_(detail::TripleArray::of_columns(matrix)),
@@ -67,8 +76,8 @@ class TriangleIndexView {
                   "surehit: indices are 32-bit integers, or unsigned 16-bit ones");
   }
 
-  /// Triangles that lie `stride_bytes` apart; 0 stands for triangles side by side. A build refuses a stride that is
-  /// smaller than a triangle.
+  /// Returns a view of triangles from `first` on that begin `stride_bytes` apart. 0 means that they lie side by side. A
+  /// build refuses a stride that is smaller than a triangle.
   template <detail::VertexIndex Index>
   [[nodiscard]] static TriangleIndexView strided(const Index* first SUREHIT_LIFETIMEBOUND, std::size_t triangle_count,
                                                  std::size_t stride_bytes) {
@@ -78,16 +87,19 @@ class TriangleIndexView {
     return view;
   }
 
+  /// Returns the number of whole triangles.
   [[nodiscard]] std::size_t size() const { return triples_.count; }
+  /// Returns true if there are no whole triangles.
   [[nodiscard]] bool empty() const { return size() == 0; }
-  /// The index of corner 0, 1 or 2 (a, b, c) of a triangle.
+  /// Returns the index of the vertex at a corner. `which` is 0, 1 or 2 for a, b or c. `triangle` must be below
+  /// `size()`.
   [[nodiscard]] std::uint32_t corner(std::size_t triangle, std::size_t which) const {
     if (index_size_ == sizeof(std::uint16_t)) return triples_.get<std::uint16_t>(triangle, which);
     return triples_.get<std::uint32_t>(triangle, which);
   }
-  /// For those who read the memory themselves.
+  /// Returns where the indices are in memory.
   [[nodiscard]] const detail::TripleArray& triples() const { return triples_; }
-  /// 2 or 4 bytes.
+  /// Returns the size of an index in bytes: 2 or 4.
   [[nodiscard]] std::size_t index_size() const { return index_size_; }
 
  private:

@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "build/cell_lister.hpp"
 #include "build/empty_space.hpp"
+#include "build/listed_triangles.hpp"
 #include "build/triangle_overlap.hpp"
-#include "build/vertex_lanes.hpp"
 #include "grid/grid.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/in_parts.hpp"
@@ -22,7 +21,7 @@ constexpr std::size_t free_entries = std::size_t{1} << 18;
 constexpr std::size_t usual_entries = 4;
 /// Most meshes take more entries a triangle than this.
 constexpr std::size_t min_entries = 2;
-/// The number of vertices or triangles in a task of an executor.
+/// The number of triangles in a task of an executor.
 constexpr std::size_t triangles_in_a_part = std::size_t{1} << 13;
 /// The maximum number of top cells a triangle.
 constexpr double cells_per_triangle_limit = 8;
@@ -43,26 +42,20 @@ constexpr double wide_cell = 2.55;
 /// The number of triangles in the sample for their mean box.
 constexpr std::size_t samples = 256;
 
-/// Returns the mean edges of the triangles' boxes in the scaled frame. The sample is spread over the whole mesh. It has
-/// no period, because the mesh may have one.
-template <typename Scalar>
-std::array<double, 3> mean_extent(const GridFrame& frame, const TriangleMeshView<Scalar>& mesh) {
-  const std::size_t triangles = mesh.triangle_count();
-  const std::size_t count = std::min(triangles, samples);
+/// Returns the mean edges of the boxes in the scaled frame. The sample is spread over all that is listed. It has no
+/// period, because a mesh may have one.
+template <typename Listed>
+std::array<double, 3> mean_extent(const GridFrame& frame, const Listed& listed) {
+  const std::size_t listed_count = listed.count();
+  const std::size_t count = std::min(listed_count, samples);
   constexpr std::uint32_t golden_ratio = 0x9e3779b9;
   std::array<double, 3> mean = {0, 0, 0};
   for (std::size_t k = 0; k < count; ++k) {
     const std::uint32_t fraction = static_cast<std::uint32_t>(k) * golden_ratio;
-    const std::size_t i = triangles == count ? k : static_cast<std::size_t>(std::uint64_t{fraction} * triangles >> 32);
-    const Vector3<Scalar> a = mesh.vertex(mesh.corner(i, 0));
-    const Vector3<Scalar> b = mesh.vertex(mesh.corner(i, 1));
-    const Vector3<Scalar> c = mesh.vertex(mesh.corner(i, 2));
-    const Vector3<Scalar> low = a.cwiseMin(b).cwiseMin(c);
-    const Vector3<Scalar> high = a.cwiseMax(b).cwiseMax(c);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto at = static_cast<Eigen::Index>(axis);
-      mean[axis] += (frame.scaled(high[at]) - frame.scaled(low[at])) / static_cast<double>(count);
-    }
+    const std::size_t i =
+        listed_count == count ? k : static_cast<std::size_t>(std::uint64_t{fraction} * listed_count >> 32);
+    const std::array<double, 3> extent = listed.extent(frame, i);
+    for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += extent[axis] / static_cast<double>(count);
   }
   return mean;
 }
@@ -100,19 +93,17 @@ std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, doubl
 /// the same volume, triangles cross these least often. This holds because the sum of extent / edge over the axes has
 /// its minimum where all quotients are equal. If cells are narrow for the triangles, each triangle is in many lists.
 /// Then there are fewer cells.
-template <typename Scalar>
-std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar>& box,
-                                        const TriangleMeshView<Scalar>& mesh, const GridOptions& options) {
-  const std::array<double, 3> extent = mean_extent(frame, mesh);
+template <typename Listed>
+std::array<double, 3> wished_resolution(const GridFrame& frame, const Listed& listed, const GridOptions& options) {
+  const std::array<double, 3> extent = mean_extent(frame, listed);
   const auto [shortest, longest] = std::minmax({extent[0], extent[1], extent[2]});
   const double mean = (extent[0] + extent[1] + extent[2]) / 3;
   const bool are_stretched = mean > 0 && longest > min_stretch * shortest;
-  std::array<double, 3> width = {};  // Stretched so that cells are cubes.
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    width[axis] = frame.scaled(box.high[static_cast<Eigen::Index>(axis)]) - frame.origin[axis];
+  std::array<double, 3> width = listed.width(frame);
+  for (std::size_t axis = 0; axis < 3; ++axis) {  // Stretched so that cells are cubes.
     if (are_stretched) width[axis] /= std::clamp(extent[axis] / mean, 1 / max_stretch, max_stretch);
   }
-  const auto count = static_cast<double>(mesh.triangle_count());
+  const auto count = static_cast<double>(listed.count());
   const double usual_cells = std::max(1.0, GridOptions().cells_per_triangle * count);
   const std::array<double, 3> usual = cubic_resolution(width, usual_cells);
   const double usual_edge = *std::max_element(width.begin(), width.end()) /  // The edge on an axis that is divided.
@@ -133,26 +124,26 @@ std::array<double, 3> wished_resolution(const GridFrame& frame, const Box<Scalar
 
 }  // namespace
 
-/// Builds a grid. It sorts the triangles into the lists of the top cells, by counting. Then it emits the lists cell by
+/// Builds a grid. `Listed` is what it lists, which has boxes and an overlap test, as `ListedTriangles` has. The build
+/// sorts the triangles into the lists of the top cells, by counting. Then it emits the lists cell by
 /// cell, and divides the crowded cells.
-template <typename Scalar>
+template <typename Listed>
 class GridBuild {
  public:
-  GridBuild(Grid& grid, GridScratch& scratch, const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
-            const GridOptions& options, const Executor* executor)
+  GridBuild(Grid& grid, GridScratch& scratch, Listed& listed, const GridOptions& options, const Executor* executor)
       : grid_(grid),
         scratch_(scratch),
-        mesh_(mesh),
+        listed_(listed),
         executor_(executor),
         crowded_(options.crowded == 0 ? std::numeric_limits<std::size_t>::max() : options.crowded) {
-    scratch.boxes_.resize(mesh.triangle_count());
-    const std::size_t budget =
-        std::min<std::size_t>(std::max(free_entries, entries_per_triangle * mesh.triangle_count()),
-                              std::numeric_limits<std::uint32_t>::max());
-    std::array<double, 3> wished = wished_resolution(GridFrame::around(box, {1, 1, 1}, division), box, mesh, options);
+    scratch.boxes_.resize(listed.count());
+    const std::size_t budget = std::min<std::size_t>(std::max(free_entries, entries_per_triangle * listed.count()),
+                                                     std::numeric_limits<std::uint32_t>::max());
+    std::array<double, 3> wished = wished_resolution(listed.frame({1, 1, 1}, division), listed, options);
     for (;;) {
-      grid.frame_ = GridFrame::around(box, wished, division);
-      place_vertices();
+      grid.frame_ = listed.frame(wished, division);
+      listed.compute_points(grid.frame_, executor);
+      for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = grid.frame_.padding(axis);
       if (try_list_all(budget)) break;
       for (double& cells : wished) cells = std::max(1.0, std::floor(cells / 2));
     }
@@ -171,51 +162,18 @@ class GridBuild {
   /// A vector load may read so many words beyond the last top cell.
   static constexpr std::size_t top_slack = 64;
 
-  /// Computes the positions of all vertices in finest cells.
-  void place_vertices() {
-    const GridFrame& frame = grid_.frame_;
-    auto& points = scratch_.points_;
-    points.resize(mesh_.vertex_count());
-    const detail::VertexLanes<Scalar> vertices(mesh_);
-    detail::Float4 margin = frame.float_margin;
-    margin[3] = 0;
-    const auto padded = [&](std::size_t i) -> detail::PaddedPoint {
-      if constexpr (std::is_same_v<Scalar, float>) {
-        if (frame.has_floats) {
-          detail::Float4 vertex;
-          vertices.load(i, vertex);
-          return (vertex - frame.float_low) * frame.float_scale + margin;
-        }
-      }
-      const Vector3<Scalar> vertex = mesh_.vertex(i);
-      const auto coordinate = [&](std::size_t axis) {
-        return static_cast<float>(frame.to_cells(axis, frame.scaled(vertex[static_cast<Eigen::Index>(axis)])));
-      };
-      return detail::PaddedPoint{coordinate(0), coordinate(1), coordinate(2), 0};
-    };
-    detail::in_parts(executor_, points.size(), triangles_in_a_part, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) points[i] = padded(i);
-    });
-    for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame.padding(axis);
-  }
-
   /// Finds the cells that the triangles meet: `id(i)` for each i from `first` to below `last`. Returns false if there
   /// are more than `max_entries` entries. Each triangle comes once among the top cells. There its box is stored too.
   template <bool is_top, typename Id>
   bool try_find(std::size_t first, std::size_t last, const Id& id, const detail::CellRange& cells, std::uint32_t size,
                 std::size_t max_entries, detail::CellEntries& entries, bool may_grow) const {
     detail::CellLister lister(entries, may_grow, cells, size, padding_);
-    const auto& points = scratch_.points_;
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t triangle = id(i);
-      const auto point = [&](std::size_t corner) { return points[mesh_.corner(triangle, corner)]; };
-      const detail::CellLister::Corners corners = {point(0), point(1), point(2)};
+      const typename Listed::Shape shape = listed_.shape(triangle);
       detail::PaddedBox& box = scratch_.boxes_[triangle];
-      if constexpr (is_top) {
-        const auto& [a, b, c] = corners;
-        box = {detail::min(detail::min(a, b), c), detail::max(detail::max(a, b), c)};
-      }
-      lister.add(triangle, corners, box);
+      if constexpr (is_top) box = Listed::box_of(shape);
+      lister.add(triangle, shape, box);
       if (entries.count > max_entries) return false;
     }
     lister.finish();
@@ -232,7 +190,7 @@ class GridBuild {
       sort_entries(scratch_.parts_, cell_count, lists);
       return true;
     }
-    if (!try_find_top(0, mesh_.triangle_count(), budget, lists.entries, true)) return false;
+    if (!try_find_top(0, listed_.count(), budget, lists.entries, true)) return false;
     sort_entries({&lists.entries, 1}, cell_count, lists);
     return true;
   }
@@ -251,9 +209,9 @@ class GridBuild {
   bool try_find_in_parts(std::size_t max_entries) {
     constexpr std::size_t size = triangles_in_a_part;
     auto& parts = scratch_.parts_;
-    parts.resize((mesh_.triangle_count() + size - 1) / size);
+    parts.resize((listed_.count() + size - 1) / size);
     for (detail::CellEntries& part : parts) part.make_room(entries_per_triangle * size, min_entries * size);
-    detail::in_parts(executor_, mesh_.triangle_count(), size, [&](std::size_t first, std::size_t last) {
+    detail::in_parts(executor_, listed_.count(), size, [&](std::size_t first, std::size_t last) {
       static_cast<void>(try_find_top(first, last, max_entries, parts[first / size], false));
     });
     std::size_t entries = 0;
@@ -376,10 +334,9 @@ class GridBuild {
       const std::uint32_t begin = lists.offsets[cell];
       const std::uint32_t end = lists.offsets[cell + 1];
       if (begin == end) continue;
-      words[cell] =
-          emit({lists.triangles.data() + begin, end - begin},
-               {cells.low[0] + cell % edge, cells.low[1] + cell / edge % edge, cells.low[2] + cell / edge / edge}, size,
-               level);
+      const std::array<std::uint32_t, 3> part = Grid::position_in_brick(cell);
+      words[cell] = emit({lists.triangles.data() + begin, end - begin},
+                         {cells.low[0] + part[0], cells.low[1] + part[1], cells.low[2] + part[2]}, size, level);
     }
     detail::measure_empty_space(words);
     for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) grid_.bricks_[first + cell] = CellWord(words[cell]);
@@ -395,7 +352,7 @@ class GridBuild {
 
   Grid& grid_;
   GridScratch& scratch_;
-  const TriangleMeshView<Scalar>& mesh_;
+  const Listed& listed_;
   const Executor* executor_;
   std::size_t crowded_;
   std::size_t spare_entries_ = 0;  ///< divisions may add so many entries before 32 bits cannot number them
@@ -426,7 +383,8 @@ void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
                    GridScratch& scratch, const Executor* executor) {
   const FloatingPointEnvironment environment;
   if (mesh.triangle_count() != 0) {
-    GridBuild<Scalar>(*this, scratch, mesh, box, options, executor);
+    detail::ListedTriangles<Scalar> triangles(mesh, box, scratch.points_);
+    GridBuild<detail::ListedTriangles<Scalar>>(*this, scratch, triangles, options, executor);
   } else {
     *this = Grid();
   }

@@ -53,8 +53,9 @@ class GridScratch {
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
  private:
-  template <typename Scalar>
+  template <typename Listed>
   friend class GridBuild;
+  friend class Grid;
 
   detail::UnsetVector<detail::PaddedPoint> points_;  ///< the vertices
   detail::UnsetVector<detail::PaddedBox> boxes_;     ///< the boxes of the triangles

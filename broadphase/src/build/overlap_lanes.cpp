@@ -15,10 +15,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 // The axes are those of `TriangleOverlap`. But everything is counted from the centre of the block's first cell. So the
 // centres of the other cells are sums of steps. Steps are exact, because a size is a power of two.
 //
-// The roundings, with eps = 2^-24 (`u` in the code), R the resolution, and L = |l| + |m| for a shadow's axis (l, m). A
-// corner is off by eps R once it is moved. The rest tests the triangle of the moved corners. With or without fused
-// operations, its ends on the axis are off by 2 eps R L. The half length of a box is off by 1.5, the difference of both
-// by 1.5, and the sum of two steps by 1. In sum that is less than 8 eps R L, as in `TriangleOverlap`.
+// The roundings: eps is 2^-24, R is the resolution, and L is |l| + |m| for a shadow's axis (l, m). A corner is off by
+// eps R once it is moved. The rest tests the triangle of the moved corners. With or without fused operations, its ends
+// on the axis are off by 2 eps R L. The half length of a box is off by 1.5, the difference of both by 1.5, and the sum
+// of two steps by 1. In sum that is less than 8 eps R L, as in `TriangleOverlap`.
 //
 // The normal's components are off by less than 10 eps E^2, where E is the triangle's maximum extent. So the heights of
 // the moved corners differ by less than 30 eps E^3. A height is three products of up to |normal| far, and three
@@ -30,7 +30,7 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
   const hn::RebindToSigned<decltype(d)> di;
   using V = hn::Vec<decltype(d)>;
   using M = hn::Mask<decltype(d)>;
-  constexpr float u = 0x1p-24F;
+  constexpr float eps = 0x1p-24F;
   const V step = hn::Set(d, size);
 
   for (std::size_t lane = 0; lane < OverlapLanes::count; lane += hn::Lanes(d)) {
@@ -102,8 +102,8 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
       far = hn::Max(far, hn::Abs(corners[0][k]));
       rise[k] = hn::Mul(normal, step);
     }
-    reach = hn::MulAdd(hn::Mul(hn::Set(d, 64 * u), extent), hn::Mul(extent, extent), reach);
-    reach = hn::MulAdd(hn::Mul(hn::Set(d, 32 * u), length), far, reach);
+    reach = hn::MulAdd(hn::Mul(hn::Set(d, 64 * eps), extent), hn::Mul(extent, extent), reach);
+    reach = hn::MulAdd(hn::Mul(hn::Set(d, 32 * eps), length), far, reach);
 
     auto bits = hn::Zero(di);
     for (std::size_t cell = 0; cell < OverlapLanes::cells_of_a_block; ++cell) {

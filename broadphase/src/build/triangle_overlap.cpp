@@ -5,8 +5,8 @@
 
 namespace surehit::detail {
 
-// The roundings. eps is the unit roundoff 2^-24 (`u` in the code). R is the resolution, and E the maximum component of
-// the edges, both in finest cells.
+// The roundings. eps is the unit roundoff 2^-24. R is the resolution, and E the maximum component of the edges, both in
+// finest cells.
 //
 // A shadow's axis (l, m) has the components of an edge, rounded once. It needs no bound: if triangle and box meet,
 // their shadows overlap on any axis. Let L be |l| + |m|. A corner's position on the axis is a sum of two products of
@@ -22,7 +22,7 @@ namespace surehit::detail {
 // the slack covers these roundings for the triangle's coordinates. The padding covers them for the box's half lengths.
 TriangleOverlap::TriangleOverlap(const std::array<CellPoint, 3>& corners, const CellPoint& padding)
     : padding_(padding) {
-  constexpr float u = 0x1p-24F;
+  constexpr float eps = 0x1p-24F;
   std::array<CellPoint, 3> edges;
   float longest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -56,7 +56,7 @@ TriangleOverlap::TriangleOverlap(const std::array<CellPoint, 3>& corners, const 
     far = std::max(far, std::fabs(corners[0][k]));
   }
   const float size = std::fabs(normal_[0]) + std::fabs(normal_[1]) + std::fabs(normal_[2]);
-  height_slack_ = 64 * u * longest * longest * longest + 16 * u * size * (far + longest);
+  height_slack_ = 64 * eps * longest * longest * longest + 16 * eps * size * (far + longest);
 }
 
 bool TriangleOverlap::meets(const CellPoint& low, const CellPoint& high) const {

@@ -27,6 +27,10 @@ class Grid {
  public:
   static constexpr std::uint32_t brick_edge = 4;
   static constexpr std::uint32_t brick_size = brick_edge * brick_edge * brick_edge;
+  /// Returns the position of a brick's cell in the brick. x counts first in the order of the cells.
+  [[nodiscard]] static constexpr std::array<std::uint32_t, 3> position_in_brick(std::uint32_t cell) noexcept {
+    return {cell % brick_edge, cell / brick_edge % brick_edge, cell / (brick_edge * brick_edge)};
+  }
   static constexpr std::uint32_t max_levels = 2;
 
   /// A grid without cells.
@@ -86,7 +90,7 @@ class Grid {
   }
 
  private:
-  template <typename Scalar>
+  template <typename Listed>
   friend class GridBuild;
 
   GridFrame frame_;

@@ -83,7 +83,7 @@ class ListingParts {
     std::array<std::array<bool, std::size_t{n} * n>, 3> seen = {};
     for (std::uint32_t i = 0; i < lists_.size(); ++i) {
       if (!lists_[i]) continue;
-      const auto [x, y, z] = place_of(i);
+      const auto [x, y, z] = position_of(i);
       seen[0][y * n + z] = seen[1][x * n + z] = seen[2][x * n + y] = true;
     }
     float surface = 0;
@@ -119,7 +119,7 @@ class ListingParts {
     });
     std::size_t count = 0;
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-      if (lists_[i]) parts[count++] = GridPart{place_of(i), boxes[i]};
+      if (lists_[i]) parts[count++] = GridPart{position_of(i), boxes[i]};
     }
     return count;
   }
@@ -127,7 +127,7 @@ class ListingParts {
  private:
   static constexpr std::uint32_t n = GridPart::on_an_axis;
 
-  static std::array<std::uint32_t, 3> place_of(std::uint32_t part) { return {part % n, part / n % n, part / n / n}; }
+  static std::array<std::uint32_t, 3> position_of(std::uint32_t part) { return {part % n, part / n % n, part / n / n}; }
 
   /// Calls visit(part, cell, word) for each top cell that is not empty.
   template <typename Visit>

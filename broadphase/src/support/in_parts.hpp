@@ -8,12 +8,13 @@
 
 namespace surehit::detail {
 
-/// Calls `work(first, last)` for parts of [0, count), each of this `size`, in tasks of the executor. Each task sets its
-/// own FloatingPointEnvironment, because it may run on another thread. Without an executor it calls `work` once, for
-/// all.
+/// Calls `work(first, last)` for parts of [0, count), each of this `size`, in tasks of the executor. Without an
+/// executor it calls `work` once, for all. Each call has its own FloatingPointEnvironment, because a task may run on
+/// another thread.
 template <typename Work>
 void in_parts(const Executor* executor, std::size_t count, std::size_t size, const Work& work) {
   if (executor == nullptr || count <= size) {
+    const FloatingPointEnvironment environment;
     work(std::size_t{0}, count);
     return;
   }

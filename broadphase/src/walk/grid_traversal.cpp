@@ -101,7 +101,7 @@ void ClippedPath::clip_in_double(const GridFrame& frame, const Path<Scalar>& pat
     const auto i = static_cast<Eigen::Index>(axis);
     const double scaled = frame.scaled(path.start[i]);
     from[axis] = scaled - frame.origin[axis];
-    by[axis] = path.has_end() ? frame.scaled(path.toward[i]) - scaled : frame.scaled(path.toward[i]);
+    by[axis] = detail::direction_of(path.kind, scaled, frame.scaled(path.toward[i]));
     distance = std::max(distance, std::fabs(from[axis]));
     fastest = std::max(fastest, std::fabs(by[axis]) * frame.scale[axis]);
     is_near_in_cells &= std::fabs(from[axis]) * frame.scale[axis] <= 2.0 * frame.resolution(axis);

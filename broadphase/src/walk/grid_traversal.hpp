@@ -9,6 +9,7 @@
 
 #include "grid/grid.hpp"
 #include "surehit/path.hpp"
+#include "walk/direction.hpp"
 
 #if defined(__FAST_MATH__)
 #error "surehit's walk does not hold under -ffast-math: leave this header to the library, whose sources are without it"
@@ -18,8 +19,8 @@ namespace surehit {
 
 /// The walk's parameter: tau is t unit[0] unit[1] unit[2] - origin[0] - origin[1] - origin[2].
 struct WalkParameter {
-  std::array<double, 3> unit;
-  std::array<double, 3> origin;
+  std::array<double, 3> unit;    ///< Their product is the tau per unit of t. One double may not hold it.
+  std::array<double, 3> origin;  ///< Their sum is subtracted.
 
   /// Returns tau at t, rounded up (L12).
   [[nodiscard]] float beyond(double t) const noexcept;
@@ -31,9 +32,9 @@ struct WalkParameter {
 struct ClippedPath {
   /// What became of the path.
   enum class Status : std::uint8_t {
-    miss,     ///< the path misses the grid
-    clipped,  ///< the path can be walked
-    too_far,  ///< the path starts too far away to be clipped (L10); it must be tested against all triangles
+    miss,     ///< The path misses the grid.
+    clipped,  ///< The path can be walked.
+    too_far,  ///< The path starts too far away to be clipped (L10). It must be tested against all triangles.
   };
 
   /// A ray or line that is slower than this on all axes, in cells a unit of t, is scaled (L11).
@@ -45,15 +46,15 @@ struct ClippedPath {
   /// The inverse of a rate of 0. It puts all crossings beyond every tau that counts (L1).
   static constexpr float max_inverse = 0x1p100F;
 
-  Status status = Status::miss;
-  bool is_clipped_in_float = false;  ///< if true, the walk's tau is t - tau.origin[2]
-  std::uint32_t octant = 0;          ///< bit k is set if the path is mirrored on axis k
-  detail::Float4 start;              ///< the position where the walk begins, where tau is 0
-  detail::Float4 rate;               ///< cells a unit of the walk's parameter tau
-  detail::Float4 inverse_rate;       ///< 1 / rate, or `max_inverse` where the rate is 0
-  float end = 0;                     ///< beyond this tau nothing counts (L12)
-  float exit = 0;                    ///< the tau at which the path leaves the grid, rounded
-  WalkParameter tau;                 ///< only `origin[2]` is set if the path is clipped in float
+  Status status = Status::miss;      ///< The result of the clipping.
+  bool is_clipped_in_float = false;  ///< If true, the walk's tau is t - tau.origin[2].
+  std::uint32_t octant = 0;          ///< Bit k is set if the path is mirrored on axis k.
+  detail::Float4 start;              ///< The position where the walk begins, where tau is 0.
+  detail::Float4 rate;               ///< The number of finest cells per unit of tau.
+  detail::Float4 inverse_rate;       ///< 1 / rate, or `max_inverse` where the rate is 0.
+  float end = 0;                     ///< Beyond this tau nothing counts (L12).
+  float exit = 0;                    ///< The tau at which the path leaves the grid, rounded.
+  WalkParameter tau;                 ///< Only `origin[2]` is set if the path is clipped in float.
 
   /// Returns a mask of the axes on which the path is mirrored.
   [[nodiscard]] detail::Int4 is_mirrored() const noexcept {
@@ -127,7 +128,7 @@ template <typename Scalar>
   const Float4 path_start = {path.start[0], path.start[1], path.start[2], 0};
   const Float4 path_toward = {path.toward[0], path.toward[1], path.toward[2], 0};
   const Float4 stop = frame.float_stop;
-  const Float4 move = (path.has_end() ? path_toward - path_start : path_toward) * frame.float_scale;
+  const Float4 move = direction_of(path.kind, path_start, path_toward) * frame.float_scale;
   const Float4 at = (path_start - frame.float_low) * frame.float_scale + frame.float_margin;
   const Float4 speed = absolute(move);
   const Int4 is_near = (-stop <= at) & (at <= stop + stop) & (speed <= all_lanes(fast));
@@ -241,7 +242,7 @@ class GridTraversal {
  private:
   /// The tau at which the path enters and leaves the box of the list.
   struct TausOfBox {
-    detail::Float4 enters, leaves;  ///< on each axis; the fourth lane has where the walk begins and ends
+    detail::Float4 enters, leaves;  ///< On each axis. The fourth lane has the tau where the walk begins or ends.
   };
   [[gnu::always_inline]] [[nodiscard]] TausOfBox taus_of_box() const noexcept {
     using namespace detail;
@@ -352,16 +353,16 @@ class GridTraversal {
 
   const Grid& grid_;
   const ClippedPath& path_;
-  detail::Float4 planes_ = {0, 0, 0, 0};         ///< the far planes of the cell
-  detail::Float4 crossing_ = {0, 0, 0, 0};       ///< the tau at which the path crosses the far planes of a top cell
-  detail::Float4 next_crossing_ = {0, 0, 0, 0};  ///< the same for the next cell on each axis, computed ahead
-  detail::Int4 is_mirrored_ = {0, 0, 0, 0};      ///< a mask of the axes on which the path is mirrored
-  std::int32_t top_ = 0;                         ///< the top cell's index
-  std::int32_t size_ = 1;                        ///< the edge of the cell
-  std::int32_t step_size_ = 0;                   ///< the edge of a top cell, or 0 until the walk may step
-  float end_;                                    ///< the walk ends at this tau
-  CellWord word_;
-  bool at_end_ = true;
+  detail::Float4 planes_ = {0, 0, 0, 0};         ///< The far planes of the cell.
+  detail::Float4 crossing_ = {0, 0, 0, 0};       ///< The tau at which the path crosses the far planes of a top cell.
+  detail::Float4 next_crossing_ = {0, 0, 0, 0};  ///< The same for the next cell on each axis, computed ahead.
+  detail::Int4 is_mirrored_ = {0, 0, 0, 0};      ///< A mask of the axes on which the path is mirrored.
+  std::int32_t top_ = 0;                         ///< The index of the top cell.
+  std::int32_t size_ = 1;                        ///< The edge of the cell, in finest cells.
+  std::int32_t step_size_ = 0;                   ///< The edge of a top cell, or 0 until the walk may step.
+  float end_;                                    ///< The walk ends at this tau.
+  CellWord word_;                                ///< The word of the cell.
+  bool at_end_ = true;                           ///< True if the walk has ended.
 };
 
 }  // namespace surehit

@@ -1,4 +1,4 @@
-// Many paths side by side in a grid, for the instruction set that Highway compiles this for.
+// Walks many paths side by side. Highway compiles this file for each instruction set.
 
 #if defined(SUREHIT_LANE_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREHIT_LANE_WALK_INL
@@ -25,7 +25,7 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Up to the widest vector of today.
+/// The tag of the walk's vectors. They have at most 16 floats, as the widest vectors of today.
 using FloatTag = hn::CappedTag<float, 16>;
 using IntTag = hn::RebindToSigned<FloatTag>;
 using BitsTag = hn::RebindToUnsigned<FloatTag>;
@@ -33,10 +33,11 @@ using Floats = hn::Vec<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 using Words = hn::Vec<BitsTag>;
 
-/// As many as the vectors have, or more where only the machine knows.
+/// The maximum number of lanes. On some instruction sets, only the machine knows the number itself.
 constexpr std::size_t max_lanes = hn::MaxLanes(FloatTag());
 
-/// Toward zero, of numbers that an integer holds: for any other one Highway's conversion spends four operations on x86.
+/// Rounds toward zero. The numbers must fit an integer. On x86, Highway's own function needs four more operations for
+/// numbers that do not fit.
 HWY_INLINE Ints to_ints(Floats x) {
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
   using FloatLanes = float __attribute__((vector_size(sizeof(x.raw))));
@@ -48,29 +49,30 @@ HWY_INLINE Ints to_ints(Floats x) {
 #endif
 }
 
-/// A number for each lane. In memory: a step loads what it needs. Lanes are filled by stores of all of them: a load of
-/// all has to wait for a store of one.
+// These arrays have a number for each lane. They are in memory, and a step loads what it needs. All lanes are stored
+// together, because a load of all lanes has to wait for a store of one.
 using LaneFloats = std::array<float, max_lanes>;
 using LaneIndices = std::array<std::int32_t, max_lanes>;
 
-/// Paths as `GridTraversal` walks them, one in each lane; what that says of a single one holds for each.
+/// Paths as `GridTraversal` walks them, one in each lane. Members with the names of `ClippedPath` mean the same.
 struct alignas(max_lanes * sizeof(float)) WalkingPaths {
-  std::array<LaneFloats, 3> start;
-  std::array<LaneFloats, 3> rate;
-  std::array<LaneFloats, 3> inverse_rate;
-  std::array<LaneFloats, 3> finest;  ///< the cell in which the walk stands
-  std::array<LaneFloats, 3> pitch;   ///< of top cells, as the path is mirrored
-  LaneFloats first_cell;             ///< index of the top cell at the origin, as the path is mirrored
-  LaneFloats enters;                 ///< t at which the walk begins, where tau is 0
-  LaneFloats end;
-  std::array<std::uint32_t, max_lanes> octant;
+  std::array<LaneFloats, 3> start;              ///< The position where tau is 0.
+  std::array<LaneFloats, 3> rate;               ///< The number of finest cells per unit of tau.
+  std::array<LaneFloats, 3> inverse_rate;       ///< 1 / rate, or `ClippedPath::max_inverse` where the rate is 0.
+  std::array<LaneFloats, 3> finest;             ///< The finest cell that the walk is in.
+  std::array<LaneFloats, 3> pitch;              ///< The pitch of the `GridFrame::TopOrder` of the octant.
+  LaneFloats first_cell;                        ///< The index of mirrored top cell (0, 0, 0).
+  LaneFloats enters;                            ///< The t where tau is 0. It is set only by `LaneWalk::clip`.
+  LaneFloats end;                               ///< Nothing counts beyond this tau.
+  std::array<std::uint32_t, max_lanes> octant;  ///< Bit k is set if the path is mirrored on axis k.
 
-  /// Ends the walk of a lane at parameter t, because the caller does not need what the path meets beyond it.
+  /// Ends the walk of a lane at parameter t, because the caller does not need what the path meets beyond it. The path
+  /// must be clipped by `LaneWalk::clip`.
   void shorten(std::size_t lane, double t) { end[lane] = std::min(end[lane], ClippedPath::beyond(t, enters[lane])); }
-  /// The same for a path that `ClippedPath` has clipped.
+  /// Does the same for a path that `ClippedPath` has clipped.
   void shorten(std::size_t lane, double t, const WalkParameter& tau) { end[lane] = std::min(end[lane], tau.beyond(t)); }
 
-  /// Lane i, where bit i is set, becomes lane `from_lane[i]` of other paths.
+  /// Copies other paths into some lanes. If bit i of `lanes` is set, lane i becomes lane `from_lane[i]` of `from`.
   HWY_INLINE void take(std::uint32_t lanes, const WalkingPaths& from, const LaneIndices& from_lane) {
     const auto indices = hn::Load(IntTag(), from_lane.data());
     const auto take_all = [&](auto d, auto& to, const auto& of) {
@@ -92,28 +94,30 @@ struct alignas(max_lanes * sizeof(float)) WalkingPaths {
   }
 };
 
-/// What places and walks the lanes of one grid, whose frame must be one of floats.
+/// Clips and walks paths of one grid, one in each lane.
 class LaneWalk {
  public:
-  /// `slabs` may be null.
+  /// `slabs` has the slabs of the grid's lists, or is null. The grid and the slabs must outlive this.
   LaneWalk(const Grid& grid, const CellSlab* slabs) : grid_(grid), frame_(grid.frame()), slabs_(slabs) {}
 
-  /// Lanes that take part, a bit for each.
+  /// The result of `clip`, with a bit for each lane. A path that is in neither mask misses the grid.
   struct Clipped {
-    std::uint32_t inside;  ///< they walk
-    std::uint32_t apart;   ///< their paths must be clipped by `ClippedPath`
+    std::uint32_t inside;  ///< These paths can walk.
+    std::uint32_t apart;   ///< These paths must be clipped by `ClippedPath`.
   };
 
-  /// Places paths of six floats each, start and end or direction, of which all lanes' can be read and `count` are
-  /// there. The bound is derived in WALK.md: starts within one width of the grid, in float.
+  /// Clips `count` paths in float, one in each lane. `GridFrame::has_floats` must be true. A path has six floats: its
+  /// start, and its end or direction. `paths` must be readable for all lanes, even if `count` is lower. `first_t` and
+  /// `last_t` are the ends of the range: one float for all paths, or a vector.
   ///
-  /// It sets `kernel_paths` too, because the same numbers are loaded for them.
+  /// A path is `apart` if its start is not within one width of the grid, or if it is too slow or too fast. L8 in
+  /// WALK.md bounds the error of the others. `kernel_paths` are set too, because they need the same numbers.
   template <typename Ends, typename KernelPaths>
   HWY_INLINE Clipped clip(const float* paths, bool is_segment, Ends first_t, Ends last_t, std::size_t count,
                           WalkingPaths& clipped, KernelPaths& kernel_paths) const {
     const FloatTag d;
     const BitsTag du;
-    // Each half holds starts and ends by turns.
+    // In each half, starts and ends alternate.
     Floats near_half[3];
     Floats far_half[3];
     hn::LoadInterleaved3(d, paths, near_half[0], near_half[1], near_half[2]);
@@ -153,11 +157,11 @@ class LaneWalk {
       const Floats speed = hn::Abs(move);
       is_near = hn::And(is_near, hn::Le(speed, hn::Set(d, ClippedPath::fast)));
       fastest = hn::Max(fastest, speed);
-      // A path that stands still on the axis never crosses a plane.
-      const auto stands = hn::Lt(speed, hn::Set(d, ClippedPath::min_rate));
-      by[k] = hn::IfThenElse(stands, zero, speed);
+      // A path that does not move on the axis crosses no plane (L1, L11).
+      const auto is_still = hn::Lt(speed, hn::Set(d, ClippedPath::min_rate));
+      by[k] = hn::IfThenElse(is_still, zero, speed);
       const Floats inverse =
-          hn::IfThenElse(stands, hn::Set(d, ClippedPath::max_inverse), hn::Div(hn::Set(d, 1.0F), speed));
+          hn::IfThenElse(is_still, hn::Set(d, ClippedPath::max_inverse), hn::Div(hn::Set(d, 1.0F), speed));
       enters = hn::Max(enters, hn::Mul(hn::Neg(from[k]), inverse));
       leaves = hn::Min(leaves, hn::Mul(hn::Sub(stop, from[k]), inverse));
       const Floats pitch = hn::Set(d, static_cast<float>(frame_.top_orders[0].pitch[k]));
@@ -175,7 +179,8 @@ class LaneWalk {
     const auto inside = hn::And(hn::And(is_plain, taken), hn::Le(enters, leaves));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Floats last = hn::Set(d, frame_.float_stop[axis] * (1 - 0x1p-24F));
-      // In the grid for every lane: x86 takes the second operand, zero, where a path that is not clipped makes it NaN.
+      // The position is in the grid for every lane. A path that is not clipped may make it NaN. Then `Max` returns its
+      // second operand on x86, which is zero.
       const Floats entered = hn::Min(hn::Max(hn::MulAdd(enters, by[axis], from[axis]), zero), last);
       hn::Store(entered, d, clipped.start[axis].data());
       hn::Store(hn::Floor(entered), d, clipped.finest[axis].data());
@@ -191,7 +196,8 @@ class LaneWalk {
             static_cast<std::uint32_t>(bits_of(d, hn::AndNot(is_plain, taken)))};
   }
 
-  /// Puts a path that `ClippedPath` has clipped into one lane. Its tau is not t - `enters`, so `enters` is not set.
+  /// Puts a path that `ClippedPath` has clipped into one lane. It does not set `enters`, because the tau of such a path
+  /// need not be t - `enters`.
   void take(std::size_t lane, const ClippedPath& path, WalkingPaths& paths) const {
     const GridFrame::TopOrder& order = frame_.top_orders[path.octant];
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -206,8 +212,8 @@ class LaneWalk {
     paths.octant[lane] = path.octant;
   }
 
-  /// Cuts a path, from some tau on, into pieces, one after the other, one for each lane. To begin a walk at some tau is
-  /// to go on with it there: the place is rounded as in any step.
+  /// Cuts a path into pieces of equal length, one for each lane. The first one begins at tau `enters`. A piece may
+  /// begin at any tau, because its position is rounded as in any other step.
   HWY_INLINE void cut(const ClippedPath& path, float enters, WalkingPaths& pieces) const {
     const FloatTag d;
     const std::size_t last_lane = hn::Lanes(d) - 1;
@@ -215,7 +221,7 @@ class LaneWalk {
     const Floats length = hn::Set(d, (std::min(path.end, path.exit) - enters) / static_cast<float>(last_lane + 1));
     const Floats whole = hn::Set(d, path.end);
     const Floats begin = hn::MulAdd(hn::Iota(d, 0.0F), length, from);
-    const Floats end = hn::MulAdd(hn::Iota(d, 1.0F), length, from);  // where the next one begins
+    const Floats end = hn::MulAdd(hn::Iota(d, 1.0F), length, from);  // The next piece begins here.
     hn::Store(hn::IfThenElse(hn::FirstN(d, last_lane), hn::Min(end, whole), whole), d, pieces.end.data());
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Floats last = hn::Set(d, frame_.float_stop[axis] * (1 - 0x1p-24F));
@@ -225,12 +231,12 @@ class LaneWalk {
     repeat(path, pieces);
   }
 
-  /// Whether a path can be spread: in fewer lanes it is walked as fast, and the bound on `Crossings::rate` presupposes
-  /// that the place is rounded once.
-  static constexpr bool can_spread = HWY_NATIVE_FMA != 0 && max_lanes >= 8;
+  /// True if `enter_crossings` can be used. With fewer lanes, a walk is as fast. L5 requires that a position is rounded
+  /// once, so there must be fused operations.
+  static constexpr bool can_enter_crossings = HWY_NATIVE_FMA != 0 && max_lanes >= 8;
 
-  /// The planes that a path crosses from some tau on, numbered from 1: those on x, then those on y and on z. Number 0
-  /// is where it begins.
+  /// The planes that a path crosses from tau `enters` on. They are numbered from 1: first those on x, then those on y,
+  /// and then those on z. Number 0 is the tau where the path begins.
   struct Crossings {
     HWY_INLINE Crossings(const ClippedPath& any_path, float begins) : path(any_path), enters(begins) {
       const Float4 first = to_float(to_int(path.start + enters * path.rate));
@@ -242,25 +248,25 @@ class LaneWalk {
       number_zero = first - Float4{0, last_on_x, last_on_y, 0};
       rate = path.rate * (1 + 0x1p-22F);
     }
-    const ClippedPath& path;
-    float enters;
-    Float4 rate;         ///< so much greater that no plane crossed by some tau is beyond the place then
-    Float4 number_zero;  ///< the plane that would have it if the axis were the first
-    float last_on_x;     ///< number
-    float last_on_y;
-    float last;
+    const ClippedPath& path;  ///< The path.
+    float enters;             ///< The tau where the path begins.
+    Float4 rate;              ///< No plane that is crossed by some tau lies beyond the cell at that tau (L5).
+    Float4 number_zero;       ///< On each axis, number n is plane number_zero + n.
+    float last_on_x;          ///< The number of the last plane on x.
+    float last_on_y;          ///< The number of the last plane on y.
+    float last;               ///< The number of the last plane.
   };
 
-  /// Makes lanes ready to `stand`.
-  HWY_INLINE void spread(const ClippedPath& path, WalkingPaths& cells) const {
+  /// Prepares all lanes for `enter_crossings`.
+  HWY_INLINE void begin_crossings(const ClippedPath& path, WalkingPaths& cells) const {
     const FloatTag d;
     hn::Store(hn::Set(d, path.end), d, cells.end.data());
     repeat(path, cells);
   }
 
-  /// Stands in the cells behind as many crossings as there are lanes, from a number on, in a grid without levels.
-  /// Returns the lanes that it takes. Over all numbers no cell is left out, as is argued in WALK.md.
-  HWY_INLINE std::uint32_t stand(const Crossings& crossings, float from, WalkingPaths& cells) const {
+  /// Puts each lane into the cell after one crossing. The first lane has crossing number `from`. The grid must have no
+  /// levels. Returns the lanes that it uses. Together, the cells of all numbers leave no part of the path out (L5).
+  HWY_INLINE std::uint32_t enter_crossings(const Crossings& crossings, float from, WalkingPaths& cells) const {
     const FloatTag d;
     const ClippedPath& path = crossings.path;
     const Floats number = hn::Add(hn::Iota(d, 0.0F), hn::Set(d, from));
@@ -286,12 +292,13 @@ class LaneWalk {
     return static_cast<std::uint32_t>(bits_of(d, inside));
   }
 
-  /// What the cells hold in which the walking lanes stand, undivided ones, and these cells' low corners and edges.
+  /// The undivided cells that the lanes are in.
   struct Cells {
-    Words word;
-    Floats low[3];
-    Floats size;
+    Words word;     ///< The words of the cells.
+    Floats low[3];  ///< The low corners of the cells, in finest cells.
+    Floats size;    ///< The edges of the cells, in finest cells.
   };
+  /// Returns the cells of the walking lanes. `has_levels` must be true if the grid has levels.
   template <bool has_levels>
   HWY_INLINE Cells look(const WalkingPaths& paths, std::uint32_t walking) const {
     const FloatTag d;
@@ -310,7 +317,7 @@ class LaneWalk {
       }
       index = hn::MulAdd(top, hn::Load(d, paths.pitch[axis].data()), index);
     }
-    // Idle lanes stand where they ended, or at the origin: in the grid.
+    // Idle lanes are in the grid too: where they ended, or in cell (0, 0, 0).
     const auto* top = reinterpret_cast<const std::uint32_t*>(grid_.top().data());
     cells.word = hn::GatherIndex(du, top, to_ints(index));
     cells.size = hn::Set(d, static_cast<float>(frame_.division));
@@ -341,23 +348,23 @@ class LaneWalk {
     return cells;
   }
 
-  /// Of lanes, those that stand in cells with lists.
-  HWY_INLINE static std::uint32_t in_lists(const Cells& cells, std::uint32_t standing) {
+  /// Returns the lanes of `walking` whose cells have lists.
+  HWY_INLINE static std::uint32_t in_lists(const Cells& cells, std::uint32_t walking) {
     const BitsTag du;
     const auto lists = hn::Eq(hn::And(cells.word, hn::Set(du, 15U)), hn::Zero(du));
-    return static_cast<std::uint32_t>(bits_of(du, lists)) & standing;
+    return static_cast<std::uint32_t>(bits_of(du, lists)) & walking;
   }
 
-  /// Of lanes that stand in cells with lists, those whose path may meet a triangle of the list: as
-  /// `GridTraversal::meets_box` and, where there are slabs, `GridTraversal::meets`.
-  HWY_INLINE std::uint32_t meet_lists(const Cells& cells, std::uint32_t standing, const WalkingPaths& paths) const {
+  /// Returns the lanes of `in_lists` whose path may meet a triangle of their list. It tests the box of the list, as
+  /// `GridTraversal::meets_box` does (L3). If there are slabs, it tests the slab, as `GridTraversal::meets` does (L4).
+  HWY_INLINE std::uint32_t meet_lists(const Cells& cells, std::uint32_t in_lists, const WalkingPaths& paths) const {
     const FloatTag d;
     const IntTag di;
     const BitsTag du;
-    const auto stands = mask_of(du, standing);
-    static_assert(sizeof(CellList) == 2 * sizeof(std::uint32_t));  // of which the box is the first half
+    const auto has_list = mask_of(du, in_lists);
+    static_assert(sizeof(CellList) == 2 * sizeof(std::uint32_t));  // The box is the first half.
     const auto* lists = reinterpret_cast<const std::uint32_t*>(grid_.lists().data());
-    const Words list = hn::IfThenElseZero(stands, hn::ShiftRight<5>(cells.word));
+    const Words list = hn::IfThenElseZero(has_list, hn::ShiftRight<5>(cells.word));
     const Words box = hn::GatherIndex(du, lists, hn::BitCast(di, hn::ShiftLeft<1>(list)));
     const Words octant = hn::Load(du, paths.octant.data());
     const Words last_part = hn::Set(du, CellBox::parts - 1);
@@ -382,13 +389,13 @@ class LaneWalk {
       enters = hn::Max(enters, hn::Mul(hn::Sub(near, start), inverse));
       leaves = hn::Min(leaves, hn::Mul(hn::Sub(far, start), inverse));
     }
-    const std::uint32_t meeting = static_cast<std::uint32_t>(bits_of(d, hn::Le(enters, leaves))) & standing;
+    const std::uint32_t meeting = static_cast<std::uint32_t>(bits_of(d, hn::Le(enters, leaves))) & in_lists;
     if (slabs_ == nullptr || meeting == 0) return meeting;
     return meeting & ~miss_slabs(cells, list, enters, leaves, paths);
   }
 
-  /// Steps the walking lanes beyond their cells, or beyond the cubes of empty cells that begin with them. Returns those
-  /// that still walk.
+  /// Moves the walking lanes beyond their cells, or beyond the cubes of empty cells that begin with them (L2). Returns
+  /// the lanes that still walk.
   HWY_INLINE std::uint32_t advance(const Cells& cells, std::uint32_t walking, WalkingPaths& paths) const {
     const FloatTag d;
     const BitsTag du;
@@ -424,7 +431,8 @@ class LaneWalk {
   }
 
  private:
-  /// Lanes whose path passes by the slab of their list, in the box of which it is between these taus.
+  /// Returns the lanes whose path misses the slab of the list (L4). The path is in the larger box of the list between
+  /// tau `enters` and tau `leaves`.
   HWY_INLINE std::uint32_t miss_slabs(const Cells& cells, Words list, Floats enters, Floats leaves,
                                       const WalkingPaths& paths) const {
     const FloatTag d;
@@ -440,7 +448,7 @@ class LaneWalk {
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
       const Floats component = hn::ConvertTo(d, hn::ShiftRight<27>(hn::ShiftLeftSame(slab, 27 - 5 * axis)));
-      // Its sign is turned where the path is mirrored.
+      // The sign changes where the path is mirrored.
       const Floats turned = hn::BitCast(d, hn::ShiftLeftSame(hn::And(octant, hn::Set(du, 1U << axis)), 31 - axis));
       const Floats normal = hn::Xor(component, turned);
       const Floats to_start = hn::Sub(hn::Load(d, paths.start[k].data()), hn::Add(cells.low[k], half));
@@ -459,10 +467,12 @@ class LaneWalk {
     return static_cast<std::uint32_t>(bits_of(d, hn::Or(below, above)));
   }
 
+  /// Returns a vector that has this number in all lanes.
   static HWY_INLINE Floats lanes_of(float one_for_all) { return hn::Set(FloatTag(), one_for_all); }
+  /// Returns the vector itself.
   static HWY_INLINE Floats lanes_of(Floats one_each) { return one_each; }
 
-  /// Puts one path into all lanes, but for where each stands and ends.
+  /// Puts one path into all lanes. It does not set `finest`, `enters` and `end`.
   HWY_INLINE void repeat(const ClippedPath& path, WalkingPaths& paths) const {
     const FloatTag d;
     const GridFrame::TopOrder& order = frame_.top_orders[path.octant];

@@ -10,22 +10,22 @@
 
 namespace surehit {
 
-/// How a batch of paths is answered. The defaults leave nothing out, and run on the calling thread.
+/// How a batch of paths is answered. The defaults keep all hits, and use the calling thread alone.
 template <FloatOrDouble Scalar>
 struct BatchOptions {
-  /// Narrows every path of the batch.
+  /// The options of all paths.
   QueryOptions<Scalar> options = {};
-  /// Narrows path i by element i, in place of `options`. Empty: `options` holds for all.
+  /// The options of each path, in place of `options`. Element i is for path i. If it is empty, `options` are for all.
   std::span<const QueryOptions<Scalar>> path_options = {};
-  /// Says which hits count. It may be called from the executor's threads.
+  /// Decides which hits count. None accepts all. The executor's threads may call it at the same time.
   std::optional<HitFilter<Scalar>> filter = {};
-  /// Spreads the batch over threads, in tasks of some thousand paths.
+  /// Spreads the batch over threads, in tasks of some thousand paths each. A smaller batch runs on the calling thread.
   std::optional<Executor> executor = {};
-  /// Work is added here. Not read while the batch runs.
+  /// The batch adds its work to these, unless this is null. Nothing else may use them while the batch runs.
   QueryStatistics* statistics = nullptr;
 };
 
-using BatchOptionsf = BatchOptions<float>;
-using BatchOptionsd = BatchOptions<double>;
+using BatchOptionsf = BatchOptions<float>;   ///< Options of a batch in float.
+using BatchOptionsd = BatchOptions<double>;  ///< Options of a batch in double.
 
 }  // namespace surehit

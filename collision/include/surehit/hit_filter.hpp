@@ -11,30 +11,38 @@
 namespace surehit {
 
 namespace detail {
+/// A callable that takes a hit.
 template <typename Callable, typename Scalar>
-concept HitPredicate = std::is_invocable_r_v < bool,
-        std::remove_reference_t<Callable>
-&, const Hit<Scalar>& > ;
+concept HitPredicate = requires(std::remove_reference_t<Callable>& callable, const Hit<Scalar>& hit) {
+  { callable(hit) } -> std::convertible_to<bool>;
+};
+/// A callable that takes the index of a path and a hit.
 template <typename Callable, typename Scalar>
-concept BatchHitPredicate = std::is_invocable_r_v < bool,
-        std::remove_reference_t<Callable>
-&, std::size_t, const Hit<Scalar>& > ;
+concept BatchHitPredicate = requires(std::remove_reference_t<Callable>& callable, std::size_t path,
+                                     const Hit<Scalar>& hit) {
+  { callable(path, hit) } -> std::convertible_to<bool>;
+};
+/// A callable of either kind that does not dangle in a `HitFilter`.
 template <typename Callable, typename Filter, typename Scalar>
 concept FiltersHits = OutlivesItsView<Callable> && !std::same_as<std::remove_cvref_t<Callable>, Filter> &&
                       (HitPredicate<Callable, Scalar> || BatchHitPredicate<Callable, Scalar>);
 }  // namespace detail
 
-/// Says which hits count: any callable `bool(const Hit<Scalar>& hit)`, or `bool(std::size_t path, const Hit<Scalar>&
-/// hit)`, where `path` is the path's index in its batch, and 0 outside of batches.
+/// Decides which hits count. It is made of any callable `bool(const Hit<Scalar>& hit)`, or `bool(std::size_t path,
+/// const Hit<Scalar>& hit)`. `path` is the index of the path in its batch, or 0 for a single query. The result is true
+/// if the hit counts. The hit is as it is reported, with rounded t, u and v.
 ///
-/// A query may show it hits in any order, hits beyond the first one, and a hit more than once. What it says must
-/// depend on its arguments alone. It must not throw: queries are noexcept.
+/// A query may ask about hits in any order, about hits after the first one, and about a hit more than once. The answer
+/// must depend on the arguments alone. The callable must not throw, because queries are noexcept. With an executor,
+/// several threads may call it at the same time.
 ///
-/// A callable that has a name is referred to and must outlive the filter. A temporary one, such as a lambda, is copied
-/// in; it must be trivially copyable and hold at most six pointers.
+/// The filter refers to a callable that has a name, and this callable must outlive it. It copies a temporary one, such
+/// as a lambda. This one must be trivially copyable, and at most as large as six pointers. A filter allocates nothing.
 template <FloatOrDouble Scalar>
 class HitFilter {
  public:
+  /// Refers to a callable that has a name, or copies a temporary one. Any other callable does not compile. A callable
+  /// that fits both forms gets the hit alone.
   template <detail::FiltersHits<HitFilter, Scalar> Callable>
   HitFilter(Callable&& callable) noexcept
       : callable_(std::forward<Callable>(callable)),
@@ -47,15 +55,17 @@ class HitFilter {
               }
             }) {}
 
+  /// Returns true if a hit of a single query counts.
   bool operator()(const Hit<Scalar>& hit) const { return (*this)(0, hit); }
+  /// Returns true if a hit of this path of a batch counts.
   bool operator()(std::size_t path, const Hit<Scalar>& hit) const { return call_(callable_, path, hit); }
 
  private:
   detail::CallableView callable_;
-  bool (*call_)(const detail::CallableView&, std::size_t, const Hit<Scalar>&);
+  bool (*call_)(const detail::CallableView&, std::size_t, const Hit<Scalar>&);  ///< Calls the callable by its type.
 };
 
-using HitFilterf = HitFilter<float>;
-using HitFilterd = HitFilter<double>;
+using HitFilterf = HitFilter<float>;   ///< A filter of hits in float.
+using HitFilterd = HitFilter<double>;  ///< A filter of hits in double.
 
 }  // namespace surehit

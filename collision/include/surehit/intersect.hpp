@@ -11,20 +11,26 @@
 
 namespace surehit {
 
-/// Where a path first meets one triangle, or nothing if they do not meet: the exact answer on the numbers given, for
-/// all finite input. A path or a triangle with a NaN or an infinity misses. `hit.triangle` is 0.
+/// Returns where a path first meets one triangle, or nothing if they do not meet. The answer is that of exact real
+/// arithmetic on the given numbers, for every finite input. A path or a triangle with a NaN or an infinity misses. The
+/// result has `triangle` 0.
 ///
-/// options.mask and options.ignored_triangle say nothing here: there is one triangle, without a mask or an id.
+/// `options.mask` and `options.ignored_triangle` are not used, because the triangle has no mask and no id.
 ///
-/// Method: Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), as the filter of its own
-/// exact evaluation. Some 20 ns where the filter decides, around a microsecond where it does not. Allocates nothing.
+/// The test is that of Möller and Trumbore (1997), "Fast, Minimum Storage Ray/Triangle Intersection". Its determinants
+/// are first computed in floating point, with proved error bounds. Exact integers decide what the bounds do not.
+///
+/// Takes some 20 ns if the bounds decide, and about a microsecond if they do not. Both depend on the machine and the
+/// numbers. Allocates nothing.
 template <FloatOrDouble Scalar>
 [[nodiscard]] SUREHIT_API std::optional<Hit<Scalar>> intersect(
     const std::type_identity_t<Path<Scalar>>& path, const Triangle<Scalar>& triangle,
     const std::type_identity_t<QueryOptions<Scalar>>& options = {}) noexcept;
 
-/// The limit that keeps a hit of `intersect`, as `Collider::max_t_keeping` gives it: the least Scalar that is not below
-/// the exact t of `hit`.
+/// Returns the limit that keeps a hit: the least Scalar that is not below the exact t. As `max_t` it keeps the hit, and
+/// `hit.t` may lose it. `hit` must be a hit of this path and this triangle.
+///
+/// Decides one pair, as `intersect` does. Allocates nothing.
 template <FloatOrDouble Scalar>
 [[nodiscard]] SUREHIT_API Scalar max_t_keeping(const std::type_identity_t<Path<Scalar>>& path,
                                                const Triangle<Scalar>& triangle, const Hit<Scalar>& hit) noexcept;

@@ -4,19 +4,31 @@
 
 namespace surehit {
 
-/// What queries did. A query adds to the statistics that it is given and to no others; they are no part of the answer.
+/// The work of queries. A query adds to the statistics that it is given, and never resets them. Threads that run at the
+/// same time need statistics of their own.
+///
+/// The numbers are not promised. They are no part of an answer, and may differ between machines and versions.
 struct QueryStatistics {
-  std::uint64_t paths = 0;       ///< paths asked
-  std::uint64_t cells = 0;       ///< grid cells, and leaps through empty ones, walked through
-  std::uint64_t candidates = 0;  ///< entries of the lists met, a triangle for each cell; of unclipped paths: all
-  /// Of the candidates, those that the kernel's bounds could not call a miss or a hit: bounds for a whole list, and
-  /// where a batch looks for first hits also those of each triangle.
+  /// The number of paths.
+  std::uint64_t paths = 0;
+  /// The number of steps in the grid. A step visits one cell, or leaps over a cube of empty cells.
+  std::uint64_t cells = 0;
+  /// The number of candidates: the lengths of all lists that paths met. A triangle counts once for each list. An
+  /// unclipped path has all triangles as candidates.
+  std::uint64_t candidates = 0;
+  /// The number of candidates that the kernel's bounds could not call a miss or a hit. Single queries use bounds for a
+  /// whole list. A batch for first hits also uses bounds for each triangle.
   std::uint64_t undecided = 0;
-  std::uint64_t exact_decisions = 0;  ///< pairs that only exact arithmetic decided
-  std::uint64_t exact_orders = 0;     ///< pairs of hits whose order only exact arithmetic told
-  std::uint64_t exact_roundings = 0;  ///< hits of which t, u or v took exact arithmetic to round
-  std::uint64_t unclipped = 0;        ///< paths too far from the grid to be clipped, which met every triangle
+  /// The number of times that exact arithmetic had to decide whether a path meets a triangle.
+  std::uint64_t exact_decisions = 0;
+  /// The number of times that exact arithmetic had to decide which of two hits comes first.
+  std::uint64_t exact_orders = 0;
+  /// The number of times that exact arithmetic had to round t, u and v of a hit.
+  std::uint64_t exact_roundings = 0;
+  /// The number of paths that started too far from the grid to be clipped. They are tested against all triangles.
+  std::uint64_t unclipped = 0;
 
+  /// Adds all numbers of `more`.
   QueryStatistics& operator+=(const QueryStatistics& more) {
     paths += more.paths;
     cells += more.cells;

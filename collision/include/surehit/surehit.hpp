@@ -1,6 +1,8 @@
 #pragma once
 
-/// The whole public surface: paths, meshes, `intersect` for one triangle and `Collider` for a mesh.
+/// @file
+/// Includes all public headers except `tbb_executor.hpp`, which needs oneTBB. `intersect` is for one triangle, and
+/// `Collider` is for a mesh.
 
 #include "surehit/scalar.hpp"
 

@@ -1,6 +1,8 @@
 #pragma once
 
-/// The version of these headers. Within 0.x a minor version may change what users compile against.
+/// The major version of these headers. While it is 0, a minor version may change what users compile against.
 #define SUREHIT_VERSION_MAJOR 0
+/// The minor version of these headers.
 #define SUREHIT_VERSION_MINOR 2
+/// The patch version of these headers.
 #define SUREHIT_VERSION_PATCH 0

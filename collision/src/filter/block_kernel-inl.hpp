@@ -54,10 +54,7 @@ enum class Products : std::uint8_t { as_they_are, by_size };
 /// the list. The first lane has triangle `from`.
 template <typename Scalar, Products products = Products::as_they_are>
 class BlockDeterminants {
- protected:
-  using Tag = hn::ScalableTag<Scalar>;
-  using V = hn::Vec<Tag>;
-
+ public:
   HWY_INLINE BlockDeterminants(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list, std::size_t from)
       : left_(list.count - from) {
     constexpr bool by_size = products == Products::by_size;
@@ -91,6 +88,10 @@ class BlockDeterminants {
     u_ = dot(s0, p0, s1, p1, s2, p2);
     v_ = dot(d0, q0, d1, q1, d2, q2);
   }
+
+ protected:
+  using Tag = hn::ScalableTag<Scalar>;
+  using V = hn::Vec<Tag>;
 
   HWY_INLINE static V all(Scalar x) { return hn::Set(Tag(), x); }
 
@@ -199,8 +200,8 @@ class BlockKernel : BlockDeterminants<Scalar> {
 
   /// The same for the only certain hit, with its crossing. It does not wait for other lanes. It has no limit, because
   /// the caller can compare `t_lower` with a limit.
-  [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> lone_first(const Bounds& bounds, Scalar height, Scalar det,
-                                                                std::uint64_t certain) {
+  [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of_one(const Bounds& bounds, Scalar height, Scalar det,
+                                                                  std::uint64_t certain) {
     using One = hn::CappedTag<Scalar, 1>;
     const auto one = [](Scalar x) { return hn::Set(One(), x); };
     const Interval<One> t = interval_of_t(One(), one(bounds.det), one(bounds.height), one(det), one(height));
@@ -208,7 +209,7 @@ class BlockKernel : BlockDeterminants<Scalar> {
   }
 
   /// Returns the lanes of `certain` that may be the first hit of this vector. The usual case is one certain hit, and
-  /// `lone_first` is faster for it.
+  /// `first_of_one` is faster for it.
   [[nodiscard]] HWY_INLINE FirstLanes<Scalar> first_of(const Bounds& bounds, std::uint64_t certain,
                                                        Scalar limit) const {
     if (!std::has_single_bit(certain)) return first_of(bounds, crossing(), certain, limit);
@@ -218,16 +219,16 @@ class BlockKernel : BlockDeterminants<Scalar> {
     hn::Store(height_, d_, height);
     hn::Store(det_, d_, det);
     const auto lane = static_cast<std::size_t>(std::countr_zero(certain));
-    return lone_first(bounds, height[lane], det[lane], certain);
+    return first_of_one(bounds, height[lane], det[lane], certain);
   }
 
   /// Classifies the possible triangles again, each by its own products (K6). A list's bounds are too large if it has
   /// one large triangle among small ones. They are also too large if an edge or the path is along an axis, because most
   /// of the six products are small then. Fewer pairs need the narrowphase after this. It is not inlined, because few
   /// lists need it.
-  HWY_NOINLINE static void weigh_each(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list,
-                                      std::size_t from, const RangeWeights<Scalar>& range, Scalar limit, Lanes& lanes,
-                                      FirstLanes<Scalar>& first) {
+  HWY_NOINLINE static void classify_each(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list,
+                                         std::size_t from, const RangeWeights<Scalar>& range, Scalar limit,
+                                         Lanes& lanes, FirstLanes<Scalar>& first) {
     constexpr Scalar too_large = std::numeric_limits<Scalar>::infinity();
     if (!(list.edge_size < too_large && path.d_size < too_large)) return;
     const BlockKernel kernel(path, list, from);

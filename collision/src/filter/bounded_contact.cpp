@@ -53,18 +53,18 @@ BoundedContact decide(const Determinants& of, const Path<Scalar>& path, const Pa
   bool any_positive = false;
   bool any_negative = false;
   bool all_certain = true;
-  const auto weigh = [&](const Bounded& x) {
+  const auto classify = [&](const Bounded& x) {
     any_positive |= x.value > x.radius;
     any_negative |= x.value < -x.radius;
     all_certain &= x.value > x.radius || x.value < -x.radius || (x.value == 0 && x.radius == 0);
   };
-  weigh(of.u);
-  weigh(of.v);
-  weigh(of.w);
+  classify(of.u);
+  classify(of.v);
+  classify(of.w);
   const bool has_first = range.first > -PathRange<Scalar>::infinity;
   const bool has_last = range.last < PathRange<Scalar>::infinity;
-  if (has_first) weigh(of.above_first);
-  if (has_last) weigh(of.below_last);
+  if (has_first) classify(of.above_first);
+  if (has_last) classify(of.below_last);
   if (any_positive && any_negative) {  // B4
     result.verdict = Verdict::miss;
     return result;
@@ -106,10 +106,7 @@ BoundedContact double_contact(const Path<Scalar>& path, const Triangle<Scalar>& 
   if (!(std::max(std::fabs(first), std::fabs(last)) <= KernelBound<double>::largest_limit)) return {};
   const OneLane d;
   const OneVector start = lane_of<Scalar>(path.start);
-  const OneVector toward = lane_of<Scalar>(path.toward);
-  const OneVector direction =
-      path.has_end() ? OneVector{hn::Sub(toward.x, start.x), hn::Sub(toward.y, start.y), hn::Sub(toward.z, start.z)}
-                     : toward;
+  const OneVector direction = HWY_NAMESPACE::directions_of<OneLane>(path.kind, start, lane_of<Scalar>(path.toward));
   const HWY_NAMESPACE::DoubleDeterminants<OneLane> of(d, start, direction, lane_of<Scalar>(triangle.a),
                                                       lane_of<Scalar>(triangle.b), lane_of<Scalar>(triangle.c));
   const auto number = [](auto lane) { return hn::GetLane(lane); };

@@ -13,6 +13,7 @@
 
 #include "filter/bounded.hpp"
 #include "filter/kernel_bound.hpp"
+#include "surehit/path.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
@@ -24,6 +25,18 @@ template <class D>
 struct Vectors {
   hn::Vec<D> x, y, z;
 };
+
+/// Returns x - y.
+template <class D>
+HWY_INLINE Vectors<D> difference(const Vectors<D>& x, const Vectors<D>& y) {
+  return {hn::Sub(x.x, y.x), hn::Sub(x.y, y.y), hn::Sub(x.z, y.z)};
+}
+
+/// Returns the directions D of paths of one kind.
+template <class D>
+HWY_INLINE Vectors<D> directions_of(PathKind kind, const Vectors<D>& start, const Vectors<D>& toward) {
+  return kind == PathKind::segment ? difference<D>(toward, start) : toward;
+}
 
 /// The determinants of Möller and Trumbore, for a path and a triangle in each lane. Each has its product of sizes,
 /// which gives its error bound (K4 in kernel_bound.hpp). If a size is above `largest_size`, the radius is infinite or
@@ -37,9 +50,9 @@ class DoubleDeterminants {
   HWY_INLINE DoubleDeterminants(D d, const Vectors<D>& start, const Vectors<D>& direction, const Vectors<D>& a,
                                 const Vectors<D>& b, const Vectors<D>& c)
       : d_(d) {
-    const Vectors<D> e1 = difference(b, a);
-    const Vectors<D> e2 = difference(c, a);
-    const Vectors<D> s = difference(start, a);
+    const Vectors<D> e1 = difference<D>(b, a);
+    const Vectors<D> e2 = difference<D>(c, a);
+    const Vectors<D> s = difference<D>(start, a);
     d_size = size(direction);
     const V e1_size = size(e1), e2_size = size(e2), s_size = size(s);
     const Vectors<D> p = cross(direction, e2);
@@ -72,9 +85,6 @@ class DoubleDeterminants {
   V d_size;  ///< The largest component of the direction.
 
  private:
-  HWY_INLINE static Vectors<D> difference(const Vectors<D>& x, const Vectors<D>& y) {
-    return {hn::Sub(x.x, y.x), hn::Sub(x.y, y.y), hn::Sub(x.z, y.z)};
-  }
   HWY_INLINE static Vectors<D> cross(const Vectors<D>& x, const Vectors<D>& y) {
     return {hn::MulSub(x.y, y.z, hn::Mul(x.z, y.y)), hn::MulSub(x.z, y.x, hn::Mul(x.x, y.z)),
             hn::MulSub(x.x, y.y, hn::Mul(x.y, y.x))};

@@ -113,10 +113,7 @@ HWY_INLINE bool try_round(const Path<float>& path, const Triangle<float>& triang
     return {hn::Set(d, double{x[0]}), hn::Set(d, double{x[1]}), hn::Set(d, double{x[2]})};
   };
   const auto start = lane_of(path.start);
-  auto direction = lane_of(path.toward);
-  if (path.has_end()) {
-    direction = {hn::Sub(direction.x, start.x), hn::Sub(direction.y, start.y), hn::Sub(direction.z, start.z)};
-  }
+  const auto direction = directions_of<Tag>(path.kind, start, lane_of(path.toward));
   const HitIntervals<Tag> intervals(d, start, direction, lane_of(triangle.a), lane_of(triangle.b), lane_of(triangle.c),
                                     hn::Set(d, double{t_size}), hn::Set(d, double{edge_size}));
   const RoundedHits<Tag> hits(d, intervals);

@@ -38,15 +38,14 @@ class alignas(max_lanes * sizeof(float)) KernelLanes {
     hn::Store(reach, d, reach_.data());
   }
 
-  [[nodiscard]] KernelPath<float> at(std::size_t lane) const {
-    KernelPath<float> path;
+  /// Copies the path of a lane.
+  HWY_INLINE void copy(std::size_t lane, KernelPath<float>& path) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       path.start[axis] = start_[axis][lane];
       path.d[axis] = d_[axis][lane];
     }
     path.d_size = d_size_[lane];
     path.reach = reach_[lane];
-    return path;
   }
 
  private:

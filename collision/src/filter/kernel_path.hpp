@@ -10,6 +10,7 @@
 #include "grid/grid.hpp"
 #include "support/float4.hpp"
 #include "surehit/path.hpp"
+#include "walk/direction.hpp"
 
 namespace surehit::detail {
 
@@ -51,7 +52,7 @@ struct KernelPath {
     Scalar start_size = 0;
     for (int axis = 0; axis < 3; ++axis) {
       start[axis] = path.start[axis];
-      d[axis] = path.has_end() ? path.toward[axis] - path.start[axis] : path.toward[axis];
+      d[axis] = direction_of(path.kind, path.start[axis], path.toward[axis]);
       start_size = std::fabs(start[axis]) > start_size ? std::fabs(start[axis]) : start_size;
       d_size = std::fabs(d[axis]) > d_size ? std::fabs(d[axis]) : d_size;
     }
@@ -74,8 +75,7 @@ inline KernelPath<double>::KernelPath(const Path<double>& path, const GridFrame&
 template <>
 inline KernelPath<float>::KernelPath(const Path<float>& path, const GridFrame& frame) {
   Float4 from = {path.start[0], path.start[1], path.start[2], 0};
-  Float4 way = {path.toward[0], path.toward[1], path.toward[2], 0};
-  if (path.has_end()) way -= from;
+  Float4 way = direction_of(path.kind, from, Float4{path.toward[0], path.toward[1], path.toward[2], 0});
   Float4 far = max(absolute(from - frame.float_box_low), absolute(from - frame.float_box_high));
   if (path.has_end()) far = min(far, absolute(way) + frame.float_cell_size);
   const Float4 sizes = max_lanes(absolute(from), absolute(way), far, far);

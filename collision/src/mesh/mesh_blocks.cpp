@@ -7,8 +7,8 @@
 #include <type_traits>
 
 #include "filter/kernel_bound.hpp"
+#include "grid/list_cells.hpp"
 #include "mesh/slab_fitter.hpp"
-#include "query/list_cells.hpp"
 #include "support/in_parts.hpp"
 #include "support/rounding_flags.hpp"
 

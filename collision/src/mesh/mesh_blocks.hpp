@@ -27,7 +27,7 @@ class MeshBlocks {
   /// reused. If this throws, `old` has not changed.
   void rebuild(MeshBlocks& old, const VertexView<Scalar>& vertices, const Grid& grid,
                const Executor* executor = nullptr);
-  /// Becomes what the constructor makes of a mesh. Memory is reused.
+  /// Copies a valid mesh, as the constructor does. It reuses memory, and may throw std::bad_alloc.
   void rebuild(const TriangleMeshView<Scalar>& mesh, const Grid& grid, const Executor* executor = nullptr);
 
   [[nodiscard]] std::size_t triangle_count() const noexcept {

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "grid/grid.hpp"
-#include "query/list_cells.hpp"
+#include "grid/list_cells.hpp"
 
 namespace surehit::detail {
 

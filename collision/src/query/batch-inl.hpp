@@ -1,4 +1,4 @@
-// Many paths against one mesh. Highway compiles this for each instruction set.
+// Answers batches: many paths against one mesh. Highway compiles this file for each instruction set.
 
 #if defined(SUREHIT_BATCH_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREHIT_BATCH_INL
@@ -19,7 +19,7 @@
 #include "query/batch_queries-inl.hpp"
 #include "query/batch_rounding-inl.hpp"
 #include "query/query_walk-inl.hpp"
-#if HWY_TARGET != HWY_SCALAR  // It has no lanes.
+#if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
 #include "query/list_jobs-inl.hpp"
 #include "query/path_queue-inl.hpp"
 #include "walk/lane_walk-inl.hpp"
@@ -30,12 +30,13 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Walks the paths of a batch side by side, some vectors of them. While one waits for its cells, the next one steps. A
-/// path that has come to a list meets its triangles alone, a vector of triangles at a time. A path that has ended gives
-/// its lane to the next one.
+/// Walks the paths of a batch side by side, in several vectors. While one vector waits for its cells, the next one
+/// steps. A path that has come to a list meets the triangles alone, a vector of triangles at a time. When paths have
+/// ended, waiting paths take their lanes.
 ///
-/// `Visitor` is what single queries use. There is one for each path. `finish(index, visitor)` is called when a path
-/// ends, if its visitor met a triangle.
+/// `Visitor` is a visitor of single queries. Each walking path has one of its own. When a path ends, the batch calls
+/// `finish(index, visitor)` if its visitor was given a triangle. It calls `alone(index)` for paths that no lane can
+/// walk.
 template <typename Scalar, typename Visitor, typename Queries, typename Finish, typename Alone>
 class Batch {
  public:
@@ -48,6 +49,7 @@ class Batch {
         finish_(finish),
         visitors_(for_all_slots(query_, std::make_index_sequence<slots>())) {}
 
+  /// Answers all paths.
   HWY_INLINE void run() {
     if (query_.grid.levels() > 0) {
       run_levels<true>();
@@ -57,30 +59,32 @@ class Batch {
   }
 
  private:
-  // A slot is a lane of one of the vectors: those of vector i are from i max_lanes on. A set of slots or of lanes has a
-  // bit for each.
-  static constexpr std::size_t slots = max_slots<Scalar>;
-  static constexpr std::size_t vectors = slots / max_lanes;
+  // A slot is a lane of one of the vectors. The slots of vector i begin with slot i max_lanes. A set of slots or of
+  // lanes has one bit for each.
+  static constexpr std::size_t slots = max_slots<Scalar>;    ///< The number of slots.
+  static constexpr std::size_t vectors = slots / max_lanes;  ///< The number of vectors.
   static_assert(slots % max_lanes == 0 && slots <= 64);
-  /// The lanes of a vector are filled if this share of them is idle. To fill each at once would cost more than it
-  /// saves.
+  /// Idle lanes of a vector are filled if they are at least one lane in this many. To fill each lane at once would cost
+  /// more than it saves.
   static constexpr std::size_t idle_share = 4;
 
   using Jobs = ListJobs<Scalar, Visitor>;
   static constexpr bool is_float = std::is_same_v<Scalar, float>;
 
+  /// Makes a visitor for each slot.
   template <std::size_t... slot>
   static std::array<Visitor, slots> for_all_slots(const Query<Scalar>& query, std::index_sequence<slot...>) {
     return {((void)slot, Visitor(query))...};
   }
 
-  /// Becomes a Path only where one is needed.
+  /// A path of the batch. It becomes a Path only where one is needed.
   struct PathOfSlot {
-    const PathSpan<Scalar>& paths;
-    std::size_t index;
+    const PathSpan<Scalar>& paths;  ///< The paths of the batch.
+    std::size_t index;              ///< The index of this path.
     operator Path<Scalar>() const { return paths[index]; }
   };
 
+  /// Walks until all paths have ended. Each round is one step of all lanes.
   template <bool has_levels>
   HWY_INLINE void run_levels() {
     const BitsTag du;
@@ -95,12 +99,12 @@ class Batch {
       }
       std::uint64_t arriving = 0;
       for (std::size_t i = 0; i < used; ++i) {
-        const std::uint32_t standing = LaneWalk::in_lists(cells_[i], lanes_of(i, walking_));
-        arriving |= slots_of(i, walk_.meet_lists(cells_[i], standing, lanes_[i]));
+        const std::uint32_t in_lists = LaneWalk::in_lists(cells_[i], lanes_of(i, walking_));
+        arriving |= slots_of(i, walk_.meet_lists(cells_[i], in_lists, lanes_[i]));
         hn::Store(cells_[i].word, du, &words_[i * max_lanes]);
       }
-      const std::uint64_t walked = walking_;  // Those that are done end with the rest.
-      walking_ &= ~meet_lists(arriving);
+      const std::uint64_t walked = walking_;  // The paths that are done end together with the others.
+      walking_ &= ~visit_lists(arriving);
       std::uint64_t still = 0;
       for (std::size_t i = 0; i < used; ++i) {
         still |= slots_of(i, walk_.advance(cells_[i], lanes_of(i, walking_), lanes_[i]));
@@ -109,43 +113,44 @@ class Batch {
     }
   }
 
+  /// Returns the lanes of a vector that belong to a set of slots.
   static std::uint32_t lanes_of(std::size_t vector, std::uint64_t set) {
     constexpr std::uint64_t all = (std::uint64_t{1} << max_lanes) - 1;
     return static_cast<std::uint32_t>(set >> vector * max_lanes & all);
   }
+  /// Returns the slots of some lanes of a vector.
   static std::uint64_t slots_of(std::size_t vector, std::uint32_t lanes) {
     return std::uint64_t{lanes} << vector * max_lanes;
   }
 
-  /// Fills a vector's idle lanes, if they are many enough.
+  /// Fills the idle lanes of a vector with waiting paths, if enough lanes are idle.
   template <bool has_levels>
   HWY_INLINE void fill(std::size_t vector) {
     const std::size_t lanes = hn::Lanes(FloatTag());
     const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << lanes) - 1);
     const std::uint32_t idle = all & ~lanes_of(vector, walking_);
     if (static_cast<std::size_t>(std::popcount(idle)) * idle_share < lanes) return;
-    const auto enter = [&](std::size_t lane, std::size_t index, const KernelPath<Scalar>& kernel_path,
-                           const auto&... tau) {
+    const auto enter = [&](std::size_t lane, std::size_t index, const auto&... tau) -> KernelPath<Scalar>& {
       const std::size_t slot = vector * max_lanes + lane;
-      jobs_.set_path(slot, kernel_path);
       index_[slot] = index;
       if constexpr (!Queries::is_shared) {
         queries_.set_weights(slot, index);
         visitors_[slot].begin(queries_.query(index));
       }
       if constexpr (!is_float) taus_[slot] = (tau, ...);
+      return jobs_.path(slot);
     };
     walking_ |= slots_of(vector, queue_.template fill<has_levels>(idle, lanes_[vector], enter));
   }
 
-  /// Lets these paths meet the lists of their cells, and returns those that are done.
-  HWY_INLINE std::uint64_t meet_lists(std::uint64_t arriving) {
+  /// Gives the lists of these paths' cells to their visitors. Returns the paths that are done.
+  HWY_INLINE std::uint64_t visit_lists(std::uint64_t arriving) {
     std::uint64_t done = 0;
     for (std::size_t from = 0; arriving != 0; from += Jobs::max_at_once) {
       const std::uint64_t longer = from == 0 ? list_jobs<true>(arriving, 0) : list_jobs<false>(arriving, from);
       for (std::size_t first_job = 0; first_job < jobs_.count(); first_job += Jobs::max_jobs) {
         for (const typename Jobs::Open& open : jobs_.classify(first_job, from, queries_, visitors_)) {
-          done |= meet(open);
+          done |= visit_job(open);
         }
       }
       arriving = longer & ~done;
@@ -153,29 +158,32 @@ class Batch {
     return done;
   }
 
-  /// Makes jobs of the lists of these slots, from one of their triangles on. Returns the slots whose lists are longer.
-  /// The first time it finds the lists. A loop of its own for that would cost one more branch that cannot be predicted.
+  /// Makes jobs from the lists of these slots. The jobs begin with triangle `from` of each list. Returns the slots
+  /// whose lists have more triangles than the jobs. If `finds_lists`, it finds the lists first. A separate loop for
+  /// this would cost one more branch that cannot be predicted.
   template <bool finds_lists>
   HWY_INLINE std::uint64_t list_jobs(std::uint64_t of_slots, std::size_t from) {
     std::uint64_t longer = 0;
-    jobs_.clear();
+    std::size_t count = 0;
     for (; of_slots != 0; of_slots &= of_slots - 1) {
       const auto slot = static_cast<std::size_t>(std::countr_zero(of_slots));
       if constexpr (finds_lists) jobs_.find_list(slot, query_, CellWord(words_[slot]), queries_.weights_in(slot));
-      longer |= std::uint64_t{jobs_.add(slot, from)} << slot;
+      longer |= std::uint64_t{jobs_.add(slot, from, count)} << slot;
     }
+    jobs_.set_count(count);
     return longer;
   }
 
-  /// Lets a path meet the triangles of an open job. Returns the path's bit if it is done then.
-  HWY_INLINE std::uint64_t meet(const typename Jobs::Open& open) {
+  /// Gives the triangles of an open job to the visitor of their path. Returns the bit of the slot if its path is done.
+  HWY_INLINE std::uint64_t visit_job(const typename Jobs::Open& open) {
     const auto& [slot, from, lanes, first] = open;
     query_.statistics.undecided += static_cast<std::uint64_t>(std::popcount(lanes.possible & ~lanes.certain));
-    met_ |= std::uint64_t{1} << slot;
+    visited_ |= std::uint64_t{1} << slot;
     const auto& query = queries_.query(index_[slot]);
     const auto& range = queries_.range(index_[slot]);
-    const bool shorter = visitors_[slot].meet(Meeting<Scalar, PathOfSlot>{
-        query, range, PathOfSlot{paths_, index_[slot]}, jobs_.list(slot), from, lanes, first});
+    const PathOfSlot path{paths_, index_[slot]};
+    const bool shorter = visit(
+        CandidateBlock<Scalar, PathOfSlot>{query, range, path, jobs_.list(slot), from, lanes, first}, visitors_[slot]);
     if constexpr (Visitor::wants_order) {
       if (shorter) shorten(slot, visitors_[slot].limit());
       return 0;
@@ -183,6 +191,7 @@ class Batch {
     return std::uint64_t{visitors_[slot].is_done()} << slot;
   }
 
+  /// Ends the walk of a slot at parameter t, because nothing beyond it counts.
   HWY_INLINE void shorten(std::size_t slot, double t) {
     WalkingPaths& lanes = lanes_[slot / max_lanes];
     if constexpr (is_float) {
@@ -192,43 +201,47 @@ class Batch {
     }
   }
 
+  /// Frees the slots of ended paths. Calls `finish` for those whose visitor was given a triangle.
   HWY_INLINE void end_paths(std::uint64_t ended) {
     walking_ &= ~ended;
-    for (std::uint64_t met = ended & met_; met != 0; met &= met - 1) {
-      const auto slot = static_cast<std::size_t>(std::countr_zero(met));
+    for (std::uint64_t visited = ended & visited_; visited != 0; visited &= visited - 1) {
+      const auto slot = static_cast<std::size_t>(std::countr_zero(visited));
       finish_(index_[slot], visitors_[slot]);
       visitors_[slot].reset();
     }
-    met_ &= ~ended;
+    visited_ &= ~ended;
   }
 
-  std::array<WalkingPaths, vectors> lanes_ = {};
-  std::array<LaneWalk::Cells, vectors> cells_;  ///< The cells that they are in.
-  const Query<Scalar>& query_;
-  Queries& queries_;
+  std::array<WalkingPaths, vectors> lanes_ = {};  ///< The walking paths.
+  std::array<LaneWalk::Cells, vectors> cells_;    ///< The cells that they are in.
+  const Query<Scalar>& query_;                    ///< The query of the batch.
+  Queries& queries_;                              ///< The queries of its paths.
   LaneWalk walk_;
   const PathSpan<Scalar>& paths_;
-  PathQueue<Scalar, Queries, Alone> queue_;
-  Jobs jobs_;
-  Finish& finish_;
-  std::uint64_t walking_ = 0;                  ///< The slots that hold a path.
-  std::uint64_t met_ = 0;                      ///< The slots whose visitor has met a triangle.
-  std::array<std::size_t, slots> index_ = {};  ///< The path of each slot.
-  std::array<Visitor, slots> visitors_;
-  std::array<WalkParameter, is_float ? 0 : slots> taus_;
-  alignas(max_lanes * sizeof(float)) std::array<std::uint32_t, slots> words_;  ///< What the cells hold.
+  PathQueue<Scalar, Queries, Alone> queue_;               ///< The paths that wait for a lane.
+  Jobs jobs_;                                             ///< The lists that paths have come to.
+  Finish& finish_;                                        ///< Is called when a path ends.
+  std::uint64_t walking_ = 0;                             ///< The slots that hold a path.
+  std::uint64_t visited_ = 0;                             ///< The slots whose visitor was given a triangle.
+  std::array<std::size_t, slots> index_ = {};             ///< The index of the path of each slot.
+  std::array<Visitor, slots> visitors_;                   ///< The visitor of each slot.
+  std::array<WalkParameter, is_float ? 0 : slots> taus_;  ///< The parameter of each walk that was clipped in double.
+  alignas(max_lanes * sizeof(float)) std::array<std::uint32_t, slots> words_;  ///< The words of the cells.
 };
 
 #endif  // HWY_TARGET != HWY_SCALAR
 
-/// Answers all paths: side by side if there are lanes that can clip them, else one by one.
+/// Answers all paths. They walk side by side if lanes can walk them. Otherwise `alone(index)` answers each path.
 template <typename Visitor, typename Scalar, typename Queries, typename Finish, typename Alone>
 HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[maybe_unused]] Finish& finish,
                              const Alone& alone) {
   const Grid& grid = queries.of_batch().grid;
-  if (grid.is_empty()) return;
+  if (grid.is_empty()) {
+    queries.of_batch().statistics.paths += paths.size();
+    return;
+  }
 #if HWY_TARGET != HWY_SCALAR
-  // Paths of floats are clipped in float.
+  // The lanes clip paths of floats in float. Paths of doubles are clipped one by one.
   const bool can_clip = std::is_same_v<Scalar, double> || grid.frame().has_floats;
   if (can_clip && !queries.admits_nothing()) {
     Batch<Scalar, Visitor, Queries, Finish, Alone>(queries, paths, finish, alone).run();
@@ -238,6 +251,7 @@ HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[
   for (std::size_t i = 0; i < paths.size(); ++i) alone(i);
 }
 
+/// Sets `hits[i]` to the first hit of path i. Each element must be a miss before.
 template <typename Scalar, typename Queries>
 HWY_NOINLINE void search_each_first_by(Queries queries, const PathSpan<Scalar>& paths, std::span<Hit<Scalar>> hits) {
   const auto alone = [&](std::size_t index) {
@@ -254,12 +268,13 @@ HWY_NOINLINE void search_each_first_by(Queries queries, const PathSpan<Scalar>& 
       const Path<Scalar> path = paths[index];
       const auto& query = queries.query(index);
       const auto& range = queries.range(index);
-      hits[index] = first.hit(query, Narrowphase<Scalar>(path, query.options, range, query.statistics));
+      hits[index] = first.decide_hit(Narrowphase<Scalar>(path, query.options, range, query.statistics));
     };
     search_paths<FirstHit<Scalar>>(queries, paths, finish, alone);
   }
 }
 
+/// Sets `blocked[i]` to 1 if path i has a hit. Each element must be 0 before.
 template <typename Scalar, typename Queries>
 HWY_NOINLINE void search_each_any_by(Queries queries, const PathSpan<Scalar>& paths, std::span<std::uint8_t> blocked) {
   const auto finish = [&](std::size_t index, const AnyHit<Scalar>& any) { blocked[index] = any.is_done() ? 1 : 0; };
@@ -269,9 +284,10 @@ HWY_NOINLINE void search_each_any_by(Queries queries, const PathSpan<Scalar>& pa
   search_paths<AnyHit<Scalar>>(queries, paths, finish, alone);
 }
 
+/// Sets `hits[i]` to the first hit of path i, or to a miss.
 template <typename Scalar>
 void search_each_first(const Query<Scalar>& query, const PathSpan<Scalar>& paths,
-                       std::span<const QueryOptions<Scalar>> own_options, std::span<Hit<Scalar>> hits) {
+                       std::span<const QueryOptions<Scalar>> own_options, std::span<Hit<Scalar>> hits) noexcept {
   std::fill_n(hits.begin(), paths.size(), Hit<Scalar>{});
   if (query.filter == nullptr && own_options.empty()) {
     search_each_first_by(SharedQuery<Scalar>(query, paths.kind()), paths, hits);
@@ -280,9 +296,10 @@ void search_each_first(const Query<Scalar>& query, const PathSpan<Scalar>& paths
   }
 }
 
+/// Sets `blocked[i]` to 1 if path i has a hit, else to 0.
 template <typename Scalar>
 void search_each_any(const Query<Scalar>& query, const PathSpan<Scalar>& paths,
-                     std::span<const QueryOptions<Scalar>> own_options, std::span<std::uint8_t> blocked) {
+                     std::span<const QueryOptions<Scalar>> own_options, std::span<std::uint8_t> blocked) noexcept {
   std::fill_n(blocked.begin(), paths.size(), std::uint8_t{0});
   if (query.filter == nullptr && own_options.empty()) {
     search_each_any_by(SharedQuery<Scalar>(query, paths.kind()), paths, blocked);

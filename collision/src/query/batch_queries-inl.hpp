@@ -1,4 +1,4 @@
-// What the paths of a batch are asked. Highway compiles this for each instruction set.
+// The queries of the paths of a batch. Highway compiles this file for each instruction set.
 
 #if defined(SUREHIT_BATCH_QUERIES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREHIT_BATCH_QUERIES_INL
@@ -18,40 +18,42 @@
 #include "filter/kernel_bound.hpp"
 #include "query/path_range.hpp"
 #include "query/query.hpp"
-#if HWY_TARGET != HWY_SCALAR  // It has no lanes.
+#if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
 #include "walk/lane_walk-inl.hpp"
 #endif
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// The paths of a batch that are walked at the same time, each in its slot. More would gain little and take stack.
+/// The number of paths of a batch that walk at the same time, each in its slot. More would gain little and take stack.
 template <typename Scalar>
 constexpr std::size_t max_slots = std::is_same_v<Scalar, float> ? 48 : 32;
 
-/// Asks the same of all paths of a batch.
+/// The queries of a batch whose paths all have the same options.
 template <typename Scalar>
 class SharedQuery {
  public:
-  static constexpr bool is_shared = true;
+  static constexpr bool is_shared = true;  ///< All paths share one query.
 
   SharedQuery(const Query<Scalar>& batch, PathKind kind)
       : query_(batch), range_(kind, batch.options), weights_(range_) {}
 
+  /// Returns the query of the whole batch.
   [[nodiscard]] const Query<Scalar>& of_batch() const { return query_; }
-  /// Returns what path `index` is asked.
+  /// Returns the query of path `index`.
   [[nodiscard]] const Query<Scalar>& query(std::size_t /*index*/) const { return query_; }
-  /// Returns the range that this admits.
+  /// Returns the range of parameters of path `index`.
   [[nodiscard]] const PathRange<Scalar>& range(std::size_t /*index*/) const { return range_; }
-  /// Returns the weights of the range of the path that walks in this slot.
+  /// Returns the range weights of the path in a slot.
   [[nodiscard]] const RangeWeights<Scalar>& weights_in(std::size_t /*slot*/) const { return weights_; }
   /// Returns true if no path can have a hit.
   [[nodiscard]] bool admits_nothing() const { return range_.is_empty(); }
 
+  /// The ends of a range.
   struct Ends {
-    Scalar first, last;
+    Scalar first, last;  ///< One number for all paths.
   };
-  /// Returns the ends of the ranges of `count` paths, from path `first` on.
+  /// Returns the ends of the ranges of `count` paths. The first of them is path `first`.
   [[nodiscard]] Ends ends(std::size_t /*first*/, std::size_t /*count*/) const { return {range_.first, range_.last}; }
 
  private:
@@ -60,15 +62,18 @@ class SharedQuery {
   RangeWeights<Scalar> weights_;
 };
 
-/// Asks each path of a batch for itself, because it has its own options, or because the filter gets its index.
+/// The queries of a batch whose paths differ. Each path has its own options, or there is a filter that gets the index
+/// of the path.
 template <typename Scalar>
 class OwnQueries {
  public:
-  static constexpr bool is_shared = false;
+  static constexpr bool is_shared = false;  ///< Each path has its own query.
 
-  /// `options` has one element for each path, or none.
+  /// `options` has one element for each path, or none at all.
   OwnQueries(const Query<Scalar>& batch, std::span<const QueryOptions<Scalar>> options, PathKind kind)
       : batch_(batch), options_(options), kind_(kind) {}
+
+  // These functions return the same as those of `SharedQuery`.
 
   [[nodiscard]] const Query<Scalar>& of_batch() const { return batch_; }
   [[nodiscard]] Query<Scalar> query(std::size_t index) const { return query_of_path(batch_, options_, index); }
@@ -76,16 +81,17 @@ class OwnQueries {
     return {kind_, options_.empty() ? batch_.options : options_[index]};
   }
   [[nodiscard]] const RangeWeights<Scalar>& weights_in(std::size_t slot) const { return weights_[slot]; }
-  /// Keeps the weights of path `index`, which begins to walk in a slot.
+  /// Keeps the range weights of path `index` for its slot. It is called when the path takes the slot.
   void set_weights(std::size_t slot, std::size_t index) { weights_[slot] = RangeWeights<Scalar>(range(index)); }
   [[nodiscard]] bool admits_nothing() const { return false; }
 
 #if HWY_TARGET != HWY_SCALAR
+  /// The ends of the ranges of several paths.
   struct Ends {
-    Floats first, last;  ///< A lane each.
+    Floats first, last;  ///< One lane for each path.
   };
   [[nodiscard]] Ends ends(std::size_t first, std::size_t count) const {
-    // The ends of an empty range are exchanged, so that its path misses the grid.
+    // An empty range gets the ends [infinity, -infinity]. So its path misses the grid.
     constexpr float infinity = std::numeric_limits<float>::infinity();
     alignas(max_lanes * sizeof(float)) LaneFloats firsts;
     alignas(max_lanes * sizeof(float)) LaneFloats lasts;
@@ -102,10 +108,10 @@ class OwnQueries {
 #endif
 
  private:
-  const Query<Scalar>& batch_;
-  std::span<const QueryOptions<Scalar>> options_;
-  PathKind kind_;
-  std::array<RangeWeights<Scalar>, max_slots<Scalar>> weights_;
+  const Query<Scalar>& batch_;                                   ///< The query of the whole batch.
+  std::span<const QueryOptions<Scalar>> options_;                ///< The options of each path, or none.
+  PathKind kind_;                                                ///< The kind of all paths.
+  std::array<RangeWeights<Scalar>, max_slots<Scalar>> weights_;  ///< The range weights of each slot.
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

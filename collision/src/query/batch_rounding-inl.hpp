@@ -1,4 +1,4 @@
-// The hits of many paths, rounded side by side. Highway compiles this for each instruction set.
+// Rounds the hits of many paths side by side. Highway compiles this file for each instruction set.
 
 #if defined(SUREHIT_BATCH_ROUNDING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREHIT_BATCH_ROUNDING_INL
@@ -24,22 +24,23 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// Turns what `FirstHit` kept of the batch's paths into hits, as many at a time as a vector has doubles. What they
-/// cannot tell goes through the narrowphase one by one.
+/// Rounds the hits of a batch. It rounds as many at a time as a vector has doubles. The narrowphase rounds those that
+/// doubles cannot decide, one by one.
 template <typename Queries>
 class BatchRounding {
  public:
   BatchRounding(const Queries& queries, const PathSpan<float>& paths, std::span<Hit<float>> hits)
       : queries_(queries), query_(queries.of_batch()), paths_(paths), hits_(hits) {}
 
-  /// A path that has ended, if it has hit anything.
+  /// Takes the hit that the visitor of a path has kept. It is called when the path ends. A hit of the kernel is rounded
+  /// later, but at the latest by `flush`.
   HWY_INLINE void add(std::size_t index, FirstHit<float>& first) {
     if (!first.is_found()) return;
-    if (first.is_weighed()) {
+    if (first.is_decided()) {
       const Path<float> path = paths_[index];
       const auto& query = queries_.query(index);
       const auto& range = queries_.range(index);
-      hits_[index] = first.hit(query, Narrowphase<float>(path, query.options, range, query.statistics));
+      hits_[index] = first.decide_hit(Narrowphase<float>(path, query.options, range, query.statistics));
       return;
     }
     index_[count_] = index;
@@ -47,7 +48,8 @@ class BatchRounding {
     t_size_[count_] = first.t_size();
     edge_size_[count_] = first.edge_size();
     static_assert(sizeof(Triangle<float>) == 9 * sizeof(float));
-    // Four numbers at once, one of which is another vector's: the last one, or the first where there is none behind.
+    // Each copy has four numbers: three coordinates, and the number after them. There is none after the last vector of
+    // the path, and none after the last corner. So those copies begin one number earlier.
     if (is_packed_) {
       copy(0, paths_.packed(index), 0);
       copy(1, paths_.packed(index), 2);
@@ -63,23 +65,21 @@ class BatchRounding {
     if (++count_ == hn::Lanes(DoubleTag())) flush();
   }
 
+  /// Rounds all hits that were added and not rounded yet.
   HWY_NOINLINE void flush() {
     if (count_ == 0) return;
     const DoubleTag d;
     const FloatTag df;
-    const auto vectors = [&](std::size_t which, bool is_behind_another = false) -> Vectors<DoubleTag> {
+    const auto vectors = [&](std::size_t which, bool has_one_before = false) -> Vectors<DoubleTag> {
       hn::Vec<FloatTag> first, second, third, fourth;
       hn::LoadInterleaved4(df, vectors_[which][0].data(), first, second, third, fourth);
       const auto of = [&](const auto& x, const auto& y, const auto& z) -> Vectors<DoubleTag> {
         return {hn::PromoteTo(d, x), hn::PromoteTo(d, y), hn::PromoteTo(d, z)};
       };
-      return is_behind_another ? of(second, third, fourth) : of(first, second, third);
+      return has_one_before ? of(second, third, fourth) : of(first, second, third);
     };
     const Vectors<DoubleTag> start = vectors(0);
-    Vectors<DoubleTag> direction = vectors(1, true);
-    if (paths_.kind() == PathKind::segment) {
-      direction = {hn::Sub(direction.x, start.x), hn::Sub(direction.y, start.y), hn::Sub(direction.z, start.z)};
-    }
+    const Vectors<DoubleTag> direction = directions_of<DoubleTag>(paths_.kind(), start, vectors(1, true));
     const auto doubles = [&](const std::array<float, max_hits>& floats) {
       return hn::PromoteTo(d, hn::Load(df, floats.data()));
     };
@@ -106,14 +106,16 @@ class BatchRounding {
  private:
   using DoubleTag = hn::CappedTag<double, 8>;
   using FloatTag = hn::Rebind<float, DoubleTag>;
-  /// As many as the widest instruction set of today has doubles.
+  /// The number of doubles in the widest vectors of today.
   static constexpr std::size_t max_hits = 8;
 
+  /// Copies four numbers of the next hit, from number `from` on.
   HWY_INLINE void copy(std::size_t which, const void* numbers, std::size_t from) {
     auto& four = vectors_[which][count_];
     std::memcpy(four.data(), static_cast<const char*>(numbers) + from * sizeof(float), sizeof four);
   }
 
+  /// Lets the narrowphase decide and round hit i.
   HWY_NOINLINE void round_alone(std::size_t i) {
     const Path<float> path = paths_[index_[i]];
     const auto& query = queries_.query(index_[i]);
@@ -124,19 +126,19 @@ class BatchRounding {
     if (narrowphase.find_contact(candidate.triangle, candidate.contact)) hits_[index_[i]] = narrowphase.hit(candidate);
   }
 
-  const Queries& queries_;
-  const Query<float>& query_;
-  const PathSpan<float>& paths_;
-  const bool is_packed_ = paths_.is_packed();
-  std::span<Hit<float>> hits_;
-  std::size_t count_ = 0;
-  /// The path's start and its end or direction, and the triangle's corners, each with one number more. Beyond the last
-  /// hit anything finite.
+  const Queries& queries_;                     ///< The queries of the paths.
+  const Query<float>& query_;                  ///< The query of the batch.
+  const PathSpan<float>& paths_;               ///< The paths of the batch.
+  const bool is_packed_ = paths_.is_packed();  ///< True if paths can be read in place.
+  std::span<Hit<float>> hits_;                 ///< The answers.
+  std::size_t count_ = 0;                      ///< The number of hits to round.
+  /// The start of each path, its end or direction, and the three corners of the triangle. Each has one number more, as
+  /// `add` copies it. Lanes after the last hit have any finite numbers.
   alignas(max_hits * sizeof(float)) std::array<std::array<std::array<float, 4>, max_hits>, 5> vectors_ = {};
-  alignas(max_hits * sizeof(float)) std::array<float, max_hits> t_size_ = {};  ///< what `HitIntervals` goes by besides,
-  alignas(max_hits * sizeof(float)) std::array<float, max_hits> edge_size_ = {};  //
-  std::array<std::size_t, max_hits> index_;
-  std::array<std::size_t, max_hits> entry_;  ///< the one where the id stands, which is on its way into the cache
+  alignas(max_hits * sizeof(float)) std::array<float, max_hits> t_size_ = {};     ///< The t size of each hit.
+  alignas(max_hits * sizeof(float)) std::array<float, max_hits> edge_size_ = {};  ///< The edge size of each hit.
+  std::array<std::size_t, max_hits> index_;                                       ///< The index of each path.
+  std::array<std::size_t, max_hits> entry_;  ///< The grid's entry with the triangle's id. It is being prefetched.
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

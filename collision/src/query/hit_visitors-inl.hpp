@@ -1,4 +1,5 @@
-// What queries keep of the triangles that their paths may meet, for the instruction set that Highway compiles this for.
+// The visitors of queries. They keep what the query needs of the triangles that its path may meet. Highway compiles
+// this file for each instruction set.
 
 #if defined(SUREHIT_HIT_VISITORS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREHIT_HIT_VISITORS_INL
@@ -24,8 +25,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// Whether no option, mask or filter can leave out a hit that the kernel is certain of. It lies inside the range, so
-/// off the path's ends, whose contacts an option may ignore.
+/// Returns true if every hit that the kernel is certain of counts. Then no option, mask or filter can leave it out. The
+/// options for contacts at the ends do not matter, because a certain hit is inside the range.
 template <typename Scalar>
 bool counts_every_hit(const Query<Scalar>& query) {
   const QueryOptions<Scalar>& options = query.options;
@@ -33,238 +34,267 @@ bool counts_every_hit(const Query<Scalar>& query) {
          options.ignored_triangle == no_triangle && options.culling == Culling::none;
 }
 
-/// Triangles of a list that the kernel does not say the path misses. `AnyPath` is what a Path is made of.
+/// The triangles of one vector that a path may meet. `AnyPath` is a Path, or a type that becomes one where needed.
 template <typename Scalar, typename AnyPath>
-struct Meeting {
-  const Query<Scalar>& query;
-  const PathRange<Scalar>& range;
-  const AnyPath& path;
-  const TriangleList<Scalar>& list;
-  std::size_t from;  ///< the triangle of lane 0
-  Lanes lanes;
-  const FirstLanes<Scalar>& first;  ///< of the certain ones, where the visitor asks for it
+struct CandidateBlock {
+  const Query<Scalar>& query;        ///< The query of the path.
+  const PathRange<Scalar>& range;    ///< The range of the path.
+  const AnyPath& path;               ///< The path.
+  const TriangleList<Scalar>& list;  ///< The list that has the triangles.
+  std::size_t from;                  ///< The index in the list of the triangle in lane 0.
+  Lanes lanes;                       ///< The verdicts of the kernel.
+  const FirstLanes<Scalar>& first;   ///< The hits that may be first. It is set only if the visitor wants an order.
 
+  /// Returns the index of a lane's triangle among the grid's entries.
   [[nodiscard]] std::size_t entry(std::size_t lane) const { return list.first_entry + from + lane; }
+  /// Returns the triangle of a lane.
   [[nodiscard]] Triangle<Scalar> triangle(std::size_t lane) const {
     return MeshBlocks<Scalar>::triangle(list.corners, list.count, from + lane);
   }
-  /// Returns whether the path is shorter now.
-  template <typename Visitor>
-  HWY_NOINLINE bool show(std::uint64_t shown, Visitor& visitor) const {
-    bool shorter = false;
-    if constexpr (Visitor::wants_order) {
-      if (visitor.settles_tie(*this, shown, shorter)) return shorter;
-    }
-    const auto& shown_path = as_path(path);
-    const Narrowphase<Scalar> narrowphase(shown_path, query.options, range, query.statistics);
-    for (; shown != 0 && !visitor.is_done(); shown &= shown - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(shown));
-      Candidate<Scalar> candidate{query.grid.entries()[entry(lane)], triangle(lane), {}};
-      shorter |= visitor.meet(query, narrowphase, candidate);
-    }
-    return shorter;
-  }
-
- private:
-  static const Path<Scalar>& as_path(const Path<Scalar>& path) { return path; }
-  template <typename Other>
-  static Path<Scalar> as_path(const Other& path) {
-    return path;
-  }
 };
 
-/// Keeps the first of the hits that it is shown. Where the kernel is certain of a hit and of its place among the
-/// others, that is all it takes; the narrowphase sees the rest.
+/// Gives the candidates of some lanes to the visitor one by one, with a narrowphase that can decide them. Returns true
+/// if the path is shorter now.
+template <typename Scalar, typename AnyPath, typename Visitor>
+HWY_NOINLINE bool visit_one_by_one(const CandidateBlock<Scalar, AnyPath>& block, std::uint64_t lanes,
+                                   Visitor& visitor) {
+  bool shorter = false;
+  if constexpr (Visitor::wants_order) {
+    if (visitor.take_tie(block, lanes, shorter)) return shorter;
+  }
+  const Path<Scalar>& path = block.path;  // A Path that is made here lives as long as this reference.
+  const typename Visitor::Narrowphase narrowphase(path, block.query.options, block.range, block.query.statistics);
+  for (; lanes != 0 && !visitor.is_done(); lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    Candidate<Scalar> candidate{block.query.grid.entries()[block.entry(lane)], block.triangle(lane), {}};
+    shorter |= visitor.take(block.query, narrowphase, candidate);
+  }
+  return shorter;
+}
+
+/// Gives a block to a visitor. The visitor first takes what the kernel is certain of, and then the rest one by one. A
+/// visitor without a narrowphase takes only what is certain. Returns true if the path is shorter now.
+template <typename Scalar, typename AnyPath, typename Visitor>
+HWY_INLINE bool visit(const CandidateBlock<Scalar, AnyPath>& block, Visitor& visitor) {
+  bool shorter = false;
+  const std::uint64_t left = visitor.take_certain(block, shorter);
+  // The block is copied here. So it need not be in memory in the usual case, where nothing is left.
+  if constexpr (requires { typename Visitor::Narrowphase; }) {
+    if (left != 0) shorter |= visit_one_by_one(CandidateBlock<Scalar, AnyPath>(block), left, visitor);
+  }
+  return shorter;
+}
+
+/// Keeps the first hit. If the kernel is certain of a hit and of its order, it does not need the narrowphase. The
+/// narrowphase decides all others.
 template <typename Scalar>
 class FirstHit {
  public:
   using Kernel = BlockKernel<Scalar>;
-  static constexpr bool wants_order = true;  ///< `Meeting::first`
+  using Narrowphase = detail::Narrowphase<Scalar>;
+  static constexpr bool wants_order = true;  ///< It needs `CandidateBlock::first`.
 
   explicit FirstHit(const Query<Scalar>& query) : trusts_kernel_(counts_every_hit(query)) {}
-  /// Begins anew with another query.
+  /// Forgets the hit, and begins with another query.
   void begin(const Query<Scalar>& query) {
     trusts_kernel_ = counts_every_hit(query);
     reset();
   }
+  /// Forgets the hit.
   void reset() {
     state_ = State::none;
     t_lower_ = t_upper_ = std::numeric_limits<Scalar>::infinity();
   }
 
-  /// Whether the path is of interest up to `limit()` only now.
+  /// Takes a hit that the kernel is certain of. It must be the only one of the block that may be first, and it must
+  /// certainly come before the best one. If the visitor takes it, `is_nearer` is true, and the path counts only up to
+  /// `limit()`. Returns the lanes that are still to be decided.
   template <typename AnyPath>
-  HWY_INLINE bool meet(const Meeting<Scalar, AnyPath>& meeting) {
-    const FirstLanes<Scalar>& first = meeting.first;
-    std::uint64_t open = meeting.lanes.possible;
-    bool is_nearer = false;
-    if (trusts_kernel_) {
-      open &= ~meeting.lanes.certain;
-      const bool is_alone = std::has_single_bit(first.lanes);
-      const auto lane = static_cast<std::size_t>(std::countr_zero(first.lanes));
-      is_nearer = is_alone && first.t_upper < t_lower_;
-      if (is_nearer) {
-        locate(meeting, lane);
-        hwy::Prefetch(meeting.query.grid.entries().data() + entry_);  // wanted when the path ends
-      } else if (first.t_lower <= t_upper_ && !(is_alone && is_best(meeting.query, meeting.entry(lane)))) {
-        open |= first.lanes;
-      }
+  HWY_INLINE std::uint64_t take_certain(const CandidateBlock<Scalar, AnyPath>& block, bool& is_nearer) {
+    if (!trusts_kernel_) return block.lanes.possible;
+    const FirstLanes<Scalar>& first = block.first;
+    const std::uint64_t undecided = block.lanes.possible & ~block.lanes.certain;
+    const bool is_alone = std::has_single_bit(first.lanes);
+    const auto lane = static_cast<std::size_t>(std::countr_zero(first.lanes));
+    is_nearer = is_alone && first.t_upper < t_lower_;
+    if (is_nearer) {
+      keep(block, lane);
+      hwy::Prefetch(grid_->entries().data() + entry_);  // The id is needed when the path ends.
+      return undecided;
     }
-    if (open == 0) return is_nearer;
-    // A copy, so that it alone has to be in memory, and only when it is shown.
-    return is_nearer | Meeting<Scalar, AnyPath>(meeting).show(open, *this);
+    const bool may_come_first = first.t_lower <= t_upper_ && !(is_alone && is_best(block, lane));
+    return may_come_first ? undecided | first.lanes : undecided;
   }
 
-  HWY_NOINLINE bool meet(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase,
-                         Candidate<Scalar>& candidate) {
-    if (!query.takes_part(candidate.id) || (is_found() && candidate.id == id(query))) return false;
+  /// Takes the first of several certain hits without the narrowphase. All of them must lie in one plane that is
+  /// perpendicular to an axis. The path crosses this plane, so it meets all of them at the same t. In levels, most ties
+  /// are of this kind. Returns false if this is another case. Then nothing has changed.
+  template <typename AnyPath>
+  HWY_NOINLINE bool take_tie(const CandidateBlock<Scalar, AnyPath>& block, std::uint64_t left, bool& is_nearer) {
+    const FirstLanes<Scalar>& first = block.first;
+    if (!trusts_kernel_ || left != first.lanes) return false;
+    const auto lane = static_cast<std::size_t>(std::countr_zero(first.lanes));  // It has the lowest id of these lanes.
+    const Triangle<Scalar> triangle = block.triangle(lane);
+    for (std::uint64_t others = first.lanes & (first.lanes - 1); others != 0; others &= others - 1) {
+      const auto other = static_cast<std::size_t>(std::countr_zero(others));
+      if (!share_axis_plane(triangle, block.triangle(other))) return false;
+    }
+    const bool comes_first = first.t_upper < t_lower_;
+    if (!comes_first) {
+      if (!is_found() || !share_axis_plane(triangle, best_.triangle)) return false;
+      if (block.query.grid.entries()[block.entry(lane)] >= id()) return true;
+    }
+    is_nearer = comes_first;
+    keep(block, lane);
+    return true;
+  }
+
+  /// Lets the narrowphase decide a candidate. Keeps it and returns true if it comes first.
+  HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate) {
+    if (!query.takes_part(candidate.id) || (is_found() && candidate.id == id())) return false;
     if (!narrowphase.find_contact(candidate.triangle, candidate.contact)) return false;
-    if (is_found() && !narrowphase.comes_before(candidate, best(query, narrowphase))) return false;
+    if (is_found() && !narrowphase.comes_before(candidate, decide_best(narrowphase))) return false;
     if (query.filter != nullptr && !query.accepts(narrowphase.hit(candidate))) return false;
-    state_ = State::weighed;
+    state_ = State::decided;
     best_ = candidate;
-    // To the nearest, eps |t| off at most: what the kernel compares with them has 3 eps |t| to spare
-    // (`BlockKernel::interval_of_t`).
+    // Rounding to nearest moves these bounds by at most eps |t|. They are compared with the kernel's interval. It is
+    // wider than it needs to be by 3 eps |t| (K16).
     t_lower_ = static_cast<Scalar>(best_.contact.t_lower);
     t_upper_ = static_cast<Scalar>(best_.contact.t_upper);
     return true;
   }
 
-  /// The usual tie in a level, without the narrowphase: where all that is open are certain hits that may come first, in
-  /// one plane that is square to an axis, the path crosses that plane, and meets whatever lies in it at the same t.
-  template <typename AnyPath>
-  HWY_NOINLINE bool settles_tie(const Meeting<Scalar, AnyPath>& meeting, std::uint64_t open, bool& is_nearer) {
-    const FirstLanes<Scalar>& first = meeting.first;
-    if (!trusts_kernel_ || open != first.lanes) return false;
-    const auto lane = static_cast<std::size_t>(std::countr_zero(first.lanes));  // ids ascend
-    const Triangle<Scalar> triangle = meeting.triangle(lane);
-    for (std::uint64_t others = first.lanes & (first.lanes - 1); others != 0; others &= others - 1) {
-      const auto other = static_cast<std::size_t>(std::countr_zero(others));
-      if (!share_axis_plane(triangle, meeting.triangle(other))) return false;
-    }
-    const bool comes_first = first.t_upper < t_lower_;
-    if (!comes_first) {
-      if (!is_found() || !share_axis_plane(triangle, best_.triangle)) return false;
-      if (meeting.query.grid.entries()[meeting.entry(lane)] >= id(meeting.query)) return true;
-    }
-    is_nearer = comes_first;
-    locate(meeting, lane);
-    return true;
-  }
-
-  /// Nothing that begins after this t is of interest.
+  /// Returns `t_upper_`, or infinity if there is no hit. A hit that is certainly beyond it does not count.
   [[nodiscard]] Scalar t_upper() const { return t_upper_; }
-  [[nodiscard]] double limit() const { return state_ == State::weighed ? best_.contact.t_upper : double{t_upper_}; }
+  /// Returns the t at which the walk may end.
+  [[nodiscard]] double limit() const { return state_ == State::decided ? best_.contact.t_upper : double{t_upper_}; }
+  /// Returns false, because a later triangle may have an earlier hit.
   [[nodiscard]] bool is_done() const { return false; }
 
+  /// Returns true if there is a hit.
   [[nodiscard]] bool is_found() const { return state_ != State::none; }
-  /// Whether only the kernel has judged the best one.
-  [[nodiscard]] bool is_located_only() const { return state_ == State::located; }
-  [[nodiscard]] bool is_weighed() const { return state_ == State::weighed; }
-  [[nodiscard]] std::uint32_t id(const Query<Scalar>& query) const {
-    return state_ == State::weighed ? best_.id : query.grid.entries()[entry_];
-  }
+  /// Returns true if there is a hit that only the kernel has decided.
+  [[nodiscard]] bool is_certain() const { return state_ == State::certain; }
+  /// Returns true if there is a hit that the narrowphase has decided.
+  [[nodiscard]] bool is_decided() const { return state_ == State::decided; }
+  /// Returns the id of the triangle. There must be a hit.
+  [[nodiscard]] std::uint32_t id() const { return is_decided() ? best_.id : grid_->entries()[entry_]; }
+  /// Returns the triangle. There must be a hit.
   [[nodiscard]] const Triangle<Scalar>& triangle() const { return best_.triangle; }
+  /// Returns the index of the triangle among the grid's entries. The hit must be certain.
   [[nodiscard]] std::size_t entry() const { return entry_; }
-  /// No less than |t|.
+  /// Returns an upper bound on |t|. The hit must be certain.
   [[nodiscard]] Scalar t_size() const { return std::max(-t_lower_, t_upper_); }
-  /// Of a located one `TriangleList::edge_size`.
+  /// Returns the `TriangleList::edge_size` of the triangle's list. The hit must be certain.
   [[nodiscard]] Scalar edge_size() const { return edge_size_; }
-  [[nodiscard]] Hit<Scalar> hit(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase) {
-    return narrowphase.hit(best(query, narrowphase));
+  /// Returns the hit as it is reported. If only the kernel has decided it, the narrowphase decides it first.
+  [[nodiscard]] Hit<Scalar> decide_hit(const Narrowphase& narrowphase) {
+    return narrowphase.hit(decide_best(narrowphase));
   }
 
  private:
   enum class State : std::uint8_t {
-    none,
-    located,  ///< by the kernel alone
-    weighed,  ///< by the narrowphase
+    none,     ///< There is no hit yet.
+    certain,  ///< The kernel is certain of the best hit. Its contact is not set.
+    decided,  ///< The narrowphase has decided the best hit.
   };
 
   /// Keeps a hit that the kernel is certain of.
   template <typename AnyPath>
-  HWY_INLINE void locate(const Meeting<Scalar, AnyPath>& meeting, std::size_t lane) {
-    state_ = State::located;
-    entry_ = meeting.entry(lane);
-    edge_size_ = meeting.list.edge_size;
-    best_.triangle = meeting.triangle(lane);
-    t_lower_ = meeting.first.t_lower;
-    t_upper_ = meeting.first.t_upper;
+  HWY_INLINE void keep(const CandidateBlock<Scalar, AnyPath>& block, std::size_t lane) {
+    state_ = State::certain;
+    grid_ = &block.query.grid;
+    entry_ = block.entry(lane);
+    edge_size_ = block.list.edge_size;
+    best_.triangle = block.triangle(lane);
+    t_lower_ = block.first.t_lower;
+    t_upper_ = block.first.t_upper;
   }
-  /// Most triangles are met again in the next cell.
-  [[nodiscard]] bool is_best(const Query<Scalar>& query, std::size_t entry) const {
-    return is_found() && query.grid.entries()[entry] == id(query);
+  /// Returns true if this triangle is the best one already. Most triangles come again in the next cell.
+  template <typename AnyPath>
+  [[nodiscard]] bool is_best(const CandidateBlock<Scalar, AnyPath>& block, std::size_t lane) const {
+    return is_found() && block.query.grid.entries()[block.entry(lane)] == id();
   }
-  const Candidate<Scalar>& best(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase) {
-    if (state_ == State::located && narrowphase.find_contact(best_.triangle, best_.contact)) {
-      best_.id = query.grid.entries()[entry_];
-      state_ = State::weighed;
+  /// Returns the best hit. If only the kernel has decided it, the narrowphase decides it first.
+  const Candidate<Scalar>& decide_best(const Narrowphase& narrowphase) {
+    if (is_certain() && narrowphase.find_contact(best_.triangle, best_.contact)) {
+      best_.id = id();
+      state_ = State::decided;
     }
     return best_;
   }
 
-  State state_ = State::none;
-  bool trusts_kernel_;
-  std::size_t entry_ = 0;                                     ///< of a located one,
-  Scalar edge_size_ = 0;                                      ///< and of its list
-  Scalar t_lower_ = std::numeric_limits<Scalar>::infinity();  ///< the best one's t is in [t_lower_, t_upper_]
-  Scalar t_upper_ = std::numeric_limits<Scalar>::infinity();  //
-  /// Of a located one the triangle alone. Not set before there is one: what a query stores counts as much as what it
-  /// computes, for a store that waits for its line holds up all behind it.
+  State state_ = State::none;   ///< Who has decided the best hit.
+  bool trusts_kernel_;          ///< True if every certain hit counts.
+  const Grid* grid_ = nullptr;  ///< The grid of a certain hit.
+  std::size_t entry_ = 0;       ///< The index of a certain hit among the entries.
+  Scalar edge_size_ = 0;        ///< The edge size of the list of a certain hit.
+  // The exact t of the best hit lies between these two. Those of a decided hit are rounded to nearest, so they may be
+  // off by eps |t|.
+  Scalar t_lower_ = std::numeric_limits<Scalar>::infinity();  ///< The lower bound.
+  Scalar t_upper_ = std::numeric_limits<Scalar>::infinity();  ///< The upper bound.
+  /// The best hit. If it is only certain, only its triangle is set. Before there is a hit, nothing is set. Stores cost
+  /// as much as arithmetic here, because a store that waits for its cache line delays all later ones.
   Candidate<Scalar> best_;
 };
 
-/// Is content with any hit.
+/// Notes whether there is a hit. It is done with the first one that it finds.
 template <typename Scalar>
 class AnyHit {
  public:
   using Kernel = BlockKernel<Scalar>;
+  using Narrowphase = detail::Narrowphase<Scalar>;
   static constexpr bool wants_order = false;
 
   explicit AnyHit(const Query<Scalar>&) {}
+  /// Begins with another query.
   void begin(const Query<Scalar>&) { reset(); }
+  /// Forgets the hit.
   void reset() { is_done_ = false; }
 
+  /// Is done if the kernel is certain of a hit that counts. Returns the lanes that are still to be decided.
   template <typename AnyPath>
-  HWY_INLINE bool meet(const Meeting<Scalar, AnyPath>& meeting) {
-    if (meeting.lanes.certain != 0 && counts_every_hit(meeting.query)) return is_done_ = true;
-    return meeting.show(meeting.lanes.possible, *this);
+  HWY_INLINE std::uint64_t take_certain(const CandidateBlock<Scalar, AnyPath>& block, bool& /*is_nearer*/) {
+    is_done_ |= block.lanes.certain != 0 && counts_every_hit(block.query);
+    return is_done_ ? 0 : block.lanes.possible;
   }
-
-  HWY_NOINLINE bool meet(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase,
-                         Candidate<Scalar>& candidate) {
+  /// Lets the narrowphase decide a candidate. Returns true if it is a hit that counts.
+  HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate) {
     if (!query.takes_part(candidate.id)) return false;
     if (!narrowphase.find_contact(candidate.triangle, candidate.contact)) return false;
     return is_done_ = query.filter == nullptr || query.accepts(narrowphase.hit(candidate));
   }
+  /// Returns true if there is a hit.
   [[nodiscard]] bool is_done() const { return is_done_; }
 
  private:
   bool is_done_ = false;
 };
 
-/// Keeps all hits.
+/// Keeps all hits. The narrowphase decides all candidates.
 template <typename Scalar>
 class AllHits {
  public:
   using Kernel = BlockKernel<Scalar>;
+  using Narrowphase = detail::Narrowphase<Scalar>;
   static constexpr bool wants_order = false;
 
+  /// Takes nothing. Returns all lanes that are not certain misses.
   template <typename AnyPath>
-  HWY_INLINE bool meet(const Meeting<Scalar, AnyPath>& meeting) {
-    return meeting.show(meeting.lanes.possible, *this);
+  HWY_INLINE std::uint64_t take_certain(const CandidateBlock<Scalar, AnyPath>& block, bool& /*is_nearer*/) {
+    return block.lanes.possible;
   }
-
-  HWY_NOINLINE bool meet(const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase,
-                         Candidate<Scalar>& candidate) {
+  /// Lets the narrowphase decide a candidate, and keeps it if the path meets it. Returns false.
+  HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate) {
     if (!query.takes_part(candidate.id)) return false;
     if (narrowphase.find_contact(candidate.triangle, candidate.contact)) found_.push_back(candidate);
     return false;
   }
+  /// Returns false, because there may always be more hits.
   [[nodiscard]] bool is_done() const { return false; }
 
-  /// Those that the filter accepts, in order, each once.
-  void append_to(std::vector<Hit<Scalar>>& hits, const Query<Scalar>& query, const Narrowphase<Scalar>& narrowphase) {
+  /// Appends the hits that the filter accepts, in order. Each triangle has at most one hit.
+  void append_to(std::vector<Hit<Scalar>>& hits, const Query<Scalar>& query, const Narrowphase& narrowphase) {
     narrowphase.sort(found_);
     for (const Candidate<Scalar>& candidate : found_) {
       const Hit<Scalar> hit = narrowphase.hit(candidate);
@@ -273,7 +303,7 @@ class AllHits {
   }
 
  private:
-  std::vector<Candidate<Scalar>> found_;
+  std::vector<Candidate<Scalar>> found_;  ///< A triangle may be there more than once.
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

@@ -1,4 +1,4 @@
-// Lists that paths have come to, for the kernel. Highway compiles this for each instruction set.
+// Prepares the lists that paths have come to for the kernel. Highway compiles this file for each instruction set.
 
 #if defined(SUREHIT_LIST_JOBS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREHIT_LIST_JOBS_INL
@@ -25,35 +25,37 @@ HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
 /// The lists that the paths of a batch have come to, cut into jobs. A job is as many triangles of one list as the
-/// kernel takes at once. The kernel runs over many jobs before anything is done about its verdicts, because a processor
-/// can predict neither the length of a list nor a verdict.
+/// kernel takes at once. The kernel runs over many jobs before any verdict is used, because a processor can predict
+/// neither the length of a list nor a verdict.
 template <typename Scalar, typename Visitor>
 class ListJobs {
-  using Kernel = BlockKernel<Scalar>;
-  /// The kernel's lanes, in the widest vector of today.
+  using Kernel = typename Visitor::Kernel;
+  /// The number of lanes of the kernel, at most that of the widest vectors of today.
   static constexpr std::size_t kernel_lanes = std::min(hn::MaxLanes(hn::ScalableTag<Scalar>()), 64 / sizeof(Scalar));
-  static constexpr std::size_t slots = max_slots<Scalar>;
+  static constexpr std::size_t slots = max_slots<Scalar>;  ///< The number of slots.
 
  public:
-  /// So many triangles of each list become jobs before the verdicts on any of them are used. If any hit will do, the
-  /// rest of a list is often not needed.
+  /// The maximum number of triangles of a list that become jobs before their verdicts are used. It is lower if any hit
+  /// is enough, because the rest of a list is often not needed then.
   static constexpr std::size_t max_at_once = Visitor::wants_order ? 64 : 32;
   static_assert(max_at_once % kernel_lanes == 0);
-  /// The kernel runs over so many jobs at once. More would take stack.
+  /// The maximum number of jobs of one call of `classify`. More would take stack.
   static constexpr std::size_t max_jobs = 256 / kernel_lanes;
 
-  /// Triangles that the path of a slot may meet.
+  /// A job with triangles that the path of its slot may meet.
   struct Open {
-    std::size_t slot;
-    std::size_t from;  ///< The index in the list of lane 0.
-    Lanes lanes;
-    FirstLanes<Scalar> first;
+    std::size_t slot;          ///< The slot of the path.
+    std::size_t from;          ///< The index in the list of the triangle in lane 0.
+    Lanes lanes;               ///< The verdicts of the kernel.
+    FirstLanes<Scalar> first;  ///< The hits that may be first. It is set only if the visitor wants an order.
   };
 
-  void set_path(std::size_t slot, const KernelPath<Scalar>& path) { kernel_path_[slot] = path; }
+  /// Returns the path of a slot, which the caller sets.
+  [[nodiscard]] KernelPath<Scalar>& path(std::size_t slot) { return kernel_path_[slot]; }
+  /// Returns the list of a slot.
   [[nodiscard]] const TriangleList<Scalar>& list(std::size_t slot) const { return lists_[slot]; }
 
-  /// Finds the list of a slot's cell.
+  /// Finds the list of the cell of a slot, and the bounds of its path with this list.
   HWY_INLINE void find_list(std::size_t slot, const Query<Scalar>& query, CellWord word,
                             const RangeWeights<Scalar>& weights) {
     const TriangleList<Scalar>& list = lists_[slot] = list_of(query, word);
@@ -62,21 +64,24 @@ class ListJobs {
     query.statistics.candidates += list.count;
   }
 
-  /// Makes jobs of the slot's list, from one of its triangles on. Returns whether the list is longer than that.
-  HWY_INLINE bool add(std::size_t slot, std::size_t from) {
+  /// Makes jobs from up to `max_at_once` triangles of the slot's list. The first one is triangle `from`. There were
+  /// `count` jobs before. Returns true if the list has more triangles after these. The caller keeps the count in a
+  /// register for many lists, and then calls `set_count`.
+  HWY_INLINE bool add(std::size_t slot, std::size_t from, std::size_t& count) {
     const std::size_t lanes = hn::Lanes(hn::ScalableTag<Scalar>());
     const std::size_t left = lists_[slot].count - from;
     for (std::size_t i = 0; i < max_at_once; i += lanes) {
-      jobs_[count_ + i / lanes] = {static_cast<std::uint16_t>(slot), static_cast<std::uint16_t>(i)};
+      jobs_[count + i / lanes] = {static_cast<std::uint16_t>(slot), static_cast<std::uint16_t>(i)};
     }
-    count_ += (std::min(left, max_at_once) + lanes - 1) / lanes;
+    count += (std::min(left, max_at_once) + lanes - 1) / lanes;
     return left > max_at_once;
   }
+  /// Returns the number of jobs.
   [[nodiscard]] std::size_t count() const { return count_; }
-  void clear() { count_ = 0; }
+  void set_count(std::size_t count) { count_ = count; }
 
-  /// Runs the kernel over the next jobs, from job `first_job` on. `from` is what `add` was given. Returns those whose
-  /// path may meet a triangle.
+  /// Runs the kernel over up to `max_jobs` jobs, from job `first_job` on. `from` must be that of `add`. Returns the
+  /// jobs whose path may meet a triangle. The next call overwrites them.
   template <typename Queries, typename Visitors>
   HWY_NOINLINE std::span<const Open> classify(std::size_t first_job, std::size_t from, const Queries& queries,
                                               const Visitors& visitors) {
@@ -103,17 +108,18 @@ class ListJobs {
   }
 
  private:
+  /// As many triangles of a list as the kernel takes at once.
   struct Job {
-    std::uint16_t slot;
-    std::uint16_t from;  ///< Counted from those that were jobs before.
+    std::uint16_t slot;  ///< The slot of the path.
+    std::uint16_t from;  ///< The index of the first triangle, minus the `from` of `add`.
   };
-  /// `BlockKernel::Crossing` in memory.
+  /// A `BlockKernel::Crossing` in memory.
   struct alignas(kernel_lanes * sizeof(Scalar)) Crossing {
-    std::array<Scalar, kernel_lanes> height;
-    std::array<Scalar, kernel_lanes> det;
+    std::array<Scalar, kernel_lanes> height;  ///< The height of each lane.
+    std::array<Scalar, kernel_lanes> det;     ///< The det of each lane.
   };
 
-  /// Finds out which certain hits of an open job may be the first one.
+  /// Finds the certain hits of an open job that may be the first one.
   template <typename Queries, typename Visitors>
   HWY_INLINE void find_first(std::size_t i, const Queries& queries, const Visitors& visitors) {
     const hn::ScalableTag<Scalar> d;
@@ -121,7 +127,7 @@ class ListJobs {
     auto& [slot, from, lanes, first] = open_[i];
     if (lanes.certain == lanes.possible && std::has_single_bit(lanes.certain)) [[likely]] {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes.certain));
-      first = Kernel::lone_first(bounds_[slot], height[lane], det[lane], lanes.certain);
+      first = Kernel::first_of_one(bounds_[slot], height[lane], det[lane], lanes.certain);
       return;
     }
     const Scalar limit = visitors[slot].t_upper();
@@ -129,12 +135,12 @@ class ListJobs {
         Kernel::first_of(bounds_[slot], {hn::Load(d, height.data()), hn::Load(d, det.data())}, lanes.certain, limit);
     const bool is_clear = lanes.certain == lanes.possible && (first.lanes & (first.lanes - 1)) == 0;
     if (!is_clear) [[unlikely]] {
-      Kernel::weigh_each(kernel_path_[slot], lists_[slot], from, queries.weights_in(slot), limit, lanes, first);
+      Kernel::classify_each(kernel_path_[slot], lists_[slot], from, queries.weights_in(slot), limit, lanes, first);
     }
   }
 
-  /// Fetches the beginning of a list into the cache, or what lies after it. More lines would cost more than they save.
-  /// A single path does not prefetch, because it needs the list at once.
+  /// Fetches the beginning of a list into the cache. If the list is short, it also fetches what lies after it. More
+  /// lines would cost more than they save. A single path does not prefetch, because it needs the list at once.
   static void prefetch(const TriangleList<Scalar>& list) {
     constexpr std::size_t lines = 4;
     constexpr std::size_t line = 64 / sizeof(Scalar);
@@ -142,12 +148,12 @@ class ListJobs {
   }
 
   std::array<KernelPath<Scalar>, slots> kernel_path_;         ///< The path of each slot.
-  std::array<TriangleList<Scalar>, slots> lists_;             ///< The list that it has come to.
+  std::array<TriangleList<Scalar>, slots> lists_;             ///< The list that the path has come to.
   std::array<typename Kernel::Bounds, slots> bounds_;         ///< The bounds of the path and the list.
-  std::array<Job, slots * max_at_once / kernel_lanes> jobs_;  ///< Each slot has max_at_once / lanes of them at most.
+  std::array<Job, slots * max_at_once / kernel_lanes> jobs_;  ///< Each slot has at most max_at_once / lanes jobs.
   std::size_t count_ = 0;                                     ///< The number of jobs.
-  std::array<Open, max_jobs> open_;                           ///< What the kernel says of some jobs.
-  std::array<Crossing, Visitor::wants_order ? max_jobs : 0> crossings_;  ///< Where the paths of `open_` cross.
+  std::array<Open, max_jobs> open_;                           ///< The open jobs of the last call.
+  std::array<Crossing, Visitor::wants_order ? max_jobs : 0> crossings_;  ///< The crossings of `open_`.
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

@@ -1,4 +1,4 @@
-// The paths of a batch that wait for a lane. Highway compiles this for each instruction set.
+// Holds the paths of a batch that wait for a lane. Highway compiles this file for each instruction set.
 
 #if defined(SUREHIT_PATH_QUEUE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREHIT_PATH_QUEUE_INL
@@ -25,16 +25,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// The paths of a batch that are not walked yet. It clips as many at a time as a vector has lanes. `Queries` is
-/// `SharedQuery` or `OwnQueries`. Those that no lane can walk are answered by `alone(index)`.
+/// The paths of a batch that do not walk yet. It clips as many at a time as a vector has lanes. `Queries` is
+/// `SharedQuery` or `OwnQueries`. The queue calls `alone(index)` for each path that no lane can walk.
 template <typename Scalar, typename Queries, typename Alone>
 class PathQueue {
  public:
   PathQueue(const LaneWalk& walk, const Queries& queries, const PathSpan<Scalar>& paths, const Alone& alone)
       : walk_(walk), queries_(queries), paths_(paths), alone_(alone) {}
 
-  /// Puts waiting paths into idle lanes, and returns the lanes that it filled. It calls `enter(lane, index,
-  /// kernel_path)` for each, and for double with the path's `WalkParameter` too.
+  /// Puts waiting paths into idle lanes, and returns the lanes that it filled. For each of them it calls
+  /// `enter(lane, index)`, which returns where its KernelPath goes. For paths of doubles, the call also has the
+  /// `WalkParameter` of the path.
   template <bool has_levels, typename Enter>
   HWY_INLINE std::uint32_t fill(std::uint32_t idle, WalkingPaths& lanes, const Enter& enter) {
     std::uint32_t all_filled = 0;
@@ -47,9 +48,9 @@ class PathQueue {
         const auto to = static_cast<std::size_t>(std::countr_zero(idle));
         from_lane[to] = static_cast<std::int32_t>(from);
         if constexpr (is_float) {
-          enter(to, first_ + from, kernel_paths_.at(from));
+          kernel_paths_.copy(from, enter(to, first_ + from));
         } else {
-          enter(to, first_ + from, kernel_paths_[from], taus_[from]);
+          enter(to, first_ + from, taus_[from]) = kernel_paths_[from];
         }
         filled |= std::uint32_t{1} << to;
       }
@@ -61,9 +62,9 @@ class PathQueue {
 
  private:
   static constexpr bool is_float = std::is_same_v<Scalar, float>;
-  static constexpr std::size_t path_size = 6;               ///< Scalars
-  static constexpr std::size_t paths_ahead = 64;            ///< Paths are prefetched so many before they are clipped.
-  static constexpr std::size_t line = 64 / sizeof(Scalar);  ///< Scalars in a cache line.
+  static constexpr std::size_t path_size = 6;               ///< The number of scalars of a path.
+  static constexpr std::size_t paths_ahead = 64;            ///< Paths are prefetched this many paths ahead.
+  static constexpr std::size_t line = 64 / sizeof(Scalar);  ///< The number of scalars in a cache line.
 
   /// Clips the next paths until one of them can walk. Returns false if none is left.
   template <bool has_levels>
@@ -85,9 +86,10 @@ class PathQueue {
     return false;
   }
 
+  /// Clips `count` paths, one in each lane. The first of them is path `first_`.
   HWY_INLINE LaneWalk::Clipped clip(std::size_t count) {
     if constexpr (is_float) {
-      std::array<float, path_size * max_lanes> copies;  // Whole lanes are read.
+      std::array<float, path_size * max_lanes> copies;  // `LaneWalk::clip` reads all lanes.
       const bool can_read_all = is_packed_ && count == hn::Lanes(FloatTag());
       const float* const numbers = can_read_all ? paths_.packed(first_) : copy_paths(count, copies);
       const auto ends = queries_.ends(first_, count);
@@ -98,13 +100,14 @@ class PathQueue {
     }
   }
 
+  /// Copies `count` paths side by side. The other lanes become zero.
   HWY_NOINLINE const float* copy_paths(std::size_t count, std::array<float, path_size * max_lanes>& copies) const {
     copies.fill(0);
     for (std::size_t i = 0; i < count; ++i) paths_.copy(first_ + i, &copies[path_size * i]);
     return copies.data();
   }
 
-  /// Clips paths of doubles. They are clipped in double, and walked in float like all paths.
+  /// Clips paths of doubles, one by one in double. They walk in float, like all paths.
   HWY_NOINLINE LaneWalk::Clipped clip_one_by_one(std::size_t count) {
     const Grid& grid = queries_.of_batch().grid;
     LaneWalk::Clipped result = {0, 0};
@@ -123,8 +126,8 @@ class PathQueue {
     return result;
   }
 
-  /// Fetches paths into the cache, as many as are clipped together. The processor does not fetch them by itself,
-  /// because much else is read between two such reads.
+  /// Fetches into the cache as many paths as are clipped together. The first of them is path `first`. The processor
+  /// does not fetch them by itself, because the program reads much else in the meantime.
   HWY_INLINE void prefetch(std::size_t first) const {
     const std::size_t lanes = hn::Lanes(FloatTag());
     if (first + lanes > paths_.size() || !is_packed_) return;
@@ -132,8 +135,8 @@ class PathQueue {
     for (std::size_t from = 0; from < path_size * lanes; from += line) hwy::Prefetch(numbers + from);
   }
 
-  /// Steps the clipped paths that begin in empty cells, because most short ones end with this step. Returns the lanes
-  /// that still walk.
+  /// Makes one step with each clipped path that begins in an empty cell. Most short paths end with this step. Returns
+  /// the lanes that still walk.
   template <bool has_levels>
   HWY_INLINE std::uint32_t leave_empty_space(std::uint32_t inside) {
     const LaneWalk::Cells cells = walk_.look<has_levels>(clipped_, inside);
@@ -142,19 +145,22 @@ class PathQueue {
     return (inside & ~leaving) | walk_.advance(cells, leaving, clipped_);
   }
 
+  /// Takes the place of `taus_` for paths of floats.
   struct None {};
 
-  WalkingPaths clipped_ = {};  ///< The paths that were clipped last, one in each lane.
+  WalkingPaths clipped_ = {};  ///< The last paths that were clipped, one in each lane.
+  /// The same paths for the kernel.
   std::conditional_t<is_float, KernelLanes, std::array<KernelPath<Scalar>, max_lanes>> kernel_paths_ = {};
+  /// The parameters of their walks, for paths of doubles.
   [[no_unique_address]] std::conditional_t<is_float, None, std::array<WalkParameter, max_lanes>> taus_;
   const LaneWalk& walk_;
-  const Queries& queries_;
-  const PathSpan<Scalar>& paths_;
-  const bool is_packed_ = paths_.is_packed();
-  const Alone& alone_;
-  std::size_t next_ = 0;       ///< The first path that is not clipped yet.
-  std::size_t first_ = 0;      ///< The path in lane 0 of `clipped_`.
-  std::uint32_t waiting_ = 0;  ///< The lanes of `clipped_` whose paths wait.
+  const Queries& queries_;                     ///< The queries of the paths.
+  const PathSpan<Scalar>& paths_;              ///< All paths of the batch.
+  const bool is_packed_ = paths_.is_packed();  ///< True if paths can be read in place.
+  const Alone& alone_;                         ///< Answers a path that no lane can walk.
+  std::size_t next_ = 0;                       ///< The index of the first path that is not clipped yet.
+  std::size_t first_ = 0;                      ///< The index of the path in lane 0 of `clipped_`.
+  std::uint32_t waiting_ = 0;                  ///< The lanes of `clipped_` whose paths wait.
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

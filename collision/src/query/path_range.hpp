@@ -12,26 +12,29 @@
 
 namespace surehit::detail {
 
-/// The parameters that a query admits: [first, last], either end possibly infinite. Empty unless first <= last.
+/// The range of parameters that a query admits: [first, last]. Either end may be infinite.
 template <typename Scalar>
 struct PathRange {
   static constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
 
-  /// What the path's kind and the options' limits have in common. A NaN limit makes the range empty.
+  /// Makes the range that the kind of the path and the limits of the options both admit. If a limit is NaN, the range
+  /// is empty.
   PathRange(const Path<Scalar>& path, const QueryOptions<Scalar>& options) : PathRange(path.kind, options) {}
+  /// Does the same for a kind of path.
   PathRange(PathKind kind, const QueryOptions<Scalar>& options)
       : first(kind != PathKind::line ? Scalar{0} : -infinity), last(kind == PathKind::segment ? Scalar{1} : infinity) {
     if (!(options.min_t <= first)) first = options.min_t;
     if (!(options.max_t >= last)) last = options.max_t;
   }
 
-  /// An exact t is finite, so limits that only an infinity would meet admit nothing.
+  /// Returns true if the range has no finite t. An exact t is always finite.
   [[nodiscard]] bool is_empty() const { return !(first <= last && first < infinity && last > -infinity); }
 
-  Scalar first;
-  Scalar last;
+  Scalar first;  ///< The least t.
+  Scalar last;   ///< The greatest t.
 };
 
+/// Returns true if all coordinates are finite.
 template <typename Scalar>
 [[nodiscard]] bool is_finite(const Vector3<Scalar>& vector) {
   return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]);

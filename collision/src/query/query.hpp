@@ -18,47 +18,52 @@
 
 namespace surehit::detail {
 
-/// What is asked of one collider, whatever the paths are.
+/// A query of one collider.
 template <typename Scalar>
 struct Query {
-  const Grid& grid;
-  const MeshBlocks<Scalar>& mesh;
-  const std::vector<std::uint32_t>& masks;  ///< one a triangle, or none
-  const QueryOptions<Scalar>& options;
-  const HitFilter<Scalar>* filter;  ///< none if null
-  QueryStatistics& statistics;
-  std::size_t path;  ///< the index of the path in its batch, or of the batch's first path
+  const Grid& grid;                         ///< The grid of the collider.
+  const MeshBlocks<Scalar>& mesh;           ///< The mesh of the collider.
+  const std::vector<std::uint32_t>& masks;  ///< The mask of each triangle. It is empty if all masks have all bits.
+  const QueryOptions<Scalar>& options;      ///< The options of the query.
+  const HitFilter<Scalar>* filter;          ///< The filter, or null.
+  QueryStatistics& statistics;              ///< The query counts here.
+  std::size_t path;  ///< The index of the path in its batch. For a part of a batch, it is that of the first path.
 
-  /// Whether the filter accepts a hit.
+  /// Returns true if the filter accepts a hit, or if there is no filter.
   [[nodiscard]] bool accepts(const Hit<Scalar>& hit) const { return filter == nullptr || (*filter)(path, hit); }
+  /// Returns true if no mask and no option leaves the triangle out.
   [[nodiscard]] bool takes_part(std::uint32_t id) const {
     const std::uint32_t mask = masks.empty() ? ~std::uint32_t{0} : masks[id];
     return (mask & options.mask) != 0 && id != options.ignored_triangle;
   }
 };
 
-// These run on the best instruction set that the machine has; query.cpp compiles them for each.
+/// The searches, compiled for one instruction set.
+template <typename Scalar>
+struct Searches {
+  /// Returns the first hit of a path.
+  std::optional<Hit<Scalar>> (*first)(const Query<Scalar>& query, const Path<Scalar>& path) noexcept;
+  /// Returns true if a path has a hit.
+  bool (*any)(const Query<Scalar>& query, const Path<Scalar>& path) noexcept;
+  /// Appends all hits of a path in order. Each triangle has at most one hit. It may throw std::bad_alloc.
+  void (*all)(const Query<Scalar>& query, const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits);
 
-template <typename Scalar>
-[[nodiscard]] std::optional<Hit<Scalar>> dispatch_first_hit(const Query<Scalar>& query,
-                                                            const Path<Scalar>& path) noexcept;
-template <typename Scalar>
-[[nodiscard]] bool dispatch_any_hit(const Query<Scalar>& query, const Path<Scalar>& path) noexcept;
-/// Appends to `hits`, sorted, each triangle once.
-template <typename Scalar>
-void dispatch_all_hits(const Query<Scalar>& query, const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits);
+  // The searches for batches. There are as many answers as paths. `own_options` has one element for each path, or none
+  // at all.
 
-// These answer batches. There are as many answers as paths, and a miss is Hit{}. `own_options` has one element for each
-// path, or none.
+  /// Sets each answer to the first hit of the path. A miss is Hit{}.
+  void (*each_first)(const Query<Scalar>& query, const PathSpan<Scalar>& paths,
+                     std::span<const QueryOptions<Scalar>> own_options, std::span<Hit<Scalar>> hits) noexcept;
+  /// Sets each answer to 1 if the path has a hit, else to 0.
+  void (*each_any)(const Query<Scalar>& query, const PathSpan<Scalar>& paths,
+                   std::span<const QueryOptions<Scalar>> own_options, std::span<std::uint8_t> blocked) noexcept;
+};
 
+/// Returns the searches for the best instruction set that the machine has.
 template <typename Scalar>
-void dispatch_first_hits(const Query<Scalar>& query, const PathSpan<Scalar>& paths,
-                         std::span<const QueryOptions<Scalar>> own_options, Hit<Scalar>* hits) noexcept;
-template <typename Scalar>
-void dispatch_any_hits(const Query<Scalar>& query, const PathSpan<Scalar>& paths,
-                       std::span<const QueryOptions<Scalar>> own_options, std::uint8_t* blocked) noexcept;
+[[nodiscard]] const Searches<Scalar>* best_searches();
 
-/// What a batch's query asks of its path `index`.
+/// Returns the query of path `index` of a batch.
 template <typename Scalar>
 [[nodiscard]] Query<Scalar> query_of_path(const Query<Scalar>& batch, std::span<const QueryOptions<Scalar>> own_options,
                                           std::size_t index) {

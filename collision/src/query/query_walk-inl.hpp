@@ -1,4 +1,4 @@
-// Single paths, for the instruction set that Highway compiles this for.
+// Walks single paths. Highway compiles this file for each instruction set.
 
 #if defined(SUREHIT_QUERY_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREHIT_QUERY_WALK_INL
@@ -18,7 +18,7 @@
 #include "filter/hit_rounding-inl.hpp"
 #include "filter/kernel_path.hpp"
 #include "query/hit_visitors-inl.hpp"
-#if HWY_TARGET != HWY_SCALAR  // which has no lanes
+#if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
 #include "walk/lane_walk-inl.hpp"
 #endif
 #include "narrowphase.hpp"
@@ -28,6 +28,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
+/// Returns the list of a cell. The cell must have one.
 template <typename Scalar>
 HWY_INLINE TriangleList<Scalar> list_of(const Query<Scalar>& query, CellWord word) {
   const std::size_t first = query.grid.first_entry(word);
@@ -36,59 +37,72 @@ HWY_INLINE TriangleList<Scalar> list_of(const Query<Scalar>& query, CellWord wor
           MeshBlocks<Scalar>::edge_size(block)};
 }
 
-/// Shows the visitor the triangles of a list, from one of them on, that the path may meet. Returns whether the path is
-/// shorter now.
-template <typename Scalar, typename AnyPath, typename Visitor>
-HWY_INLINE bool meet_list(const Query<Scalar>& query, const PathRange<Scalar>& range, const AnyPath& path,
-                          const KernelPath<Scalar>& kernel_path, const RangeWeights<Scalar>& weights,
-                          const TriangleList<Scalar>& list, std::size_t from, Visitor& visitor) {
+/// The path and its range, as the kernel needs them.
+template <typename Scalar>
+struct KernelInput {
+  KernelInput(const Path<Scalar>& any_path, const PathRange<Scalar>& range, const GridFrame& frame)
+      : path(any_path, frame), weights(range) {}
+  KernelPath<Scalar> path;       ///< The path.
+  RangeWeights<Scalar> weights;  ///< The weights of its range.
+};
+
+/// Gives the visitor the triangles of a list that the path may meet. Returns true if the path is shorter now, or if the
+/// visitor is done.
+template <typename Scalar, typename Visitor>
+HWY_INLINE bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& range, const Path<Scalar>& path,
+                           const KernelInput<Scalar>& input, const TriangleList<Scalar>& list, Visitor& visitor) {
+  using Kernel = typename Visitor::Kernel;
+  query.statistics.candidates += list.count;
   bool shorter = false;
-  const auto bounds = Visitor::Kernel::bounds(kernel_path, weights, list);
-  for (; from < list.count; from += hn::Lanes(hn::ScalableTag<Scalar>())) {
+  const auto bounds = Kernel::bounds(input.path, input.weights, list);
+  for (std::size_t from = 0; from < list.count; from += hn::Lanes(hn::ScalableTag<Scalar>())) {
     FirstLanes<Scalar> first = {};
     Lanes lanes;
     if constexpr (Visitor::wants_order) {
-      lanes = classify<typename Visitor::Kernel>(kernel_path, weights, list, bounds, from, visitor.t_upper(), first);
+      lanes = classify<Kernel>(input.path, input.weights, list, bounds, from, visitor.t_upper(), first);
     } else {
-      lanes = classify<typename Visitor::Kernel>(kernel_path, weights, list, bounds, from);
+      lanes = classify<Kernel>(input.path, input.weights, list, bounds, from);
     }
     if (lanes.possible == 0) continue;
     query.statistics.undecided += static_cast<std::uint64_t>(std::popcount(lanes.possible & ~lanes.certain));
-    shorter |= visitor.meet(Meeting<Scalar, AnyPath>{query, range, path, list, from, lanes, first});
+    shorter |= visit(CandidateBlock<Scalar, Path<Scalar>>{query, range, path, list, from, lanes, first}, visitor);
     if (visitor.is_done()) return true;
   }
   return shorter;
 }
 
-/// What the kernel needs besides a list.
+/// Makes the input of the kernel at once. A long path of floats does this while it waits for the first cells.
 template <typename Scalar>
-struct ForKernel {
-  ForKernel(const Path<Scalar>& any_path, const PathRange<Scalar>& range, const GridFrame& frame)
-      : path(any_path, frame), weights(range) {}
-  KernelPath<Scalar> path;
-  RangeWeights<Scalar> weights;
-};
-
-/// A walk makes it at once, while it waits for the first cells, on a long path of floats; else for the first list that
-/// it meets, for most short paths meet none. (At once for all, short first hits took 1.04 of the time; on demand for
-/// all, long ones 1.03 to 1.07.)
-template <typename Scalar>
-struct AtOnce {
-  AtOnce(const Path<Scalar>& path, const PathRange<Scalar>& range, const GridFrame& frame) : made(path, range, frame) {}
-  const ForKernel<Scalar>& get(const Path<Scalar>&, const PathRange<Scalar>&, const GridFrame&) const { return made; }
-  ForKernel<Scalar> made;
-};
-template <typename Scalar>
-struct OnDemand {
-  OnDemand(const Path<Scalar>&, const PathRange<Scalar>&, const GridFrame&) {}
-  const ForKernel<Scalar>& get(const Path<Scalar>& path, const PathRange<Scalar>& range, const GridFrame& frame) {
-    if (!made) made.emplace(path, range, frame);
-    return *made;
+class AtOnce {
+ public:
+  AtOnce(const Path<Scalar>& path, const PathRange<Scalar>& range, const GridFrame& frame)
+      : input_(path, range, frame) {}
+  /// Returns the input that the constructor made.
+  const KernelInput<Scalar>& get(const Path<Scalar>&, const PathRange<Scalar>&, const GridFrame&) const {
+    return input_;
   }
-  std::optional<ForKernel<Scalar>> made;
+
+ private:
+  KernelInput<Scalar> input_;
 };
 
-/// Whether a path has so many cells before it, from some tau on.
+/// Makes the input of the kernel for the first list that the path comes to. Most short paths come to none.
+template <typename Scalar>
+class OnDemand {
+ public:
+  OnDemand(const Path<Scalar>&, const PathRange<Scalar>&, const GridFrame&) {}
+  /// Makes the input if there is none, and returns it.
+  const KernelInput<Scalar>& get(const Path<Scalar>& path, const PathRange<Scalar>& range, const GridFrame& frame) {
+    if (!input_) input_.emplace(path, range, frame);
+    return *input_;
+  }
+
+ private:
+  std::optional<KernelInput<Scalar>> input_;
+};
+
+/// Returns true if the path is at least `min_cells` top cells long from tau `enters` on. The lengths on all axes are
+/// added.
 HWY_INLINE bool is_long(float min_cells, const Grid& grid, const ClippedPath& clipped, float enters) {
   const float rate = clipped.rate[0] + clipped.rate[1] + clipped.rate[2];
   const float way = (std::min(clipped.end, clipped.exit) - enters) * rate;
@@ -96,80 +110,77 @@ HWY_INLINE bool is_long(float min_cells, const Grid& grid, const ClippedPath& cl
 }
 
 #if HWY_TARGET != HWY_SCALAR
-/// Shows the visitor the triangles of the lists that the path may meet in the cells in which lanes stand, until it is
-/// done.
+// The next functions walk one path in many lanes, for a visitor that is done with any hit. All lanes load their cells
+// at the same time, so the path waits less. For a first hit, most of what the later lanes find would not be needed.
+
+/// Gives the visitor the triangles that the path may meet in the cells of these lanes, until the visitor is done.
 template <typename Visitor>
-HWY_INLINE void meet_cells(const Query<float>& query, const PathRange<float>& range, const Path<float>& path,
-                           const ForKernel<float>& for_kernel, const LaneWalk& lanes, const LaneWalk::Cells& cells,
-                           std::uint32_t standing, const WalkingPaths& paths, Visitor& visitor) {
-  query.statistics.cells += static_cast<std::uint64_t>(std::popcount(standing));
-  std::uint32_t arriving = LaneWalk::in_lists(cells, standing);
-  if (arriving != 0) arriving = lanes.meet_lists(cells, arriving, paths);
+HWY_INLINE void visit_cells(const Query<float>& query, const PathRange<float>& range, const Path<float>& path,
+                            const KernelInput<float>& input, const LaneWalk& walk, const LaneWalk::Cells& cells,
+                            std::uint32_t walking, const WalkingPaths& lanes, Visitor& visitor) {
+  query.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking));
+  std::uint32_t arriving = LaneWalk::in_lists(cells, walking);
+  if (arriving != 0) arriving = walk.meet_lists(cells, arriving, lanes);
   if (arriving == 0) return;
   alignas(max_lanes * sizeof(float)) std::array<std::uint32_t, max_lanes> words;
   hn::Store(cells.word, BitsTag(), words.data());
   for (; arriving != 0 && !visitor.is_done(); arriving &= arriving - 1) {
-    const TriangleList<float> list =
-        list_of(query, CellWord(words[static_cast<std::size_t>(std::countr_zero(arriving))]));
-    query.statistics.candidates += list.count;
-    meet_list(query, range, path, for_kernel.path, for_kernel.weights, list, 0, visitor);
+    const CellWord word(words[static_cast<std::size_t>(std::countr_zero(arriving))]);
+    visit_list(query, range, path, input, list_of(query, word), visitor);
   }
 }
 
-// A path side by side, for a visitor that is content with any hit: no step has to wait for the cell that the step
-// before it loads. Where the first hit is wanted, what the later lanes find would be in vain.
-
-/// Walks a path in pieces, one in each lane.
+/// Cuts a path into pieces, and walks one piece in each lane. It begins at tau `enters`.
 template <bool has_levels, typename Visitor>
 HWY_NOINLINE void walk_in_pieces(float enters, const Query<float>& query, const Path<float>& path,
                                  const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
-  const LaneWalk lanes(query.grid, query.mesh.slabs());
+  const LaneWalk walk(query.grid, query.mesh.slabs());
   WalkingPaths pieces;
-  lanes.cut(clipped, enters, pieces);
-  const ForKernel<float> for_kernel(path, range, query.grid.frame());
+  walk.cut(clipped, enters, pieces);
+  const KernelInput<float> input(path, range, query.grid.frame());
   auto walking = static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(BitsTag())) - 1);
   while (walking != 0) {
-    const LaneWalk::Cells cells = lanes.look<has_levels>(pieces, walking);
-    meet_cells(query, range, path, for_kernel, lanes, cells, walking, pieces, visitor);
+    const LaneWalk::Cells cells = walk.look<has_levels>(pieces, walking);
+    visit_cells(query, range, path, input, walk, cells, walking, pieces, visitor);
     if (visitor.is_done()) return;
-    walking = lanes.advance(cells, walking, pieces);
+    walking = walk.advance(cells, walking, pieces);
   }
 }
 
-/// Stands in all cells of a path, one in each lane, in a grid that has no levels. None waits for another, and none is
-/// leapt over.
+/// Visits all cells of a path from tau `enters` on, one cell in each lane. The grid must have no levels. No cell waits
+/// for another one, but the walk cannot leap.
 template <typename Visitor>
-HWY_NOINLINE void stand_in_cells(float enters, const Query<float>& query, const Path<float>& path,
+HWY_NOINLINE void walk_all_cells(float enters, const Query<float>& query, const Path<float>& path,
                                  const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
-  const LaneWalk lanes(query.grid, query.mesh.slabs());
+  const LaneWalk walk(query.grid, query.mesh.slabs());
   const LaneWalk::Crossings crossings(clipped, enters);
-  WalkingPaths paths;
-  lanes.spread(clipped, paths);
-  const ForKernel<float> for_kernel(path, range, query.grid.frame());
+  WalkingPaths lanes;
+  walk.begin_crossings(clipped, lanes);
+  const KernelInput<float> input(path, range, query.grid.frame());
   float from = 0;
   do {
-    const std::uint32_t standing = lanes.stand(crossings, from, paths);
-    const LaneWalk::Cells cells = lanes.look<false>(paths, standing);
-    meet_cells(query, range, path, for_kernel, lanes, cells, standing, paths, visitor);
+    const std::uint32_t walking = walk.enter_crossings(crossings, from, lanes);
+    const LaneWalk::Cells cells = walk.look<false>(lanes, walking);
+    visit_cells(query, range, path, input, walk, cells, walking, lanes, visitor);
     from += static_cast<float>(hn::Lanes(FloatTag()));
   } while (from <= crossings.last && !visitor.is_done());
 }
 
-/// The one or the other if the path has so many cells before it that it pays. Returns whether it did. (In a grid of
-/// which two in five cells list triangles, long paths that stand in all cells take 0.91 of the time of those that walk
-/// in pieces, and lines of sight 0.89; in one of which a tenth do, where a piece leaps over most cells, 1.06 and 1.11.)
+/// Walks the path in lanes if it is long enough for this to be faster. Returns true if it walked. If many cells have
+/// lists, it is faster to visit all cells. If few cells have lists, it is faster to leap over the others.
 template <typename Visitor>
 HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const Path<float>& path,
                               const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
-  constexpr float min_in_pieces = 12;
-  constexpr float min_in_cells = 4;
-  constexpr std::size_t min_full = 4;  // one cell in as many lists triangles
+  constexpr float min_cells_in_pieces = 12;
+  constexpr float min_cells_at_once = 4;
+  constexpr std::size_t full_share = 4;  // More than one top cell in this many must have a list.
   const Grid& grid = query.grid;
   const bool has_levels = grid.levels() > 0;
-  const bool is_spread = LaneWalk::can_spread && !has_levels && grid.lists().size() * min_full > grid.top().size();
-  if (!is_long(is_spread ? min_in_cells : min_in_pieces, grid, clipped, enters)) return false;
-  if (is_spread) {
-    stand_in_cells(enters, query, path, range, clipped, visitor);
+  const bool takes_all =
+      LaneWalk::can_enter_crossings && !has_levels && grid.lists().size() * full_share > grid.top().size();
+  if (!is_long(takes_all ? min_cells_at_once : min_cells_in_pieces, grid, clipped, enters)) return false;
+  if (takes_all) {
+    walk_all_cells(enters, query, path, range, clipped, visitor);
   } else if (has_levels) {
     walk_in_pieces<true>(enters, query, path, range, clipped, visitor);
   } else {
@@ -179,21 +190,21 @@ HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const Pat
 }
 #endif
 
-/// Shows the visitor all triangles, until it is done.
+/// Gives the visitor all triangles of the mesh, until the visitor is done.
 template <typename Scalar, typename Visitor>
-HWY_NOINLINE void meet_all(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
-                           Visitor& visitor) {
+HWY_NOINLINE void visit_all(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
+                            Visitor& visitor) {
   ++query.statistics.unclipped;
   query.statistics.candidates += query.mesh.triangle_count();
-  const Narrowphase<Scalar> narrowphase(path, query.options, range, query.statistics);
+  const typename Visitor::Narrowphase narrowphase(path, query.options, range, query.statistics);
   for (std::uint32_t id = 0; id < query.mesh.triangle_count() && !visitor.is_done(); ++id) {
     Candidate<Scalar> candidate{id, query.mesh.triangle(id), {}};
-    visitor.meet(query, narrowphase, candidate);
+    visitor.take(query, narrowphase, candidate);
   }
 }
 
-/// Shows the visitor the triangles that the path may meet from some tau on, cell by cell, until it is done or the walk
-/// ends.
+/// Walks the path cell by cell from tau `enters` on, until the visitor is done. Gives the visitor the triangles that
+/// the path may meet. `When` is `AtOnce` or `OnDemand`.
 template <template <typename> class When, typename Scalar, typename Visitor>
 HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<Scalar>& path,
                           const PathRange<Scalar>& range, const ClippedPath& clipped, Visitor& visitor) {
@@ -207,10 +218,8 @@ HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<S
     ++query.statistics.cells;
     if (traversal.word().is_empty() || !traversal.meets_box()) continue;
     if (query.mesh.has_slabs() && !traversal.meets(query.mesh.slab(traversal.word()))) continue;
-    const ForKernel<Scalar>& for_kernel = when.get(path, range, query.grid.frame());
-    const TriangleList<Scalar> list = list_of(query, traversal.word());
-    query.statistics.candidates += list.count;
-    const bool shorter = meet_list(query, range, path, for_kernel.path, for_kernel.weights, list, 0, visitor);
+    const KernelInput<Scalar>& input = when.get(path, range, query.grid.frame());
+    const bool shorter = visit_list(query, range, path, input, list_of(query, traversal.word()), visitor);
     if constexpr (Visitor::wants_order) {
       if (shorter) traversal.shorten(visitor.limit());
     } else if (visitor.is_done()) {
@@ -219,18 +228,9 @@ HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<S
   }
 }
 
-/// The same for a long path, from where it enters the grid's cover to where it leaves that.
-template <typename Visitor>
-HWY_NOINLINE void walk_in_cover(const Query<float>& query, const Path<float>& path, const PathRange<float>& range,
-                                ClippedPath& clipped, Visitor& visitor) {
-  const GridCover::Part part =
-      query.grid.cover().part_of(clipped.start, clipped.inverse_rate, clipped.octant, clipped.end);
-  if (part.enters > part.leaves) return;
-  clipped.end = part.leaves;
-  walk_from<AtOnce>(part.enters, query, path, range, clipped, visitor);
-}
-
-/// Shows the visitor the triangles that the path may meet, until it is done.
+/// Gives the visitor the triangles that the path may meet, until the visitor is done. A long path of floats walks only
+/// through the grid's cover, if this is useful. Paths of doubles have one walk for all lengths, because two would take
+/// too much stack.
 template <typename Scalar, typename Visitor>
 HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
                      Visitor& visitor) {
@@ -239,7 +239,7 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
   ClippedPath clipped(query.grid, path, range.first, range.last);
   if (clipped.status == ClippedPath::Status::miss) return;
   if (clipped.status == ClippedPath::Status::too_far) {
-    meet_all(query, path, range, visitor);
+    visit_all(query, path, range, visitor);
     return;
   }
   constexpr float few_cells = 4;
@@ -248,43 +248,50 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
     ++query.statistics.cells;
     return;
   }
-  if constexpr (std::is_same_v<Scalar, float>) {  // for double, more than one walk would take too much stack
+  if constexpr (std::is_same_v<Scalar, float>) {
     if (is_far) {
-      if (query.grid.cover().is_useful()) {
-        walk_in_cover(query, path, range, clipped, visitor);
-      } else {
-        walk_from<AtOnce>(0, query, path, range, clipped, visitor);
+      float enters = 0;
+      const GridCover& cover = query.grid.cover();
+      if (cover.is_useful()) {
+        const GridCover::Part part = cover.part_of(clipped.start, clipped.inverse_rate, clipped.octant, clipped.end);
+        if (part.enters > part.leaves) return;
+        enters = part.enters;
+        clipped.end = part.leaves;
       }
+      walk_from<AtOnce>(enters, query, path, range, clipped, visitor);
       return;
     }
   }
   walk_from<OnDemand>(0, query, path, range, clipped, visitor);
 }
 
+/// Returns the first hit of a path.
 template <typename Scalar>
-std::optional<Hit<Scalar>> search_first(const Query<Scalar>& query, const Path<Scalar>& path) {
+std::optional<Hit<Scalar>> search_first(const Query<Scalar>& query, const Path<Scalar>& path) noexcept {
   const PathRange<Scalar> range(path, query.options);
   FirstHit<Scalar> first(query);
   walk(query, path, range, first);
   if (!first.is_found()) return std::nullopt;
   if constexpr (std::is_same_v<Scalar, float>) {
     Hit<Scalar> hit;
-    if (first.is_located_only() && try_round(path, first.triangle(), first.t_size(), first.edge_size(), hit)) {
-      hit.triangle = first.id(query);
+    if (first.is_certain() && try_round(path, first.triangle(), first.t_size(), first.edge_size(), hit)) {
+      hit.triangle = first.id();
       return hit;
     }
   }
-  return first.hit(query, Narrowphase<Scalar>(path, query.options, range, query.statistics));
+  return first.decide_hit(Narrowphase<Scalar>(path, query.options, range, query.statistics));
 }
 
+/// Returns true if the path has a hit.
 template <typename Scalar>
-bool search_any(const Query<Scalar>& query, const Path<Scalar>& path) {
+bool search_any(const Query<Scalar>& query, const Path<Scalar>& path) noexcept {
   const PathRange<Scalar> range(path, query.options);
   AnyHit<Scalar> any(query);
   walk(query, path, range, any);
   return any.is_done();
 }
 
+/// Appends all hits of a path in order. Each triangle has at most one hit.
 template <typename Scalar>
 void search_all(const Query<Scalar>& query, const Path<Scalar>& path, std::vector<Hit<Scalar>>& hits) {
   const PathRange<Scalar> range(path, query.options);

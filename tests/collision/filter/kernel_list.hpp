@@ -1,0 +1,94 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "grid/grid.hpp"
+#include "kernel_on_targets.hpp"
+#include "mesh/mesh_blocks.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "verdict.hpp"
+
+namespace surehit::test {
+
+/// Triangles in one list, as the kernel meets them in a collider.
+template <typename Scalar>
+class KernelList {
+ public:
+  explicit KernelList(std::span<const Triangle<Scalar>> triangles) {
+    GeneratedMesh<Scalar> mesh;
+    for (const Triangle<Scalar>& triangle : triangles) {
+      mesh.add(triangle);
+      a_.push_back(triangle.a);
+    }
+    grid_ = Grid(mesh.view(), box_of(mesh.view()), {.resolution = {1, 1, 1}, .crowded = 0});
+    blocks_ = MeshBlocks<Scalar>(mesh.view(), grid_);
+    const CellWord word = grid_.top()[0];
+    const std::size_t first = grid_.first_entry(word);
+    const Scalar* block = blocks_.block(word.number(), first);
+    list_ = {blocks_.corners(block), grid_.entry_count(word), blocks_.edge_size(block)};
+  }
+  explicit KernelList(const Triangle<Scalar>& triangle) : KernelList(std::span(&triangle, 1)) {}
+
+  [[nodiscard]] std::size_t size() const { return list_.count; }
+
+  /// Of triangle i, the first of the lanes or a later one; the range is not empty.
+  [[nodiscard]] detail::Verdict verdict(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
+                                        std::size_t i) const {
+    const std::size_t from = vector_of(i);
+    return verdict_of(verdicts_from(path, range, from), i - from);
+  }
+  /// Once each triangle has been weighed by its own products.
+  [[nodiscard]] detail::Verdict verdict_of_its_own(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
+                                                   std::size_t i) const {
+    const std::size_t from = vector_of(i);
+    return verdict_of(each_from(path, range, from, std::numeric_limits<Scalar>::infinity()).verdicts, i - from);
+  }
+
+  [[nodiscard]] KernelVerdicts verdicts_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
+                                             std::size_t from) const {
+    return classify(kernel_path(path), detail::RangeWeights<Scalar>(range), list_, from);
+  }
+
+  [[nodiscard]] KernelFirst<Scalar> first_from(const Path<Scalar>& path, std::size_t from, std::uint64_t certain,
+                                               Scalar limit) const {
+    const detail::RangeWeights<Scalar> weights(detail::PathRange<Scalar>(path, {}));
+    return first_of(kernel_path(path), weights, list_, from, certain, limit);
+  }
+
+  [[nodiscard]] KernelFirst<Scalar> first_of_one_from(const Path<Scalar>& path, std::size_t from,
+                                                      std::size_t lane) const {
+    const detail::RangeWeights<Scalar> weights(detail::PathRange<Scalar>(path, {}));
+    return first_of_one(kernel_path(path), weights, list_, from, lane);
+  }
+
+  [[nodiscard]] KernelEach<Scalar> each_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
+                                             std::size_t from, Scalar limit) const {
+    return classify_each(kernel_path(path), detail::RangeWeights<Scalar>(range), list_, from, limit);
+  }
+
+ private:
+  static std::size_t vector_of(std::size_t i) { return i / kernel_lanes<Scalar>() * kernel_lanes<Scalar>(); }
+  static detail::Verdict verdict_of(const KernelVerdicts& verdicts, std::size_t lane) {
+    if ((verdicts.possible >> lane & 1) == 0) return detail::Verdict::miss;
+    return (verdicts.certain >> lane & 1) != 0 ? detail::Verdict::hit : detail::Verdict::undecided;
+  }
+
+  /// For a path that need not come to the list: its bounds are those of the farthest corner a.
+  [[nodiscard]] detail::KernelPath<Scalar> kernel_path(const Path<Scalar>& path) const {
+    Scalar farthest = 0;
+    for (const Vector3<Scalar>& a : a_) farthest = std::max(farthest, (path.start - a).cwiseAbs().maxCoeff());
+    return {path, farthest - list_.edge_size};
+  }
+
+  std::vector<Vector3<Scalar>> a_;
+  Grid grid_;
+  MeshBlocks<Scalar> blocks_;
+  KernelTriangles<Scalar> list_;
+};
+
+}  // namespace surehit::test

@@ -1,0 +1,209 @@
+#include <gtest/gtest.h>
+#include <ucontext.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "collision/unit_triangles.hpp"
+#include "support/scalars.hpp"
+#include "surehit/collider.hpp"
+#include "surehit/intersect.hpp"
+
+// How much stack a function takes is the compiler's doing: the promise is for optimized builds, and sanitizers keep
+// their own red zones there.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // GCC
+#define SUREHIT_TEST_SANITIZED 1
+#elif defined(__has_feature)  // Clang, and what other headers define in its place
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define SUREHIT_TEST_SANITIZED 1
+#endif
+#endif
+#if defined(__OPTIMIZE__) && !defined(SUREHIT_TEST_SANITIZED)
+
+namespace surehit::test {
+namespace {
+
+constexpr std::size_t promised_bytes = 16 * 1024;
+/// Batches walk many paths at once.
+template <typename Scalar>
+constexpr std::size_t promised_bytes_of_batches = (std::is_same_v<Scalar, float> ? 32 : 48) * 1024;
+constexpr std::uint64_t paint = 0x5aa5c33c0ff0a55a;
+
+/// A stack of its own for a call, painted so that one sees how deep the call went.
+class PaintedStack {
+ public:
+  std::size_t bytes_used_by(const std::function<void()>& call) {
+    call();  // the dynamic linker takes stack of its own when it first binds a symbol
+    const std::size_t around = used_by([] {});
+    return used_by(call) - around;
+  }
+
+ private:
+  std::size_t used_by(const std::function<void()>& call) {
+    std::fill(stack_.begin(), stack_.end(), paint);
+    ucontext_t caller;
+    ucontext_t callee;
+    getcontext(&callee);
+    callee.uc_stack.ss_sp = stack_.data();
+    callee.uc_stack.ss_size = stack_.size() * sizeof paint;
+    callee.uc_link = &caller;
+    current = &call;
+    makecontext(&callee, run, 0);
+    swapcontext(&caller, &callee);
+    const auto touched = std::find_if(stack_.begin(), stack_.end(), [](std::uint64_t word) { return word != paint; });
+    return static_cast<std::size_t>(stack_.end() - touched) * sizeof paint;
+  }
+
+  static void run() { (*current)(); }
+
+  static inline const std::function<void()>* current = nullptr;
+  std::vector<std::uint64_t> stack_ = std::vector<std::uint64_t>(16 * promised_bytes / sizeof paint);
+};
+
+template <typename Scalar>
+class QueryStack : public testing::Test {
+ protected:
+  using Limits = std::numeric_limits<Scalar>;
+  static constexpr Scalar tiny = Limits::denorm_min();
+  static constexpr Scalar huge = Limits::max();
+
+  struct Case {
+    std::string name;
+    Path<Scalar> path;
+    Triangle<Scalar> triangle;
+  };
+
+  /// Every branch of the exact stage, with numbers that are as long as they get: the least and the largest in one pair.
+  static std::vector<Case> cases() {
+    const Triangle<Scalar> wide{{-huge, -huge, tiny}, {huge, -huge, tiny}, {tiny, huge, tiny}};
+    const Triangle<Scalar> tilted{{-huge, -huge, -huge}, {huge, tiny, huge}, {tiny, huge, huge / 3}};
+    const Triangle<Scalar> needle{{-huge, -huge, -huge}, {tiny, tiny, tiny}, {huge, huge, huge}};
+    const Triangle<Scalar> straight_needle{{-huge, tiny, tiny}, {tiny, tiny, tiny}, {huge, tiny, tiny}};
+    const Triangle<Scalar> dot{{tiny, tiny, tiny}, {tiny, tiny, tiny}, {tiny, tiny, tiny}};
+    const Vector3<Scalar> middle{tiny, tiny, tiny};
+    const Vector3<Scalar> high{huge / 3, huge / 5, huge};
+    const Vector3<Scalar> low{-huge / 7, tiny, -huge};
+    const Vector3<Scalar> left{-huge, huge / 3, tiny};
+    const Vector3<Scalar> right{huge, -huge / 5, tiny};
+    return {{"across", Segment<Scalar>{high, low}, wide},
+            {"across_tilted", Segment<Scalar>{high, low}, tilted},
+            {"across_at_a_corner", Segment<Scalar>{{tiny, huge, huge}, {tiny, huge, -huge}}, wide},
+            {"ray_across", Ray<Scalar>{high, {-tiny, -tiny, -huge}}, wide},
+            {"line_across", Line<Scalar>{high, {-tiny, -tiny, huge}}, wide},
+            {"in_plane", Segment<Scalar>{left, right}, wide},
+            {"ray_in_plane", Ray<Scalar>{left, {huge, tiny, 0}}, wide},
+            {"line_in_plane", Line<Scalar>{right, {huge, tiny, 0}}, wide},
+            {"standing", Segment<Scalar>{middle, middle}, wide},
+            {"across_needle", Segment<Scalar>{{tiny, tiny, huge}, {tiny, tiny, -huge}}, straight_needle},
+            {"along_needle", Segment<Scalar>{{-huge, tiny, tiny}, {huge, tiny, tiny}}, straight_needle},
+            {"along_slanted_needle", Segment<Scalar>{{-huge, -huge, -huge}, {huge, huge, huge}}, needle},
+            {"standing_on_needle", Segment<Scalar>{middle, middle}, straight_needle},
+            {"across_dot", Segment<Scalar>{{tiny, tiny, huge}, {tiny, tiny, -huge}}, dot},
+            {"standing_on_dot", Segment<Scalar>{middle, middle}, dot}};
+  }
+
+  static std::vector<QueryOptions<Scalar>> all_options() {
+    return {{}, {.min_t = tiny}, {.min_t = -huge, .max_t = huge}, {.min_t = Scalar(0.3), .max_t = Scalar(0.9)}};
+  }
+
+  void expect_less_than(std::size_t promised, const std::string& name, const std::function<void()>& call) {
+    const std::size_t bytes = stack_.bytes_used_by(call);
+    testing::Test::RecordProperty(name, std::to_string(bytes));
+    EXPECT_LT(bytes, promised) << name;
+  }
+
+  template <typename Call>
+  void expect_all_within_promise(Call&& call, std::size_t promised = promised_bytes) {
+    for (const Case& one : cases()) {
+      GeneratedMesh<Scalar> mesh;
+      mesh.add(one.triangle);
+      mesh.add({one.triangle.b, one.triangle.c, one.triangle.a});
+      const Collider<Scalar> collider(mesh.view());
+      std::size_t number = 0;
+      for (const QueryOptions<Scalar>& options : all_options()) {
+        expect_less_than(promised, one.name + "_" + std::to_string(number++), [&] { call(collider, one, options); });
+      }
+    }
+  }
+
+ private:
+  PaintedStack stack_;
+};
+TYPED_TEST_SUITE(QueryStack, Scalars, ScalarNames);
+
+TYPED_TEST(QueryStack, painted_stack_sees_how_deep_a_call_goes) {
+  PaintedStack stack;
+  const std::size_t bytes = stack.bytes_used_by([] {
+    volatile char block[10'000];
+    for (volatile char& byte : block) byte = 1;
+  });
+  EXPECT_NEAR(static_cast<double>(bytes), 10'000, 1'000);
+}
+
+TYPED_TEST(QueryStack, of_intersect) {
+  this->expect_all_within_promise([](const auto&, const auto& one, const auto& options) {
+    static_cast<void>(intersect(one.path, one.triangle, options));
+  });
+}
+
+TYPED_TEST(QueryStack, of_first_hit) {
+  this->expect_all_within_promise([](const auto& collider, const auto& one, const auto& options) {
+    static_cast<void>(collider.first_hit(one.path, options));
+  });
+}
+
+TYPED_TEST(QueryStack, of_first_hit_with_a_filter) {
+  this->expect_all_within_promise([](const auto& collider, const auto& one, const auto& options) {
+    static_cast<void>(collider.first_hit(
+        one.path, [](const auto& hit) { return hit.triangle > 0; }, options));
+  });
+}
+
+TYPED_TEST(QueryStack, of_any_hit) {
+  this->expect_all_within_promise([](const auto& collider, const auto& one, const auto& options) {
+    static_cast<void>(collider.any_hit(one.path, options));
+  });
+}
+
+TYPED_TEST(QueryStack, of_batches) {
+  const auto call = [](const auto& collider, const auto& one, const auto& options) {
+    const Segment<TypeParam> segments[] = {{one.path.start, one.path.toward}, {one.path.toward, one.path.start}};
+    Hit<TypeParam> hits[2];
+    std::uint8_t blocked[2];
+    const BatchOptions<TypeParam> batch{.options = options};
+    collider.first_hits(segments, hits, batch);
+    collider.any_hits(segments, blocked, batch);
+  };
+  this->expect_all_within_promise(call, promised_bytes_of_batches<TypeParam>);
+}
+
+TYPED_TEST(QueryStack, of_last_free_point) {
+  this->expect_all_within_promise([](const auto& collider, const auto& one, const auto& options) {
+    const Segment<TypeParam> segment{one.path.start, one.path.toward};
+    static_cast<void>(collider.last_free_point(segment, Hit<TypeParam>{.t = TypeParam{0.5}, .triangle = 0}, options));
+    static_cast<void>(collider.last_free_point(segment, Hit<TypeParam>{.t = 0x1p-60, .triangle = 0}, options));
+  });
+}
+
+TYPED_TEST(QueryStack, of_point_and_normal) {
+  this->expect_all_within_promise([](const auto&, const auto& one, const auto&) {
+    const Line<TypeParam> line{one.path.start, one.path.toward};
+    static_cast<void>(point(line, Hit<TypeParam>{.t = TestFixture::tiny}));
+    static_cast<void>(point(line, Hit<TypeParam>{.t = TypeParam(0.3)}));
+    static_cast<void>(point(Segment<TypeParam>{line.origin, line.direction}, Hit<TypeParam>{.t = TypeParam(0.3)}));
+    const std::uint32_t corners[] = {0, 1, 2};
+    const Vector3<TypeParam> vertices[] = {one.triangle.a, one.triangle.b, one.triangle.c};
+    static_cast<void>(normal(TriangleMeshView<TypeParam>(vertices, corners), 0));
+  });
+}
+
+}  // namespace
+}  // namespace surehit::test
+
+#endif
