@@ -37,6 +37,30 @@ foreach(compiler IN LISTS COMPILER OTHER_COMPILER)
   endif()
 endforeach()
 
+# Clang warns of views of containers that end before them, and not of views of spans.
+if(OTHER_COMPILER)
+  file(WRITE "${TEST_FOLDER}/lifetimes.cpp" "#include <vector>
+#include <surehit/surehit.hpp>
+using namespace surehit;
+VertexViewf points() { std::vector<Vector3f> local(3); return local; }
+TriangleIndexView triangles() { std::vector<int> local(3); return local; }
+PathSpanf paths() { std::vector<Rayf> local(3); return local; }
+VertexViewf same_points(std::span<const Vector3f> points) { return points; }
+VertexViewf same_points(const float* points, int count) { return Eigen::Map<const Eigen::Matrix3Xf>(points, 3, count); }
+PathSpanf same_paths(std::span<const Segmentf> paths) { return paths; }
+TriangleMeshViewf same_mesh(std::span<const Vector3f> points, std::span<const int> triangles) { return {points, triangles}; }
+")
+  execute_process(COMMAND "${OTHER_COMPILER}" ${include_flags} -fsyntax-only "${TEST_FOLDER}/lifetimes.cpp"
+    OUTPUT_VARIABLE warnings ERROR_VARIABLE warnings COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "local variable 'local' returned" of_containers "${warnings}")
+  string(REGEX MATCHALL "warning:" all "${warnings}")
+  list(LENGTH of_containers of_containers)
+  list(LENGTH all all)
+  if(NOT of_containers EQUAL 3 OR NOT all EQUAL 3)
+    message(FATAL_ERROR "Clang warns ${all} times, of containers ${of_containers} times, instead of 3 times:\n${warnings}")
+  endif()
+endif()
+
 # Before C++20 there is one error, which says what is needed.
 list(REMOVE_ITEM include_flags -std=c++20)
 file(WRITE "${TEST_FOLDER}/old.cpp" "#include <surehit/surehit.hpp>\n")

@@ -19,6 +19,12 @@ concept PathOf = std::same_as<T, Segment<Scalar>> || std::same_as<T, Ray<Scalar>
 /// A range of paths of one kind that does not dangle in a view.
 template <typename Range, typename Scalar>
 concept RangeOfPaths = ViewableRange<Range> && PathOf<RangeElement<Range>, Scalar>;
+/// A container of paths.
+template <typename Range, typename Scalar>
+concept PathContainer = RangeOfPaths<Range, Scalar> && !RefersToMemory<Range>;
+/// A view of paths, such as a span.
+template <typename Range, typename Scalar>
+concept PathReference = RangeOfPaths<Range, Scalar> && RefersToMemory<Range>;
 }  // namespace detail
 
 /// A view of paths of one kind in memory that the user owns. It copies nothing, and must not outlive the paths.
@@ -30,16 +36,14 @@ class PathSpan {
   /// Makes a view of no paths.
   PathSpan() = default;
 
-  /// Makes a view of a range of segments, of rays or of lines that lie side by side. A temporary container does not
-  /// compile.
-  template <detail::RangeOfPaths<Scalar> Paths>
+  /// Makes a view of a container of segments, of rays or of lines side by side. A temporary container does not compile.
+  template <detail::PathContainer<Scalar> Paths>
   PathSpan(Paths&& paths SUREHIT_LIFETIMEBOUND) noexcept
-      : kind_(kind_of<detail::RangeElement<Paths>>), size_(std::ranges::size(paths)) {
-    static_assert(sizeof(detail::RangeElement<Paths>) == path_bytes);
-    if (size_ == 0) return;
-    start_ = reinterpret_cast<const std::byte*>(std::ranges::data(paths));
-    toward_ = start_ + path_bytes / 2;
-  }
+      : PathSpan(kind_of<detail::RangeElement<Paths>>, std::ranges::data(paths), std::ranges::size(paths)) {}
+  /// Does the same for a `std::span` or another view. It may be a temporary one.
+  template <detail::PathReference<Scalar> Paths>
+  PathSpan(Paths&& paths) noexcept
+      : PathSpan(kind_of<detail::RangeElement<Paths>>, std::ranges::data(paths), std::ranges::size(paths)) {}
 
   /// Returns a view of segments from starts[i] to ends[i]. It has as many paths as the shorter view has points. It has
   /// none if `VertexView::is_valid` is false for one of the views.
@@ -95,6 +99,14 @@ class PathSpan {
   static constexpr PathKind kind_of = std::same_as<AnyPath, Segment<Scalar>> ? PathKind::segment
                                       : std::same_as<AnyPath, Ray<Scalar>>   ? PathKind::ray
                                                                              : PathKind::line;
+
+  template <typename AnyPath>
+  PathSpan(PathKind kind, const AnyPath* paths, std::size_t size) : kind_(kind), size_(size) {
+    static_assert(sizeof(AnyPath) == path_bytes);
+    if (size == 0) return;
+    start_ = reinterpret_cast<const std::byte*>(paths);
+    toward_ = start_ + path_bytes / 2;
+  }
 
   PathSpan(PathKind kind, const VertexView<Scalar>& starts, const VertexView<Scalar>& towards)
       : kind_(kind),

@@ -42,6 +42,15 @@ concept RangeOfTriangles = ViewableRange<Range> && VertexIndex<IndexOfTripleT<Ra
 /// A range of indices that does not dangle in a view.
 template <typename Range>
 concept RangeOfIndices = ViewableRange<Range> && VertexIndex<RangeElement<Range>>;
+/// What a view of triangles is made of.
+template <typename T>
+concept TriangleSource = RangeOfTriangles<T> || RangeOfIndices<T> || ViewableMatrix<T>;
+/// A container of triangles.
+template <typename T>
+concept TriangleContainer = TriangleSource<T> && !RefersToMemory<T>;
+/// A view of triangles, such as a span.
+template <typename T>
+concept TriangleReference = TriangleSource<T> && RefersToMemory<T>;
 }  // namespace detail
 
 /// A view of triangles in memory that the user owns. A triangle is three indices of vertices, of 32 bits or of 16 bits
@@ -53,28 +62,19 @@ class TriangleIndexView {
   /// Makes a view of no triangles.
   TriangleIndexView() = default;
 
-  /// Makes a view of a range of triangles that lie side by side. A triangle is a `std::array<Index, 3>`, an `Index[3]`
-  /// or an `Eigen::Matrix<Index, 3, 1>`. A temporary container does not compile.
-  template <detail::RangeOfTriangles Triangles>
+  /// Makes a view of a container of triangles, which must have a name: a temporary one does not compile. It may be:
+  ///
+  /// - A range of triangles side by side. A triangle is a `std::array<Index, 3>`, an `Index[3]` or an
+  ///   `Eigen::Matrix<Index, 3, 1>`.
+  /// - A range of the indices a, b, c, a, b, c, and so on. A build refuses a size that is not a multiple of three.
+  /// - A column-major 3×N Eigen matrix. A column is a triangle. An expression that is not memory does not compile.
+  template <detail::TriangleContainer Triangles>
   TriangleIndexView(Triangles&& triangles SUREHIT_LIFETIMEBOUND) noexcept
-      : triples_(detail::TripleArray::of_triples(triangles)),
-        index_size_(sizeof(detail::IndexOfTripleT<detail::RangeElement<Triangles>>)) {}
-
-  /// Makes a view of a range of the indices a, b, c, a, b, c, and so on. A build refuses a size that is not a multiple
-  /// of three. A temporary container does not compile.
-  template <detail::RangeOfIndices Indices>
-  TriangleIndexView(Indices&& indices SUREHIT_LIFETIMEBOUND) noexcept
-      : triples_(detail::TripleArray::of_numbers(indices)), index_size_(sizeof(detail::RangeElement<Indices>)) {}
-
-  /// Makes a view of a column-major 3×N Eigen matrix, or of a map or a block of one. A column is a triangle. An
-  /// expression that is not memory does not compile, and neither does a temporary matrix.
-  template <detail::ViewableMatrix Matrix>
-  TriangleIndexView(Matrix&& matrix SUREHIT_LIFETIMEBOUND) noexcept
-      : triples_(detail::TripleArray::of_columns(matrix)),
-        index_size_(sizeof(typename std::remove_cvref_t<Matrix>::Scalar)) {
-    static_assert(detail::VertexIndex<typename std::remove_cvref_t<Matrix>::Scalar>,
-                  "surehit: indices are 32-bit integers, or unsigned 16-bit ones");
-  }
+      : triples_(detail::TripleArray::of(triangles)), index_size_(index_size_of(triangles)) {}
+  /// Does the same for a `std::span` or an `Eigen::Map`, or another view. It may be a temporary one.
+  template <detail::TriangleReference Triangles>
+  TriangleIndexView(Triangles&& triangles) noexcept
+      : triples_(detail::TripleArray::of(triangles)), index_size_(index_size_of(triangles)) {}
 
   /// Returns a view of triangles from `first` on that begin `stride_bytes` apart. 0 means that they lie side by side. A
   /// build refuses a stride that is smaller than a triangle.
@@ -103,6 +103,19 @@ class TriangleIndexView {
   [[nodiscard]] std::size_t index_size() const { return index_size_; }
 
  private:
+  template <typename Triangles>
+  static constexpr std::size_t index_size_of(const Triangles&) {
+    if constexpr (detail::EigenMatrix<Triangles>) {
+      static_assert(detail::VertexIndex<typename Triangles::Scalar>,
+                    "surehit: indices are 32-bit integers, or unsigned 16-bit ones");
+      return sizeof(typename Triangles::Scalar);
+    } else if constexpr (detail::RangeOfIndices<const Triangles&>) {
+      return sizeof(detail::RangeElement<const Triangles&>);
+    } else {
+      return sizeof(detail::IndexOfTripleT<detail::RangeElement<const Triangles&>>);
+    }
+  }
+
   detail::TripleArray triples_ = {nullptr, 0, 3 * sizeof(std::uint32_t)};
   std::size_t index_size_ = sizeof(std::uint32_t);
 };

@@ -32,6 +32,11 @@ template <typename Range>
 concept ViewableRange = !EigenMatrix<Range> && std::ranges::contiguous_range<Range> &&
                         std::ranges::sized_range<Range> && std::ranges::borrowed_range<Range>;
 
+/// A span, an Eigen map or the like. It may end before a view of the memory that it refers to. A container may not.
+template <typename T>
+concept RefersToMemory = std::ranges::enable_borrowed_range<std::remove_cvref_t<T>> ||
+    (EigenMatrix<T> && !std::is_base_of_v<Eigen::PlainObjectBase<std::remove_cvref_t<T>>, std::remove_cvref_t<T>>);
+
 /// The type of a range's elements.
 template <typename Range>
 using RangeElement = std::remove_cvref_t<std::ranges::range_reference_t<Range>>;
@@ -62,6 +67,16 @@ concept RangeOfTriples = ViewableRange<Range> && TripleOf<RangeElement<Range>, N
 template <typename Range, typename Number>
 concept RangeOfNumbers = ViewableRange<Range> && std::same_as<RangeElement<Range>, Number>;
 
+/// What a view of points is made of.
+template <typename T, typename Number>
+concept PointSource = RangeOfTriples<T, Number> || RangeOfNumbers<T, Number> || ViewableMatrix<T>;
+/// A container of points.
+template <typename T, typename Number>
+concept PointContainer = PointSource<T, Number> && !RefersToMemory<T>;
+/// A view of points, such as a span.
+template <typename T, typename Number>
+concept PointReference = PointSource<T, Number> && RefersToMemory<T>;
+
 /// True if the matrix is column-major memory of three rows. Columns may lie apart.
 template <typename Matrix>
 inline constexpr bool is_columns_of_three = int{Matrix::RowsAtCompileTime} == 3 &&
@@ -76,6 +91,17 @@ struct TripleArray {
   std::size_t stride = 0;            ///< The bytes from the beginning of one triple to that of the next.
   std::size_t left_over = 0;         ///< The number of numbers after the last whole triple: 0, 1 or 2.
 
+  /// Returns the triples of a range of triples, of a range of numbers, or of a matrix.
+  template <typename Source>
+  [[nodiscard]] static TripleArray of(const Source& source) {
+    if constexpr (EigenMatrix<Source>) {
+      return of_columns(source);
+    } else if constexpr (std::is_arithmetic_v<RangeElement<const Source&>>) {
+      return of_numbers(source);
+    } else {
+      return of_triples(source);
+    }
+  }
   /// Returns the triples of a range of triples.
   template <typename Range>
   [[nodiscard]] static TripleArray of_triples(const Range& triples) {
@@ -130,24 +156,18 @@ class VertexView {
   /// Makes a view of no points.
   VertexView() = default;
 
-  /// Makes a view of a range of points that lie side by side. A point is a `Vector3<Scalar>`, a `std::array<Scalar, 3>`
-  /// or a `Scalar[3]`. It may also be a standard-layout struct that begins with the Scalars x, y and z, side by side. A
-  /// temporary container does not compile.
-  template <detail::RangeOfTriples<Scalar> Points>
-  VertexView(Points&& points SUREHIT_LIFETIMEBOUND) noexcept : triples_(detail::TripleArray::of_triples(points)) {}
-
-  /// Makes a view of a range of the numbers x, y, z, x, y, z, and so on. A build refuses a size that is not a multiple
-  /// of three. A temporary container does not compile.
-  template <detail::RangeOfNumbers<Scalar> Numbers>
-  VertexView(Numbers&& numbers SUREHIT_LIFETIMEBOUND) noexcept : triples_(detail::TripleArray::of_numbers(numbers)) {}
-
-  /// Makes a view of a column-major 3×N Eigen matrix, or of a map or a block of one. A column is a point. An expression
-  /// that is not memory does not compile, and neither does a temporary matrix.
-  template <detail::ViewableMatrix Matrix>
-  VertexView(Matrix&& matrix SUREHIT_LIFETIMEBOUND) noexcept : triples_(detail::TripleArray::of_columns(matrix)) {
-    static_assert(std::same_as<typename std::remove_cvref_t<Matrix>::Scalar, Scalar>,
-                  "surehit: the points must be of the view's Scalar");
-  }
+  /// Makes a view of a container of points, which must have a name: a temporary one does not compile. It may be:
+  ///
+  /// - A range of points side by side. A point is a `Vector3<Scalar>`, a `std::array<Scalar, 3>` or a `Scalar[3]`. It
+  /// may
+  ///   also be a standard-layout struct that begins with the Scalars x, y and z, side by side.
+  /// - A range of the numbers x, y, z, x, y, z, and so on. A build refuses a size that is not a multiple of three.
+  /// - A column-major 3×N Eigen matrix. A column is a point. An expression that is not memory does not compile.
+  template <detail::PointContainer<Scalar> Points>
+  VertexView(Points&& points SUREHIT_LIFETIMEBOUND) noexcept : triples_(triples_of(points)) {}
+  /// Does the same for a `std::span` or an `Eigen::Map`, or another view. It may be a temporary one.
+  template <detail::PointReference<Scalar> Points>
+  VertexView(Points&& points) noexcept : triples_(triples_of(points)) {}
 
   /// Returns a view of points from `first` on that begin `stride_bytes` apart, as in an interleaved vertex buffer. 0
   /// means that they lie side by side. A build refuses a stride that is smaller than a point.
@@ -174,6 +194,14 @@ class VertexView {
   [[nodiscard]] const detail::TripleArray& triples() const { return triples_; }
 
  private:
+  template <typename Points>
+  static detail::TripleArray triples_of(const Points& points) {
+    if constexpr (detail::EigenMatrix<Points>) {
+      static_assert(std::same_as<typename Points::Scalar, Scalar>, "surehit: the points must be of the view's Scalar");
+    }
+    return detail::TripleArray::of(points);
+  }
+
   detail::TripleArray triples_ = {nullptr, 0, 3 * sizeof(Scalar)};
 };
 
