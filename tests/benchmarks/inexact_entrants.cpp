@@ -68,7 +68,7 @@ class Unfiltered : BlockDeterminants<float> {
     const auto taken = mask_of(d, hits);
     const V t =
         hn::IfThenElse(taken, hn::Div(crossing.height, crossing.det), all(std::numeric_limits<float>::infinity()));
-    const float least = hn::GetLane(hn::MinOfLanes(d, t));
+    const float least = min_of_lanes(d, t);
     return {bits_of(d, hn::And(taken, hn::Eq(t, all(least)))), least, least};
   }
 

@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -46,6 +47,18 @@ struct FirstLanes {
   Scalar t_lower;       ///< The first exact t is at least this.
   Scalar t_upper;       ///< The first exact t is at most this.
 };
+
+/// Returns the least lane, which may be infinite. Highway's emulated vectors begin with the largest finite number.
+template <class D>
+HWY_INLINE hn::TFromD<D> min_of_lanes(D d, hn::Vec<D> v) {
+#if HWY_TARGET == HWY_EMU128
+  std::array<hn::TFromD<D>, hn::MaxLanes(D())> lanes;
+  hn::StoreU(v, d, lanes.data());
+  return *std::min_element(lanes.begin(), lanes.end());
+#else
+  return hn::GetLane(hn::MinOfLanes(d, v));
+#endif
+}
 
 /// The terms that each determinant sums: its six products, or their absolute values for an error bound (K6).
 enum class Products : std::uint8_t { as_they_are, by_size };
@@ -311,9 +324,9 @@ class BlockKernel : BlockDeterminants<Scalar> {
     const Interval<Tag> t = interval_of_t(d, det_bound, height_bound, crossing.det, crossing.height);
     const auto taken = mask_of(d, certain);
     const V lower = hn::IfThenElse(taken, t.lower, infinity);
-    const Scalar t_upper = hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(taken, t.upper, infinity)));
+    const Scalar t_upper = min_of_lanes(d, hn::IfThenElse(taken, t.upper, infinity));
     const auto lanes = hn::And(taken, hn::Le(lower, all(std::min(t_upper, limit))));
-    return {bits_of(d, lanes), hn::GetLane(hn::MinOfLanes(d, lower)), t_upper};
+    return {bits_of(d, lanes), min_of_lanes(d, lower), t_upper};
   }
 };
 
