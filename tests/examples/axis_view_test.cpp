@@ -32,7 +32,7 @@ class AxisView : public testing::Test {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const View view(axis);
       const int turn = turn_of(axis, a, b, c);
-      ++seen_[turn + 1];
+      ++seen_[static_cast<std::size_t>(turn + 1)];
       ASSERT_EQ(view.orientation(a, b, c), turn) << text_of(a) << text_of(b) << text_of(c) << "along axis " << axis;
       ASSERT_EQ(view.orientation(b, c, a), turn) << text_of(b) << text_of(c) << text_of(a) << "along axis " << axis;
       ASSERT_EQ(view.orientation(b, a, c), -turn) << text_of(b) << text_of(a) << text_of(c) << "along axis " << axis;

@@ -624,8 +624,11 @@ TYPED_TEST(Triangulate, leaves_a_window_open) {
   ASSERT_TRUE(example::triangulate(vertices, {0, 1, 2, 3, 0, 4, 5, 6, 7, 4}, triangles));
   EXPECT_EQ(triangles.size(), 8u);
   TypeParam area = 0;
-  for (const auto& [a, b, c] : triangles) {
-    const auto side = [&](std::uint32_t to, std::size_t axis) { return vertices[to][axis] - vertices[a][axis]; };
+  for (const auto& triangle : triangles) {
+    const auto& [a, b, c] = triangle;
+    const auto side = [&](std::uint32_t to, std::size_t axis) {
+      return vertices[to][axis] - vertices[triangle[0]][axis];
+    };
     const TypeParam triangle_area = (side(b, 0) * side(c, 2) - side(b, 2) * side(c, 0)) / 2;
     EXPECT_GE(triangle_area, 0);
     area += triangle_area;

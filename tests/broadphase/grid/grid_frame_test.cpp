@@ -56,7 +56,7 @@ TYPED_TEST(GridFrameTest, steps_among_top_cells_as_the_path_is_mirrored) {
   GridFrame frame = GridFrame::around(this->box({0, 0, 0}, {5, 6, 7}), {5, 6, 7}, 16);
   frame.coarsen(4);
   ASSERT_EQ(frame.cells, (std::array<std::uint32_t, 3>{5, 6, 7}));
-  for (std::int32_t octant = 0; octant < 8; ++octant) {
+  for (std::uint32_t octant = 0; octant < 8; ++octant) {
     const GridFrame::TopOrder& order = frame.top_orders.at(octant);
     const auto number_of = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
       if ((octant & 1) != 0) x = 4 - x;
@@ -66,8 +66,9 @@ TYPED_TEST(GridFrameTest, steps_among_top_cells_as_the_path_is_mirrored) {
     };
     EXPECT_EQ(order.index(detail::Int4{2, 3, 4, 0}), number_of(2, 3, 4)) << octant;
     EXPECT_EQ(order.index(detail::Int4{0, 5, 1, 0}), number_of(0, 5, 1)) << octant;
-    for (std::int32_t axes = 0; axes < 8; ++axes) {
-      const std::int32_t next = number_of(2 + (axes & 1), 3 + (axes >> 1 & 1), 4 + (axes >> 2 & 1));
+    for (std::uint32_t axes = 0; axes < 8; ++axes) {
+      const auto one_on = [&](int axis) { return static_cast<std::int32_t>(axes >> axis & 1); };
+      const std::int32_t next = number_of(2 + one_on(0), 3 + one_on(1), 4 + one_on(2));
       EXPECT_EQ(order.step.at(axes), next - number_of(2, 3, 4)) << octant << ' ' << axes;
     }
   }

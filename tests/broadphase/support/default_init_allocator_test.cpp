@@ -34,8 +34,8 @@ TEST(DefaultInitAllocator, faults_in_without_changing_what_memory_holds) {
   std::vector<std::uint8_t> bytes(size);
   for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::uint8_t>(i * 37 >> 3);
   const std::vector<std::uint8_t> before = bytes;
-  for (const std::size_t first : {0, 1, 4095, 4096, 70'001}) {
-    for (const std::size_t count : {0, 1, 65'535, 65'536, 65'537, 2'097'152, 2'900'000}) {
+  for (const std::size_t first : {0U, 1U, 4095U, 4096U, 70'001U}) {
+    for (const std::size_t count : {0U, 1U, 65'535U, 65'536U, 65'537U, 2'097'152U, 2'900'000U}) {
       fault_in(bytes.data() + first, count);
       prefer_large_pages(bytes.data() + first, count);
     }
