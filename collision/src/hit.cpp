@@ -1,12 +1,16 @@
 #include "surehit/hit.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
-#include <type_traits>
 
 #include "exact/exact_contact.hpp"
 #include "query/path_range.hpp"
+#include "support/exact_difference.hpp"
 #include "support/floating_point_environment.hpp"
+#include "support/rounding_flags.hpp"
 #include "walk/direction.hpp"
 
 namespace surehit {
@@ -22,17 +26,67 @@ Vector3<Scalar> point_of(const Path<Scalar>& path, Scalar t) {
   return detail::exact_point(path, t);
 }
 
-/// Returns |t| |D|, computed in a wider type. In that type nothing overflows or underflows. All of its roundings
-/// together are less than one rounding of Scalar.
-template <typename Scalar>
-[[gnu::noinline]] Scalar distance_of(const Path<Scalar>& path, Scalar t) {
-  using Wide = std::conditional_t<std::is_same_v<Scalar, float>, double, long double>;
-  Wide sum = 0;
+/// Returns |t| |D|. In double, nothing overflows or underflows for floats, and its roundings are far below those of
+/// float.
+float scaled_distance(const Path<float>& path, float t) {
+  double sum = 0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const Wide way = detail::direction_of(path.kind, Wide{path.start[axis]}, Wide{path.toward[axis]});
+    const double way = detail::direction_of(path.kind, double{path.start[axis]}, double{path.toward[axis]});
     sum += way * way;
   }
-  return static_cast<Scalar>(std::fabs(Wide{t}) * std::sqrt(sum));
+  return static_cast<float>(std::fabs(double{t}) * std::sqrt(sum));
+}
+
+/// Returns |t| |D| for a finite path and t. There is no wider type that all machines have, so that a pair of doubles
+/// holds D, its square, and its length. D is scaled until its largest component is in [1, 2), and t has its exponent
+/// taken out. So neither overflows.
+///
+/// Let eps be 2^-53. The pair of the square is off by less than 64 eps^2 of it, and that of the length by less than 64
+/// eps^2 of it too. The result is one sum, rounded once, so it is off by eps (1 + 2^-40). A denormal result is rounded
+/// once more.
+double scaled_distance(const Path<double>& path, double t) {
+  bool overflows = false;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    overflows |= !std::isfinite(detail::direction_of(path.kind, path.start[axis], path.toward[axis]));
+  }
+  const double half = overflows ? 0.5 : 1;
+  std::array<detail::DoublePair, 3> d;
+  double largest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    d[axis] = detail::exact_difference(half * path.toward[i], path.has_end() ? half * path.start[i] : 0);
+    largest = std::max(largest, std::fabs(d[axis][0]));
+  }
+  if (largest == 0 || t == 0) return 0;
+  const int exponent = std::ilogb(largest);
+  detail::DoublePair sum = {0, 0};
+  for (const auto& [high, low] : d) {
+    const double way = std::ldexp(high, -exponent);
+    const double square = way * way;
+    const double rest = std::fma(way, way, -square) + 2 * way * std::ldexp(low, -exponent);
+    const auto [more, error] = detail::exact_difference(sum[0], -square);
+    sum = {more, sum[1] + (error + rest)};
+  }
+  const double root = std::sqrt(sum[0]);
+  const double root_rest = (std::fma(-root, root, sum[0]) + sum[1]) / (2 * root);
+  int t_exponent = 0;
+  const double factor = std::frexp(std::fabs(t), &t_exponent);
+  const double product = root * factor;
+  const double length = product + (std::fma(root, factor, -product) + root_rest * factor);
+  return std::ldexp(length, exponent + t_exponent + (overflows ? 1 : 0));
+}
+
+/// Returns |t| |D|, or NaN or infinity if D or t is not finite.
+template <typename Scalar>
+[[gnu::noinline]] Scalar distance_of(const Path<Scalar>& path, Scalar t) {
+  const bool are_finite =
+      detail::is_finite(path.toward) && (!path.has_end() || detail::is_finite(path.start)) && std::isfinite(t);
+  if (are_finite) return scaled_distance(path, t);
+  Scalar sum = 0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    sum += std::fabs(detail::direction_of(path.kind, path.start[axis], path.toward[axis]));
+  }
+  return std::fabs(t) * sum;
 }
 
 // Let eps = 2^-53 be the unit roundoff of double, and let n be a component of the exact unit normal.

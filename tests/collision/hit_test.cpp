@@ -86,6 +86,67 @@ TYPED_TEST(PointOf, what_is_not_finite_is_nan) {
 }
 
 template <typename Scalar>
+class DistanceOf : public testing::Test {
+ protected:
+  /// Compares squares, so that the truth is rational.
+  static bool is_within_an_ulp(Scalar distance, const RationalVector& way, Scalar t) {
+    const mpq_class factor(double{t});
+    const mpq_class truth = factor * factor * (way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    const Scalar below = std::nextafter(distance, Scalar{0});
+    const Scalar above = std::nextafter(distance, std::numeric_limits<Scalar>::infinity());
+    const mpq_class low(double{below});
+    if (std::isinf(above)) return low * low <= truth;
+    const mpq_class high(double{above});
+    return low * low <= truth && truth <= high * high;
+  }
+};
+TYPED_TEST_SUITE(DistanceOf, Scalars, ScalarNames);
+
+TYPED_TEST(DistanceOf, any_path_is_within_an_ulp) {
+  Random random(71);
+  for (std::size_t i = case_count(2'000); i > 0; --i) {
+    for (const PairFamily family : all_pair_families) {
+      const Segment<TypeParam> segment = draw_pair<TypeParam>(family, random).segment;
+      const RationalVector from_start = difference(rational(segment.end), rational(segment.start));
+      for (const TypeParam t : {random.unit<TypeParam>(), TypeParam{1}, std::numeric_limits<TypeParam>::denorm_min()}) {
+        const Hit<TypeParam> hit{.t = t};
+        ASSERT_TRUE(this->is_within_an_ulp(distance(segment, hit), from_start, t))
+            << hex_text(Path<TypeParam>(segment)) << hex_text(hit);
+      }
+      const Line<TypeParam> line{segment.start, segment.end};
+      const Hit<TypeParam> behind{.t = -1000 * random.unit<TypeParam>()};
+      const TypeParam back = distance(line, behind);
+      if (std::isinf(back)) continue;
+      ASSERT_TRUE(this->is_within_an_ulp(back, rational(line.direction), behind.t)) << hex_text(Path<TypeParam>(line));
+    }
+  }
+}
+
+TYPED_TEST(DistanceOf, the_largest_and_the_smallest_paths_do_not_lose_it) {
+  using Limits = std::numeric_limits<TypeParam>;
+  const TypeParam huge = Limits::max();
+  const TypeParam tiny = Limits::denorm_min();
+  const Segment<TypeParam> longest{{-huge, -huge, huge}, {huge, huge, -huge}};
+  EXPECT_TRUE(std::isinf(distance(longest, Hit<TypeParam>{.t = 1})));
+  const RationalVector way = difference(rational(longest.end), rational(longest.start));
+  EXPECT_TRUE(this->is_within_an_ulp(distance(longest, Hit<TypeParam>{.t = TypeParam{0.125}}), way, TypeParam{0.125}));
+  EXPECT_EQ(distance(Segment<TypeParam>{{huge, 0, 0}, {huge, tiny, 0}}, Hit<TypeParam>{.t = 1}), tiny);
+  EXPECT_EQ(distance(Ray<TypeParam>{{huge, 0, 0}, {0, 3 * tiny, 4 * tiny}}, Hit<TypeParam>{.t = 2}), 10 * tiny);
+  EXPECT_EQ(distance(Ray<TypeParam>{{0, 0, 0}, {tiny, 0, 0}}, Hit<TypeParam>{.t = huge}), tiny * huge);
+  EXPECT_EQ(distance(Segment<TypeParam>{{1, 2, 3}, {1, 2, 3}}, Hit<TypeParam>{.t = 1}), 0);
+}
+
+TYPED_TEST(DistanceOf, what_is_not_finite_is_not_finite) {
+  using Limits = std::numeric_limits<TypeParam>;
+  for (const TypeParam bad : {Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN()}) {
+    EXPECT_FALSE(std::isfinite(distance(Segment<TypeParam>{{0, 0, 0}, {1, 1, 1}}, Hit<TypeParam>{.t = bad})));
+    EXPECT_FALSE(std::isfinite(distance(Segment<TypeParam>{{0, bad, 0}, {1, 1, 1}}, Hit<TypeParam>{.t = 1})));
+    EXPECT_FALSE(std::isfinite(distance(Line<TypeParam>{{0, 0, 0}, {bad, 1, 1}}, Hit<TypeParam>{.t = 1})));
+    EXPECT_EQ(distance(Ray<TypeParam>{{bad, 0, 0}, {0, 0, 1}}, Hit<TypeParam>{.t = 2}), 2);
+  }
+}
+
+template <typename Scalar>
 class NormalOf : public testing::Test {
  protected:
   static Vector3<Scalar> normal_of(const Triangle<Scalar>& triangle) {

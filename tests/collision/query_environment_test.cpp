@@ -108,7 +108,13 @@ class EntryPoints {
     for (const auto& hit : hits) add(bytes, hit);
     collider.all_hits(path, hits, odd);
     for (const auto& hit : hits) add(bytes, hit);
-    if (first) add(bytes, point(path, *first));
+    if (first) {
+      add(bytes, point(path, *first));
+      add_bytes(bytes, distance(path, *first));
+      add_bytes(bytes, collider.max_t_keeping(path, *first));
+      add(bytes, collider.normal(first->triangle));
+    }
+    for (int i = 1; i < 40; ++i) add_bytes(bytes, distance(path, Hit<Scalar>{.t = Scalar(i) / 64}));
     for (std::uint32_t id = 0; id < collider.triangle_count(); ++id) add(bytes, intersect(path, collider.triangle(id)));
   }
 

@@ -2,21 +2,16 @@
 
 #include <limits>
 
+#include "support/exact_difference.hpp"
+#include "support/rounding_flags.hpp"
+
 namespace surehit {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A sum of two doubles. The second is at most half a last place of the first.
-using Pair = std::array<double, 2>;
-
-/// Returns x - y without error (Knuth; Shewchuk 1997, theorem 7).
-Pair exact_difference(double x, double y) {
-  const double difference = x - y;
-  const double y_part = x - difference;
-  const double x_part = difference + y_part;
-  return {difference, (x - x_part) + (y_part - y)};
-}
+using Pair = detail::DoublePair;
+using detail::exact_difference;
 
 // WALK.md proves that the walk misses nothing. L1 to L12 are its lemmas. L9 bounds the errors of what is clipped here.
 
