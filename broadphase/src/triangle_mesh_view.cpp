@@ -10,8 +10,8 @@ namespace {
 template <typename Scalar>
 std::optional<InvalidMesh> find_invalid_array(const TriangleMeshView<Scalar>& mesh) {
   using Reason = InvalidMesh::Reason;
-  const detail::TripleArray& vertices = mesh.vertices().triples();
-  const detail::TripleArray& triangles = mesh.triangles().triples();
+  const detail::TripleArray& vertices = detail::ViewMemory::of(mesh.vertices());
+  const detail::TripleArray& triangles = detail::ViewMemory::of(mesh.triangles());
   if (vertices.first == nullptr && vertices.count != 0) {
     return InvalidMesh(Reason::missing_array, vertices.count,
                        "the array of " + std::to_string(vertices.count) + " vertices is null");

@@ -16,6 +16,7 @@
 #include "query/query.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/in_parts.hpp"
+#include "support/rounding_flags.hpp"
 #include "surehit/intersect.hpp"
 
 namespace surehit {

@@ -5,6 +5,7 @@
 
 #include "narrowphase.hpp"
 #include "support/floating_point_environment.hpp"
+#include "support/rounding_flags.hpp"
 
 namespace surehit {
 

@@ -45,6 +45,8 @@ static_assert(takes<VertexViewf, Points&> && takes<VertexViewf, const Triples&> 
 static_assert(takes<VertexViewf, float (&)[12]> && takes<VertexViewf, const float (&)[4][3]>);
 static_assert(takes<VertexViewf, std::span<const Vector3f>> && takes<VertexViewf, std::span<float>>);
 static_assert(takes<VertexViewf, Columns&> && takes<VertexViewf, Eigen::Map<const Columns>>);
+static_assert(takes<VertexViewf, decltype(std::declval<Columns&>().leftCols(2))>);
+static_assert(!takes<VertexViewf, Eigen::Ref<const Columns>>);  // it may own a copy
 static_assert(takes<VertexViewf, std::vector<Xyz>&> && takes<VertexViewf, std::vector<PaddedXyz>&>);
 static_assert(!takes<VertexViewf, std::vector<Zyx>&> && !takes<VertexViewf, std::vector<std::array<float, 4>>&>);
 static_assert(!takes<VertexViewf, Points> && !takes<VertexViewf, Numbers> && !takes<VertexViewf, Columns>);

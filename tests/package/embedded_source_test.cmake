@@ -7,6 +7,17 @@ separate_arguments(OPTIONS)
 configure_consumer("-DSUREHIT_SOURCE_FOLDER=${TEST_FOLDER}/surehit" ${OPTIONS})
 build_and_run_consumer()
 
+file(GLOB_RECURSE shared_library "${TEST_FOLDER}/build/*/libsurehit.so")
+if(shared_library)
+  execute_process(COMMAND "${NM}" --dynamic --defined-only --demangle "${shared_library}"
+    OUTPUT_VARIABLE exported COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT exported MATCHES "surehit::Collider<float>::first_hit")
+    message(FATAL_ERROR "the shared library does not export colliders:\n${exported}")
+  elseif(exported MATCHES "[^\n]*(hwy|surehit::(Grid|MeshBlocks|ClippedPath|FloatingPointEnvironment))::[^\n]*")
+    message(FATAL_ERROR "the shared library exports ${CMAKE_MATCH_0}")
+  endif()
+endif()
+
 run("${CMAKE_COMMAND}" --install "${TEST_FOLDER}/build" --prefix "${TEST_FOLDER}/installed")
 file(GLOB_RECURSE installed RELATIVE "${TEST_FOLDER}/installed" "${TEST_FOLDER}/installed/*")
 if(NOT installed STREQUAL "bin/consumer")

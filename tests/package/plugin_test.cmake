@@ -9,6 +9,27 @@ execute_process(COMMAND "${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${pc_folder}"
   OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 separate_arguments(flags UNIX_COMMAND "${flags}")
 
+# Wherever the libraries go, pkg-config finds the prefix.
+foreach(library_folder IN ITEMS lib lib/x86_64-linux-gnu "${TEST_FOLDER}/elsewhere")
+  run("${CMAKE_COMMAND}" -S "${SOURCE_FOLDER}" -B "${TEST_FOLDER}/configured" -G "${GENERATOR}"
+    "-DCMAKE_CXX_COMPILER=${COMPILER}" -DSUREHIT_BUILD_TESTS=OFF -DSUREHIT_BUILD_EXAMPLES=OFF
+    "-DCMAKE_INSTALL_PREFIX=${TEST_FOLDER}/prefix" "-DCMAKE_INSTALL_LIBDIR=${library_folder}")
+  cmake_path(ABSOLUTE_PATH library_folder BASE_DIRECTORY "${TEST_FOLDER}/prefix" OUTPUT_VARIABLE expected)
+  file(COPY "${TEST_FOLDER}/configured/surehit.pc" DESTINATION "${expected}/pkgconfig")
+  foreach(variable IN ITEMS libdir includedir)
+    execute_process(COMMAND "${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${expected}/pkgconfig"
+      "${PKG_CONFIG}" "--variable=${variable}" surehit
+      OUTPUT_VARIABLE found OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+    cmake_path(NORMAL_PATH found)
+    if(variable STREQUAL includedir)
+      set(expected "${TEST_FOLDER}/prefix/include")
+    endif()
+    if(NOT found STREQUAL expected)
+      message(FATAL_ERROR "with libraries in ${library_folder}, ${variable} is ${found} and not ${expected}")
+    endif()
+  endforeach()
+endforeach()
+
 file(WRITE "${TEST_FOLDER}/plugin.cpp" "#include <surehit/surehit.hpp>
 extern \"C\" __attribute__((visibility(\"default\"))) int hits() {
   const float vertices[] = {0, 0, 0, 4, 0, 0, 0, 4, 0};

@@ -10,9 +10,9 @@ namespace surehit {
 /// A box with edges along the axes, in the mesh's unit of length. It contains its surface. A default box is empty.
 template <FloatOrDouble Scalar>
 struct Box {
-  /// The least coordinate on each axis.
+  /// The minimum coordinate on each axis.
   Vector3<Scalar> low = Vector3<Scalar>::Constant(std::numeric_limits<Scalar>::infinity());
-  /// The greatest coordinate on each axis.
+  /// The maximum coordinate on each axis.
   Vector3<Scalar> high = Vector3<Scalar>::Constant(-std::numeric_limits<Scalar>::infinity());
 
   /// Returns true if the box contains no point. A box with a NaN is empty.

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "surehit/attributes.hpp"
 #include "surehit/callable.hpp"
 
 namespace surehit {
@@ -16,6 +17,12 @@ template <typename Callable, typename Executor>
 concept RunsTasks =
     OutlivesItsView<Callable> && !std::same_as<std::remove_cvref_t<Callable>, Executor> &&
     std::is_invocable_v<std::remove_reference_t<Callable>&, std::size_t, const typename Executor::Task&>;
+/// One that has a name, to which an `Executor` refers.
+template <typename Callable, typename Executor>
+concept NamedTaskRunner = RunsTasks<Callable, Executor> && std::is_lvalue_reference_v<Callable>;
+/// A temporary one, which an `Executor` copies.
+template <typename Callable, typename Executor>
+concept TemporaryTaskRunner = RunsTasks<Callable, Executor> && !std::is_lvalue_reference_v<Callable>;
 }  // namespace detail
 
 /// Spreads work over threads. It is made of any callable `void(std::size_t count, const Executor::Task& task)`, such as
@@ -47,13 +54,12 @@ class Executor {
     void (*call_)(const void*, std::size_t);  ///< Calls the work.
   };
 
-  /// Refers to a callable that has a name, or copies a temporary one. Any other callable does not compile.
-  template <detail::RunsTasks<Executor> Callable>
-  Executor(Callable&& callable) noexcept
-      : callable_(std::forward<Callable>(callable)),
-        call_([](const detail::CallableView& target, std::size_t count, const Task& task) {
-          target.get<Callable>()(count, task);
-        }) {}
+  /// Refers to a callable that has a name.
+  template <detail::NamedTaskRunner<Executor> Callable>
+  Executor(Callable&& callable SUREHIT_LIFETIMEBOUND) noexcept : callable_(callable), call_(call<Callable>) {}
+  /// Copies a temporary callable. A large one, or one that is not trivially copyable, does not compile.
+  template <detail::TemporaryTaskRunner<Executor> Callable>
+  Executor(Callable&& callable) noexcept : callable_(std::forward<Callable>(callable)), call_(call<Callable>) {}
 
   /// Calls `work(i)` once for each i in [0, count), and returns after all calls have returned. `work` must allow calls
   /// from several threads at the same time.
@@ -63,6 +69,11 @@ class Executor {
   }
 
  private:
+  template <typename Callable>
+  static void call(const detail::CallableView& target, std::size_t count, const Task& task) {
+    target.get<Callable>()(count, task);
+  }
+
   detail::CallableView callable_;
   void (*call_)(const detail::CallableView&, std::size_t, const Task&);  ///< Calls the callable by its type.
 };

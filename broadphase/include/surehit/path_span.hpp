@@ -82,7 +82,8 @@ class PathSpan {
 
   /// Returns true if each path is six Scalars side by side, as in a `Segment`, and the paths lie side by side.
   [[nodiscard]] bool is_packed() const {
-    return start_stride_ == path_bytes && toward_stride_ == path_bytes && toward_ == start_ + path_bytes / 2;
+    return size_ == 0 ||
+           (start_stride_ == path_bytes && toward_stride_ == path_bytes && toward_ == start_ + path_bytes / 2);
   }
   /// Returns the six Scalars of path i. The paths must be packed, and i must be below `size()`.
   [[nodiscard]] const Scalar* packed(std::size_t i) const { return reinterpret_cast<const Scalar*>(start_at(i)); }
@@ -111,10 +112,10 @@ class PathSpan {
   PathSpan(PathKind kind, const VertexView<Scalar>& starts, const VertexView<Scalar>& towards)
       : kind_(kind),
         size_(starts.is_valid() && towards.is_valid() ? std::min(starts.size(), towards.size()) : 0),
-        start_(starts.triples().first),
-        toward_(towards.triples().first),
-        start_stride_(starts.triples().stride),
-        toward_stride_(towards.triples().stride) {}
+        start_(detail::ViewMemory::of(starts).first),
+        toward_(detail::ViewMemory::of(towards).first),
+        start_stride_(starts.stride_bytes()),
+        toward_stride_(towards.stride_bytes()) {}
 
   [[nodiscard]] const std::byte* start_at(std::size_t i) const { return start_ + i * start_stride_; }
   [[nodiscard]] const std::byte* toward_at(std::size_t i) const { return toward_ + i * toward_stride_; }

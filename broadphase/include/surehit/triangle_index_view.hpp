@@ -71,7 +71,8 @@ class TriangleIndexView {
   template <detail::TriangleContainer Triangles>
   TriangleIndexView(Triangles&& triangles SUREHIT_LIFETIMEBOUND) noexcept
       : triples_(detail::TripleArray::of(triangles)), index_size_(index_size_of(triangles)) {}
-  /// Does the same for a `std::span` or an `Eigen::Map`, or another view. It may be a temporary one.
+  /// Does the same for a `std::span`, an `Eigen::Map`, a block of a matrix, or another view. It may be a temporary one,
+  /// but not a block of a temporary matrix, which would dangle.
   template <detail::TriangleReference Triangles>
   TriangleIndexView(Triangles&& triangles) noexcept
       : triples_(detail::TripleArray::of(triangles)), index_size_(index_size_of(triangles)) {}
@@ -97,12 +98,16 @@ class TriangleIndexView {
     if (index_size_ == sizeof(std::uint16_t)) return triples_.get<std::uint16_t>(triangle, which);
     return triples_.get<std::uint32_t>(triangle, which);
   }
-  /// Returns where the indices are in memory.
-  [[nodiscard]] const detail::TripleArray& triples() const { return triples_; }
+  /// Returns the address of the first triangle, or null.
+  [[nodiscard]] const void* data() const { return triples_.first; }
+  /// Returns the bytes from the beginning of one triangle to that of the next.
+  [[nodiscard]] std::size_t stride_bytes() const { return triples_.stride; }
   /// Returns the size of an index in bytes: 2 or 4.
   [[nodiscard]] std::size_t index_size() const { return index_size_; }
 
  private:
+  friend struct detail::ViewMemory;
+
   template <typename Triangles>
   static constexpr std::size_t index_size_of(const Triangles&) {
     if constexpr (detail::EigenMatrix<Triangles>) {

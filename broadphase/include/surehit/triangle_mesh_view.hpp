@@ -18,7 +18,7 @@ inline constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>:
 /// A view of a triangle mesh in memory that the user owns. It copies nothing, and must not outlive its arrays.
 ///
 /// `TriangleMeshViewf(points, triangles)` takes containers, spans, arrays and Eigen matrices. `VertexView` and
-/// `TriangleIndexView` say which. The id of a triangle is its place in the mesh, from 0 on.
+/// `TriangleIndexView` say which. The id of a triangle is its index in the mesh, from 0 on.
 ///
 /// A view is not checked when it is made. `find_invalid` checks it, and so does every build.
 template <FloatOrDouble Scalar>

@@ -20,11 +20,19 @@ namespace detail {
 template <typename T>
 concept EigenMatrix = std::is_base_of_v<Eigen::DenseBase<std::remove_cvref_t<T>>, std::remove_cvref_t<T>>;
 
-/// An Eigen matrix that is memory: a map, a block, or a matrix that has a name. A temporary matrix would dangle.
+/// True for an `Eigen::Ref` to a constant matrix, which may own a copy of it.
+template <typename T>
+inline constexpr bool may_own_copy = false;
+template <typename Matrix, int options, typename Stride>
+inline constexpr bool may_own_copy<Eigen::Ref<const Matrix, options, Stride>> = true;
+
+/// An Eigen matrix that is memory: a map, a block, or a matrix that has a name. A temporary matrix would dangle. So
+/// would a temporary block of one, but its type does not tell.
 template <typename Matrix>
 concept ViewableMatrix = EigenMatrix<Matrix> &&
     (std::is_lvalue_reference_v<Matrix> ||
-     !std::is_base_of_v<Eigen::PlainObjectBase<std::remove_cvref_t<Matrix>>, std::remove_cvref_t<Matrix>>);
+     !(std::is_base_of_v<Eigen::PlainObjectBase<std::remove_cvref_t<Matrix>>, std::remove_cvref_t<Matrix>> ||
+       may_own_copy<std::remove_cvref_t<Matrix>>));
 
 /// A range of elements that lie side by side and outlive a view: a span, or a container that has a name. A view of a
 /// temporary container would dangle.
@@ -144,6 +152,15 @@ struct TripleArray {
   static const std::byte* bytes(const void* address) { return static_cast<const std::byte*>(address); }
 };
 
+/// Shows the library how the memory of a view is laid out.
+struct ViewMemory {
+  /// Returns the triples of a view.
+  template <typename View>
+  [[nodiscard]] static const TripleArray& of(const View& view) {
+    return view.triples_;
+  }
+};
+
 }  // namespace detail
 
 /// A view of points in memory that the user owns, three Scalars each. It copies nothing, and must not outlive the
@@ -158,14 +175,14 @@ class VertexView {
 
   /// Makes a view of a container of points, which must have a name: a temporary one does not compile. It may be:
   ///
-  /// - A range of points side by side. A point is a `Vector3<Scalar>`, a `std::array<Scalar, 3>` or a `Scalar[3]`. It
-  /// may
-  ///   also be a standard-layout struct that begins with the Scalars x, y and z, side by side.
+  /// - A range of points side by side. A point is a `Vector3<Scalar>`, a `std::array<Scalar, 3>` or a `Scalar[3]`.
+  ///   It may also be a standard-layout struct that begins with the Scalars x, y and z, side by side.
   /// - A range of the numbers x, y, z, x, y, z, and so on. A build refuses a size that is not a multiple of three.
   /// - A column-major 3×N Eigen matrix. A column is a point. An expression that is not memory does not compile.
   template <detail::PointContainer<Scalar> Points>
   VertexView(Points&& points SUREHIT_LIFETIMEBOUND) noexcept : triples_(triples_of(points)) {}
-  /// Does the same for a `std::span` or an `Eigen::Map`, or another view. It may be a temporary one.
+  /// Does the same for a `std::span`, an `Eigen::Map`, a block of a matrix, or another view. It may be a temporary one,
+  /// but not a block of a temporary matrix, which would dangle.
   template <detail::PointReference<Scalar> Points>
   VertexView(Points&& points) noexcept : triples_(triples_of(points)) {}
 
@@ -190,10 +207,14 @@ class VertexView {
   /// Returns true if the points can be read: the array is not null, the points are whole, and none overlaps the next.
   /// Their coordinates are not read, so they may be NaN or infinite. A build refuses a view that is not valid.
   [[nodiscard]] bool is_valid() const { return triples_.template is_valid<Scalar>(); }
-  /// Returns where the points are in memory.
-  [[nodiscard]] const detail::TripleArray& triples() const { return triples_; }
+  /// Returns the address of the first point, or null.
+  [[nodiscard]] const void* data() const { return triples_.first; }
+  /// Returns the bytes from the beginning of one point to that of the next.
+  [[nodiscard]] std::size_t stride_bytes() const { return triples_.stride; }
 
  private:
+  friend struct detail::ViewMemory;
+
   template <typename Points>
   static detail::TripleArray triples_of(const Points& points) {
     if constexpr (detail::EigenMatrix<Points>) {

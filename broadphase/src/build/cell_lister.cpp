@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "support/rounding_flags.hpp"
+
 namespace surehit::detail {
 namespace {
 

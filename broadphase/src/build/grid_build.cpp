@@ -9,6 +9,7 @@
 #include "grid/grid.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/in_parts.hpp"
+#include "support/rounding_flags.hpp"
 
 namespace surehit {
 namespace {
@@ -167,7 +168,7 @@ class GridBuild {
   template <bool is_top, typename Id>
   bool try_find(std::size_t first, std::size_t last, const Id& id, const detail::CellRange& cells, std::uint32_t size,
                 std::size_t max_entries, detail::CellEntries& entries, bool may_grow) const {
-    detail::CellLister lister(entries, may_grow, cells, size, padding_);
+    typename Listed::Lister lister(entries, may_grow, cells, size, padding_);
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t triangle = id(i);
       const typename Listed::Shape shape = listed_.shape(triangle);
@@ -355,7 +356,7 @@ class GridBuild {
   const Listed& listed_;
   const Executor* executor_;
   std::size_t crowded_;
-  std::size_t spare_entries_ = 0;  ///< divisions may add so many entries before 32 bits cannot number them
+  std::size_t spare_entries_ = 0;  ///< The number of entries that divisions may add. 32 bits cannot number more.
   detail::CellPoint padding_ = {};
 };
 

@@ -1,5 +1,7 @@
 #include "build/overlap_lanes.hpp"
 
+#include "support/rounding_flags.hpp"
+
 // This file is compiled once for each instruction set. The best one is chosen when the first grid is built.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "build/overlap_lanes.cpp"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/rounding_flags.hpp"
+
 namespace surehit::detail {
 
 // The roundings. eps is the unit roundoff 2^-24. R is the resolution, and E the maximum component of the edges, both in

@@ -19,8 +19,9 @@ class VertexLanes {
  public:
   using Point = std::conditional_t<std::is_same_v<Scalar, float>, Float4, Double4>;
 
-  explicit VertexLanes(const TriangleMeshView<Scalar>& mesh) : mesh_(mesh), vertices_(mesh.vertices().triples().first) {
-    const bool are_dense = mesh.vertices().triples().stride == 3 * sizeof(Scalar);
+  explicit VertexLanes(const TriangleMeshView<Scalar>& mesh)
+      : mesh_(mesh), vertices_(ViewMemory::of(mesh.vertices()).first) {
+    const bool are_dense = mesh.vertices().stride_bytes() == 3 * sizeof(Scalar);
     followed_ = are_dense && mesh.vertex_count() > 0 ? mesh.vertex_count() - 1 : 0;
   }
 
@@ -53,7 +54,7 @@ class VertexLanes {
 
   const TriangleMeshView<Scalar>& mesh_;
   const std::byte* vertices_;
-  std::size_t followed_;  ///< so many vertices are followed by another one, which has their fourth number
+  std::size_t followed_;  ///< The number of vertices that are followed by another one. Its x is their fourth number.
 };
 
 }  // namespace surehit::detail

@@ -4,13 +4,14 @@
 #include <span>
 
 #include "grid/grid.hpp"
+#include "support/rounding_flags.hpp"
 
 namespace surehit {
 namespace {
 
 /// A box, counted in finest cells. It is empty at first.
 struct CoverBox {
-  static constexpr float outside = 0x1p20F;  ///< lies outside any grid
+  static constexpr float outside = 0x1p20F;  ///< A coordinate outside any grid.
 
   std::array<float, 3> low = {outside, outside, outside};
   std::array<float, 3> high = {-outside, -outside, -outside};
@@ -34,20 +35,20 @@ struct CoverBox {
 
 /// A part of the grid, out of 8 × 8 × 8 parts.
 struct GridPart {
-  static constexpr std::uint32_t on_an_axis = 8;  ///< parts on each axis
+  static constexpr std::uint32_t on_an_axis = 8;  ///< The number of parts on each axis.
   static constexpr std::size_t max_count = std::size_t{on_an_axis} * on_an_axis * on_an_axis;
 
-  std::array<std::uint32_t, 3> cell = {0, 0, 0};  ///< the index of the part on each axis
-  CoverBox box;                                   ///< holds what the cells of the part list
+  std::array<std::uint32_t, 3> cell = {0, 0, 0};  ///< The index of the part on each axis.
+  CoverBox box;                                   ///< A box around what the cells of the part list.
 };
 
 /// Some parts of the grid, the box around them, and the best way to divide them into two groups.
 struct PartGroup {
   std::span<GridPart> parts;
   CoverBox box;
-  float gain = 0;           ///< the surface that the division saves; 0 if no division saves any
-  std::size_t axis = 0;     ///< the axis on which the group is divided
-  std::uint32_t plane = 0;  ///< the index on that axis of the first part of the second group
+  float gain = 0;           ///< The surface that the division saves, or 0 if no division saves any.
+  std::size_t axis = 0;     ///< The axis on which the group is divided.
+  std::uint32_t plane = 0;  ///< The index on that axis of the first part of the second group.
 
   PartGroup() = default;
   explicit PartGroup(std::span<GridPart> some) : parts(some) {

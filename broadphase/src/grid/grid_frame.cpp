@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "support/rounding_flags.hpp"
+
 namespace surehit {
 
 // The padding must cover all roundings between a triangle and a path. R is the resolution of an axis in finest cells,

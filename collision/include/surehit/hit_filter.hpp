@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "surehit/attributes.hpp"
 #include "surehit/callable.hpp"
 #include "surehit/hit.hpp"
 
@@ -26,6 +27,12 @@ concept BatchHitPredicate = requires(std::remove_reference_t<Callable>& callable
 template <typename Callable, typename Filter, typename Scalar>
 concept FiltersHits = OutlivesItsView<Callable> && !std::same_as<std::remove_cvref_t<Callable>, Filter> &&
                       (HitPredicate<Callable, Scalar> || BatchHitPredicate<Callable, Scalar>);
+/// One that has a name, to which a `HitFilter` refers.
+template <typename Callable, typename Filter, typename Scalar>
+concept NamedHitFilter = FiltersHits<Callable, Filter, Scalar> && std::is_lvalue_reference_v<Callable>;
+/// A temporary one, which a `HitFilter` copies.
+template <typename Callable, typename Filter, typename Scalar>
+concept TemporaryHitFilter = FiltersHits<Callable, Filter, Scalar> && !std::is_lvalue_reference_v<Callable>;
 }  // namespace detail
 
 /// Decides which hits count. It is made of any callable `bool(const Hit<Scalar>& hit)`, or `bool(std::size_t path,
@@ -41,19 +48,12 @@ concept FiltersHits = OutlivesItsView<Callable> && !std::same_as<std::remove_cvr
 template <FloatOrDouble Scalar>
 class HitFilter {
  public:
-  /// Refers to a callable that has a name, or copies a temporary one. Any other callable does not compile. A callable
-  /// that fits both forms gets the hit alone.
-  template <detail::FiltersHits<HitFilter, Scalar> Callable>
-  HitFilter(Callable&& callable) noexcept
-      : callable_(std::forward<Callable>(callable)),
-        call_(
-            [](const detail::CallableView& target, [[maybe_unused]] std::size_t path, const Hit<Scalar>& hit) -> bool {
-              if constexpr (detail::HitPredicate<Callable, Scalar>) {
-                return target.get<Callable>()(hit);
-              } else {
-                return target.get<Callable>()(path, hit);
-              }
-            }) {}
+  /// Refers to a callable that has a name. One that fits both forms gets the hit alone.
+  template <detail::NamedHitFilter<HitFilter, Scalar> Callable>
+  HitFilter(Callable&& callable SUREHIT_LIFETIMEBOUND) noexcept : callable_(callable), call_(call<Callable>) {}
+  /// Copies a temporary callable. A large one, or one that is not trivially copyable, does not compile.
+  template <detail::TemporaryHitFilter<HitFilter, Scalar> Callable>
+  HitFilter(Callable&& callable) noexcept : callable_(std::forward<Callable>(callable)), call_(call<Callable>) {}
 
   /// Returns true if a hit of a single query counts.
   bool operator()(const Hit<Scalar>& hit) const { return (*this)(0, hit); }
@@ -61,6 +61,15 @@ class HitFilter {
   bool operator()(std::size_t path, const Hit<Scalar>& hit) const { return call_(callable_, path, hit); }
 
  private:
+  template <typename Callable>
+  static bool call(const detail::CallableView& target, [[maybe_unused]] std::size_t path, const Hit<Scalar>& hit) {
+    if constexpr (detail::HitPredicate<Callable, Scalar>) {
+      return target.get<Callable>()(hit);
+    } else {
+      return target.get<Callable>()(path, hit);
+    }
+  }
+
   detail::CallableView callable_;
   bool (*call_)(const detail::CallableView&, std::size_t, const Hit<Scalar>&);  ///< Calls the callable by its type.
 };

@@ -1,5 +1,7 @@
 #include "mesh/slab_fitter.hpp"
 
+#include "support/rounding_flags.hpp"
+
 // This file is compiled once for each instruction set. The best one is chosen when the first slab is fitted.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "mesh/slab_fitter.cpp"
@@ -20,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Fits a slab to a list.
 ///
 /// Let eps = 2^-24, and let n be the slab's normal. Let R be the sum of |n| times the grid's resolution over the axes.
-/// A height is a corner's place along n, counted from the cell's centre.
+/// A height is a corner's position along n, counted from the cell's centre.
 ///
 /// F1. A computed height is off by at most 10 eps R.
 /// Proof. Each rounding below is at most eps R, because no corner and no cell is outside the grid:
@@ -33,11 +35,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 ///
 /// F2. The slab contains its triangles, with half a padding to spare on each side.
 /// Proof. F1 gives 10 eps R. The slack, and its sum with the height, add 2 eps R.
-///     A place is at most 128 steps from the centre, and two roundings turn a height into steps.
+///     A position is at most 128 steps from the centre, and two roundings turn a height into steps.
 ///     So they are off by 256 eps steps, which are 48 eps edges of the cell. One component of n is 15, and no cell is
 ///     wider than the grid. So 48 eps edges are below 4 eps R. All errors together are at most 16 eps R.
-///     A padding is 32 eps R, and the slab is wider than its triangles by a padding on each side. Places beyond 128
-///     steps may be wrong, but the last steps of a slab hold all beyond them (`CellSlab`).
+///     A padding is 32 eps R, and the slab is wider than its triangles by a padding on each side. Positions beyond
+///     128 steps may be wrong, but the last steps of a slab hold all beyond them (`CellSlab`).
 CellSlab fit_floats(const SlabFitter& fitter, const ListCell& cell, const float* corners, std::size_t count) {
   const hn::CappedTag<float, 8> d;
   using V = hn::Vec<decltype(d)>;
