@@ -6,7 +6,7 @@
 
 namespace surehit::example {
 
-/// A file that is there whole or not at all: written beside its place under another name, and moved there by `finish`.
+/// A file that is there whole or not at all: written beside its path under another name, and moved there by `finish`.
 /// `-` is standard output; that, and what is no regular file, is written to directly. Throws std::system_error.
 class OutputFile {
  public:

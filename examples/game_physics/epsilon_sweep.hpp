@@ -7,8 +7,8 @@
 
 namespace surehit::example {
 
-/// For contrast, what games commonly do: Möller and Trumbore's test in plain float arithmetic with the epsilon of the
-/// paper's code, and a stop that is pushed off the wall by a skin so as not to meet it again.
+/// Does what games commonly do, for contrast. It uses Möller and Trumbore's test in plain float arithmetic, with the
+/// epsilon of the paper's code. A stop is pushed off the wall by a skin, so the next move does not meet it again.
 class EpsilonSweep : public Sweep {
  public:
   EpsilonSweep(const Mesh<float>& walls, float skin);

@@ -13,7 +13,7 @@ struct MovingPoint {
   Vector3f velocity;
 };
 
-/// Where a point has been: it went straight from each position to the next, the first of which is its start.
+/// Where a point has been. It went straight from each position to the next. The first one is its start.
 struct Course {
   std::vector<Vector3f> positions;
   std::size_t steps = 0;

@@ -20,7 +20,7 @@ class StartDraw {
  public:
   explicit StartDraw(std::uint64_t seed) : bits_(seed) {}
 
-  /// A free place in the room and a velocity in any direction.
+  /// A free position in the room and a velocity in any direction.
   MovingPoint draw(const Boxf& room, const WallCheck& check, float speed) {
     Vector3f position;
     do {

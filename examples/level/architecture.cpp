@@ -5,7 +5,7 @@
 namespace surehit::example {
 namespace {
 
-/// The box that a wall fills between two places along it and two heights.
+/// The box that a wall fills between two positions along it and two heights.
 void add_wall_piece(MeshBuilder& builder, const Wall& wall, float from, float to, float low, float high) {
   if (!(from < to && low < high)) return;
   const float half = wall.thickness / 2;

@@ -13,7 +13,7 @@ using Point = std::array<float, 3>;
 
 /// Grows a mesh out of solids and surfaces, each cut into pieces with edges of about `edge`.
 ///
-/// Triangles wind so that normals point out of solids. Only + - * / and sqrt are used, each of which IEEE 754 rounds in
+/// Triangles wind so that normals point out of solids. Only + - * / and sqrt are used. IEEE 754 rounds each of them in
 /// one way, so every platform builds the same vertices to the bit.
 class MeshBuilder {
  public:

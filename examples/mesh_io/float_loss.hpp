@@ -14,8 +14,8 @@ namespace surehit::example {
 /// What a mesh loses by being rounded to float, in one line that names the worst coordinate; nothing where that is
 /// little. Both are read from the same file.
 ///
-/// It is little where no vertex moves by more than a millionth of the mesh's size, nor by more than a hundredth of the
-/// longest side of a triangle that it is a corner of.
+/// It is little if no vertex moves by more than a millionth of the mesh's size. A vertex must also not move by more
+/// than a hundredth of the longest side of any of its triangles.
 [[nodiscard]] std::optional<std::string> describe_float_loss(const Mesh<float>& rounded, const Mesh<double>& mesh);
 
 }  // namespace surehit::example

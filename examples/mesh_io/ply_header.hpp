@@ -28,7 +28,7 @@ struct PlyElement {
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  /// The place of the property in `properties`, if there is one of this name.
+  /// The index of the property in `properties`, if there is one of this name.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view property) const;
 };
 

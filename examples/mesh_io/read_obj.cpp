@@ -32,7 +32,7 @@ class ObjReader {
     naming_the_line(lines_, [this] {
       while (next_statement()) read_statement();
     });
-    // A face may stand before its vertices, so only now is it known what is out of range.
+    // A face may come before its vertices, so only now is it known what is out of range.
     if (greatest_ > static_cast<std::int64_t>(mesh_.vertex_count())) {
       throw InputError("line " + std::to_string(max_line_) + ": vertex index " + std::to_string(greatest_) +
                        " is out of range, there are " + std::to_string(mesh_.vertex_count()) + " vertices");
@@ -103,7 +103,7 @@ class ObjReader {
     mesh_.add_face(corners_, lines_.number());
   }
 
-  /// A corner is 7, 7/1, 7/1/3 or 7//3, of which only the vertex matters.
+  /// A corner is 7, 7/1, 7/1/3 or 7//3. Only the vertex matters.
   std::uint32_t corner(std::string_view field) {
     if (field.find_first_not_of("-0123456789/") != std::string_view::npos) {
       throw InputError(quoted(field) + " is not a face corner");

@@ -47,7 +47,7 @@ void split(std::string_view line, std::vector<std::string_view>& fields);
 /// The error with the line's number before it. Line 0 is no line.
 [[nodiscard]] InputError at_line(const InputError& error, std::size_t number);
 
-/// Does the work. Any InputError that comes out of it names the line where `lines` stands.
+/// Does the work. Any InputError that comes out of it names the line that `lines` is at.
 template <typename Work>
 auto naming_the_line(const TextLines& lines, Work work) {
   try {

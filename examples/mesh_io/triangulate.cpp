@@ -125,7 +125,7 @@ bool is_fan(const AxisView<Scalar>& view, const Outline<Scalar>& outline) {
   return are_apart(view, outline, fan_of(outline.size()), turn);
 }
 
-/// The triangles by places in the outline. None where there is no triangulation.
+/// The triangles by positions in the outline. None where there is no triangulation.
 template <typename Scalar>
 Triangles triangulate_outline(const Outline<Scalar>& outline) {
   const Looks looks = looks_of(outline);

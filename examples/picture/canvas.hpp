@@ -23,7 +23,7 @@ struct Colour {
 
 [[nodiscard]] Colour mix(const Colour& a, const Colour& b, float share_of_b);
 
-/// A place on the canvas in pixels, x to the right and y down; pixel centres lie at halves.
+/// A position on the canvas in pixels, x to the right and y down. Pixel centres lie at halves.
 struct Spot {
   float x = 0;
   float y = 0;

@@ -17,8 +17,8 @@ struct NumberTable {
 };
 
 /// Reads a row from each line of a file, or of standard input if it is `-`. White space, or a comma with or without it,
-/// stands between numbers; lines that begin with # and blank lines are skipped. Throws InputError, which names the file
-/// and the line.
+/// separates numbers. Lines that begin with # and blank lines are skipped. Throws InputError, which names the file and
+/// the line.
 template <typename Scalar>
 [[nodiscard]] NumberTable<Scalar> read_number_table(const std::string& path, std::size_t columns);
 

@@ -44,7 +44,7 @@ class Unfiltered : BlockDeterminants<float> {
   HWY_INLINE Unfiltered(const KernelPath<float>& path, const TriangleList<float>& list, std::size_t from)
       : BlockDeterminants(path, list, from) {}
 
-  [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<float>& range, const Bounds& /*bounds*/) const {
+  [[nodiscard]] HWY_INLINE Verdicts classify(const RangeWeights<float>& range, const Bounds& /*bounds*/) const {
     const V zero = hn::Zero(d_);
     const V w = hn::Sub(hn::Sub(det_, u_), v_);
     const V first = hn::MulAdd(height_, all(range.t_first), hn::Mul(det_, all(range.det_first)));
@@ -90,9 +90,9 @@ class WithoutExactStage : public BlockKernel<float> {
   HWY_INLINE WithoutExactStage(const KernelPath<float>& path, const TriangleList<float>& list, std::size_t from)
       : BlockKernel(path, list, from) {}
 
-  [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<float>& range, const Bounds& bounds) const {
-    const Lanes lanes = BlockKernel::classify(range, bounds);
-    return {lanes.certain, lanes.certain};
+  [[nodiscard]] HWY_INLINE Verdicts classify(const RangeWeights<float>& range, const Bounds& bounds) const {
+    const Verdicts verdicts = BlockKernel::classify(range, bounds);
+    return {verdicts.certain, verdicts.certain};
   }
   [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of(const Bounds& /*bounds*/, const Crossing& crossing,
                                                              std::uint64_t hits, float limit) {
@@ -162,7 +162,7 @@ class AnyAsComputed {
 
   template <typename AnyPath>
   HWY_INLINE std::uint64_t take_certain(const CandidateBlock<float, AnyPath>& block, bool& /*is_nearer*/) {
-    is_done_ = block.lanes.certain != 0;
+    is_done_ = block.verdicts.certain != 0;
     return 0;
   }
   [[nodiscard]] double limit() const { return 0; }

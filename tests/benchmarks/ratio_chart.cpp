@@ -105,7 +105,7 @@ class RatioChart {
     return left + static_cast<double>(question) * (panel_width_ + gap);
   }
   [[nodiscard]] static double panel_y(std::size_t set) { return top + static_cast<double>(set) * (panel_height + gap); }
-  /// Where a ratio stands below the top of its panel.
+  /// How far a ratio is below the top of its panel.
   [[nodiscard]] double depth(double ratio) const { return panel_height * (high_ - std::log2(ratio)) / (high_ - low_); }
 
   void draw_legend() {

@@ -15,7 +15,7 @@ void measure_sizes(const Request& request, Report& report);
 void measure_ticks(const Request& request, Report& report);
 /// One thread and two.
 void measure_threads(const Request& request, Report& report);
-/// What exactness costs: the same layout, walk and batch without the filter and all that stands behind it.
+/// What exactness costs: the same layout, walk and batch without the filter and all that comes after it.
 void measure_exactness(const Request& request, Report& report);
 /// How often the filter is undecided and exact arithmetic is needed, and what that takes.
 void measure_statistics(const Request& request, Report& report);

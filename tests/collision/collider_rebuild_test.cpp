@@ -105,7 +105,7 @@ TYPED_TEST(ColliderRebuild, answers_as_new_in_nested_grids) {
   this->expect_deforms(mesh, divided);
 }
 
-/// Once that is rebuilt too, lest it have slabs.
+/// The new collider is rebuilt too. Without this it might have slabs.
 TYPED_TEST(ColliderRebuild, visits_what_a_new_one_visits) {
   const auto mesh = this->scattered(300, TypeParam{0.25});
   const auto moved = deformed(mesh, deformations<TypeParam>().back());

@@ -94,7 +94,7 @@ class PublicReports : public testing::Test {
     return hits;
   }
 
-  /// A square of ground of side 8, whose corners stand at unequal heights.
+  /// A square of ground of side 8, whose corners are at unequal heights.
   static GeneratedMesh<Scalar> ground_at(const Point& place) {
     return placed(square({Point{0, 0, 1}, {8, 0, 3}, {8, 8, 2}, {0, 8, 5}}), Scalar{1}, place);
   }

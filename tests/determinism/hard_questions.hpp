@@ -21,8 +21,8 @@ inline constexpr std::uint64_t published_hash<float> = 0xd88a62f1b9569e69u;
 template <>
 inline constexpr std::uint64_t published_hash<double> = 0xad3e23d18afb4535u;
 
-/// A mesh of 1,000 triangles and 10,000 questions that are hard for it, the same on every platform: points of a
-/// lattice, drawn as whole numbers, of which no step to a Scalar rounds.
+/// A mesh of 1,000 triangles and 10,000 questions that are hard for it, the same on every platform. Points are those of
+/// a lattice, drawn as whole numbers. No step from these to a Scalar rounds.
 template <typename Scalar>
 class HardQuestions {
  public:
@@ -65,7 +65,7 @@ class HardQuestions {
   };
 
   static constexpr std::uint64_t families = 14;
-  /// By so many bits is the lattice finer than float's, so that significands are as full.
+  /// The lattice is finer than that of float by this many bits, so significands are as full.
   static constexpr int finer = std::numeric_limits<Scalar>::digits - 24;
   static constexpr Scalar spacing = Scalar{1} / static_cast<Scalar>(std::int64_t{1} << (14 + finer));
   static constexpr std::int64_t reach = std::int64_t{1} << (17 + finer);

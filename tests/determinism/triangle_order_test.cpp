@@ -21,9 +21,9 @@ namespace {
 /// common planes and in copies.
 ///
 /// A t is a quotient of T and det, or in a triangle's plane or along its segment of two-dimensional determinants; all
-/// are whole numbers up to 3 · 4 · 32 = 384 (a direction's components by a normal's). Two quotients p/q and r/s that
-/// differ do so by at least 1/(qs), a share of 1/(rq) > 2^-18 of the greater one, and so do not round to the same
-/// float: hits tie where their rounded t are the same.
+/// are whole numbers up to 3 · 4 · 32 = 384 (a direction's components by a normal's). Two different quotients p/q and
+/// r/s differ by at least 1/(qs). This is a share of 1/(rq) > 2^-18 of the larger one, so they do not round to the same
+/// float. So hits tie where their rounded t are the same.
 template <typename Scalar>
 class TriangleOrder : public testing::Test {
  protected:

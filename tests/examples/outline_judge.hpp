@@ -33,7 +33,7 @@ class OutlineJudge {
   }
 
   /// What is wrong with the triangles by themselves: their number, how they are joined, how they turn, and their area.
-  /// Nothing where that is right. They hold places in the outline. `is_reversed`: it is walked backwards.
+  /// Nothing where that is right. They hold positions in the outline. `is_reversed`: it is walked backwards.
   [[nodiscard]] std::string complaint(const Triangles& triangles, bool is_reversed) const;
 
   /// What is wrong with what they cover. Looks at many points.

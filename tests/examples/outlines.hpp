@@ -27,8 +27,8 @@ using Outline = std::vector<Place>;
 /// The outer rim of squares that share edges. It may touch itself where corners coincide.
 [[nodiscard]] Outline draw_rim_of_squares(std::size_t square_count, Random& random);
 
-/// A wall with windows of which each is joined to it, or to another window, by a bridge that is walked both ways. A
-/// bridge may bend, and several may share a corner. Where they may touch, windows touch each other and the wall with
+/// A wall with windows. Each window is joined to the wall, or to another window, by a bridge that is walked both ways.
+/// A bridge may bend, and several may share a corner. Where they may touch, windows touch each other and the wall with
 /// corners.
 [[nodiscard]] Outline draw_wall(std::size_t window_count, bool may_touch, Random& random);
 

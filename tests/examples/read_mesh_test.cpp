@@ -80,7 +80,7 @@ TEST(ReadMesh, hands_on_the_warnings_of_the_readers) {
             Warnings{example::no_triangles});
 }
 
-/// A triangle 20 cm wide, as surveyors give its place.
+/// A triangle 20 cm wide, as surveyors give its position.
 const std::string survey_corners[] = {"5283911.5 634250.25 412.75", "5283911.7 634250.25 412.75",
                                       "5283911.5 634250.45 412.75"};
 

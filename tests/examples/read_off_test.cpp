@@ -189,7 +189,7 @@ TEST(ReadOff, passes_over_colors_of_faces) {
   expect_reads(start + "3 0 1 2 255 128 0\n3 3 2 1 0.5 0.5 1e-1\n", square_corners, two_triangles);
   expect_reads(start + "3 0 1 2 255 128 0 255\n3 3 2 1 0 0 0 1\n", square_corners, two_triangles);
   expect_reads(start + "3 0 1 2\n3 3 2 1 3 0 1 2\n", square_corners, two_triangles);
-  // A color may stand behind a face of several lines as well.
+  // A color may also follow a face of several lines.
   expect_reads(start + "3 0\n1 2 1 0 0\n3 3\n2 1 0 1 0\n", square_corners, two_triangles);
   EXPECT_EQ(error_in(start + "3 0 1 2 0 1\n3 3 2 1\n"),
             "line 7: a face is followed by 2 numbers in its line, but a color has 1, 3 or 4");
@@ -330,7 +330,7 @@ TEST(ReadOff, names_the_line_that_is_at_fault_in_a_file_of_lines) {
   EXPECT_EQ(error_in("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1\n4 3 2 1 0\n"), "line 6: a vertex has 3 coordinates, not 2");
   EXPECT_EQ(error_in("OFF\n4 1\n0.5 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 9\n"),
             "line 7: vertex index 9 is out of range, there are 4 vertices");
-  // So it is with colors of vertices, of which the first word does not tell.
+  // The same holds for colors of vertices, which the first word does not tell of.
   const std::string colored = "0 0 0 9 0 0\n1 0 0 9 0 0\n1 1 0 9 0 0\n";
   EXPECT_EQ(error_in("OFF\n4 1 0\n" + colored + "0 x 0 9 0 0\n4 0 1 2 3\n"), "line 6: 'x' is not a number");
   EXPECT_EQ(error_in("OFF\n4 1 0\n" + colored + "0 1 0 9 0\n4 0 1 2 3\n"), "line 6: a vertex has 3 coordinates, not 5");
@@ -406,7 +406,7 @@ struct RandomMesh {
 };
 
 /// Vertices on a parabola, so that corners in the order of their ids make a convex face. All numbers are small and
-/// whole: what is read at a wrong place may well pass for a count or for an index.
+/// whole: what is read at a wrong position may well pass for a count or for an index.
 RandomMesh random_mesh(Random& random) {
   RandomMesh mesh;
   const auto height = static_cast<float>(random.between(2, 5));

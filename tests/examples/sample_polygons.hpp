@@ -20,7 +20,7 @@ namespace surehit::test {
 using Spot = std::array<std::int64_t, 2>;
 using Position = std::array<std::int64_t, 3>;
 
-/// Corners are places in `spots`. An outline may pass a spot twice.
+/// Corners are indices into `spots`. An outline may pass a spot twice.
 struct SamplePolygon {
   std::string name;
   std::vector<Spot> spots;
@@ -137,7 +137,7 @@ inline Position placed(const SamplePlane& plane, const Spot& spot, std::int64_t 
   return position;
 }
 
-/// So many units of space to one of a polygon's own, so that whole numbers lie between its corners.
+/// The number of units of space for one of a polygon's own. It is above 1, so whole numbers lie between the corners.
 inline constexpr std::int64_t sample_scale = 6;
 
 inline SampleFace placed(const SamplePlane& plane, const SamplePolygon& polygon) {

@@ -158,7 +158,7 @@ std::int64_t doubled_area(const Outline& outline, const Corners& corners) {
   return area;
 }
 
-/// All places in the outline from one of them on, or back.
+/// All positions in the outline from one of them on, or back.
 Corners corners_from(std::size_t start, bool is_reversed, std::size_t size) {
   Corners corners(size);
   for (std::size_t i = 0; i < size; ++i) {

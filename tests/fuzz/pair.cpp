@@ -54,7 +54,7 @@ void check(ByteSource bytes) {
   const std::array points = {&segment.start, &segment.end, &triangle.a, &triangle.b, &triangle.c};
   while (!bytes.is_empty()) edit_points<Scalar>(bytes, points);
 
-  // The second point is where the path goes to, or the direction of a ray or a line as it stands.
+  // The second point is where the path goes to, or it is itself the direction of a ray or a line.
   Path<Scalar> path = path_along(segment, kind);
   if (has_direction) path.toward = segment.end;
   const QueryOptions<Scalar> options =

@@ -81,7 +81,7 @@ std::string random_bytes(Random& random) {
   return bytes;
 }
 
-/// Of a file of the corpus, the beginning of which another's end may replace.
+/// Changes a file of the corpus. The beginning of another file may replace its own.
 std::string mutation(const std::vector<std::string>& corpus, Random& random) {
   std::string bytes = corpus[random.below(corpus.size())];
   if (random.one_in(4)) {

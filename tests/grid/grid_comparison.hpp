@@ -25,7 +25,7 @@ inline std::vector<GridOptions> compared_grids() {
           {.resolution = {3, 2, 4}, .crowded = 3}};
 }
 
-/// One mesh in grids of several resolutions, each of which must answer as asking every triangle does, to the bit.
+/// One mesh in grids of several resolutions. Each grid must answer as asking every triangle does, to the bit.
 template <typename Scalar>
 class GridComparison {
  public:

@@ -9,8 +9,8 @@
 
 namespace surehit::test {
 
-/// Small triangles whose corners stand on the sides that the boxes of lists may have, as near as a Scalar comes; as a
-/// grid with these options counts.
+/// Small triangles whose corners are on the sides that the boxes of lists may have, as near as a Scalar comes. The
+/// sides are counted as in a grid with these options.
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> triangles_on_box_sides(std::size_t count, const GridOptions& options,
                                                            Random& random) {

@@ -15,8 +15,8 @@ class EmptyCubes {
   EmptyCubes(std::vector<bool> empty, const std::array<std::uint32_t, 3>& cells, bool empty_beyond)
       : empty_(std::move(empty)), cells_(cells), empty_beyond_(empty_beyond) {}
 
-  /// The edge of the largest empty cube up to `limit` that begins with the cell and extends in an octant of directions,
-  /// downwards on axis k where bit k is set.
+  /// Returns the edge of the largest empty cube, up to `limit`, that begins with the cell and extends in an octant of
+  /// directions. It extends downwards on axis k if bit k is set.
   [[nodiscard]] std::uint32_t largest(std::size_t cell, std::uint32_t octant, std::uint32_t limit) const {
     const Place corner = {static_cast<std::int64_t>(cell % cells_[0]),
                           static_cast<std::int64_t>(cell / cells_[0] % cells_[1]),

@@ -21,13 +21,13 @@ using ExactPolygon = std::vector<ExactPoint>;
 
 /// x 2^exponent
 [[nodiscard]] mpq_class scaled_exactly(double x, int exponent);
-/// Where a point, and where a triangle's corners truly stand, counted in finest cells.
+/// The exact position of a point, or of a triangle's corners, counted in finest cells.
 template <typename Scalar>
 [[nodiscard]] ExactPoint in_frame(const GridFrame& frame, const Vector3<Scalar>& point);
 template <typename Scalar>
 [[nodiscard]] ExactPolygon in_frame(const GridFrame& frame, const Triangle<Scalar>& triangle);
 
-/// The coordinate that stands at `place`, as near as a double comes.
+/// The coordinate in mesh units of `place`, as near as a double comes.
 [[nodiscard]] double out_of_frame(const GridFrame& frame, std::size_t axis, double place);
 
 /// In the plane z = 0, from a corner of finest cells in the direction of whole numbers up to 4: where cells are

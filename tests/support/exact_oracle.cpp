@@ -16,9 +16,9 @@ namespace {
 
 using IntegerVector = std::array<mpz_class, 3>;
 
-/// A power of two of which all coordinates of a pair are multiples. Neither t nor a weight depends on the unit that
-/// both are measured in, and integers are spared the common divisors that every sum and product of rationals is reduced
-/// by.
+/// A power of two that divides all coordinates of a pair. Coordinates are counted in it as integers. Neither t nor a
+/// weight depends on the unit. Rationals would lose time, because each of their sums and products is reduced by common
+/// divisors.
 class Unit {
  public:
   template <typename Scalar>
@@ -190,7 +190,7 @@ class Hull {
   /// The least t of the interval at which start + t direction lies in the hull.
   ///
   /// Every point of the hull is corner 0 plus the weighted spans from corner 0 to the others. Solving for the weights
-  /// leaves them as linear functions of t, each of which cuts the interval, and equations in t alone, which pin it.
+  /// leaves them as linear functions of t, which each cut the interval, and equations in t alone, which pin it.
   [[nodiscard]] std::optional<Contact> first_contact(const IntegerVector& start, const IntegerVector& direction,
                                                      Interval interval) const {
     const IntegerVector& base = corners_[weighted_[0]];

@@ -26,7 +26,7 @@ struct GeneratedMesh {
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> scattered_triangles(std::size_t count, Scalar size, Random& random);
 
-/// `count` × `count` squares of two triangles over [-1, 1]², whose corners stand at random heights up to `height`.
+/// `count` × `count` squares of two triangles over [-1, 1]², whose corners are at random heights up to `height`.
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> rough_ground(std::uint32_t count, Scalar height, Random& random);
 
@@ -70,11 +70,11 @@ template <typename Scalar>
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> joined(GeneratedMesh<Scalar> mesh, const GeneratedMesh<Scalar>& other);
 
-/// Grounds far apart, on the way from one corner of their box to the opposite one, most of which is empty.
+/// Grounds far apart, on the way from one corner of their box to the opposite one. Most of the box is empty.
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> grounds_askew(Random& random);
 
-/// Small triangles here and there in [-1, 1]³, whose cover in a grid of 40 × 40 × 40 cells begins next to a plane
+/// Small triangles here and there in [-1, 1]³. In a grid of 40 × 40 × 40 cells, their cover begins next to a plane
 /// between cells for a path that `lane_walk_test` names.
 template <typename Scalar>
 [[nodiscard]] GeneratedMesh<Scalar> covered_from_a_plane();

@@ -34,7 +34,7 @@ Dyadic dyadic(Scalar x) {
   return {significand >> zeros, exponent - digits + zeros};
 }
 
-/// A pair's coordinates, counted in the least binary place that any of them uses.
+/// A pair's coordinates, counted in the lowest binary digit that any of them uses.
 struct DyadicPair {
   /// The path's start and its end or direction, then the corners.
   std::array<std::array<Dyadic, 3>, 5> points;
@@ -59,11 +59,11 @@ struct DyadicPair {
   [[nodiscard]] int bits() const { return high > low ? high - low : 0; }
 };
 
-/// With coordinates below 2^k their differences are below 2^(k+1), a cross product's components below 2^(2k+3), and a
-/// determinant below 3 · 2^(k+1) · 2^(2k+3) < 2^(3k+6), which 127 bits hold for k up to 40.
+/// Let coordinates be below 2^k. Then their differences are below 2^(k+1), and a cross product's components are below
+/// 2^(2k+3). A determinant is below 3 · 2^(k+1) · 2^(2k+3) < 2^(3k+6). 127 bits hold this for k up to 40.
 constexpr int max_bits_across = 40;
-/// In the plane, weights over their common denominator are below 2^(2k+3), the third of them and each bound of t below
-/// 2^(2k+5), and what compares two bounds or puts one into a weight below 2^(4k+11).
+/// In the plane, weights over their common denominator are below 2^(2k+3). The third of them and each bound of t are
+/// below 2^(2k+5). What compares two bounds, or puts one into a weight, is below 2^(4k+11).
 constexpr int max_bits_in_plane = 29;
 
 /// numerator / denominator, with a positive denominator.

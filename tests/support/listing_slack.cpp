@@ -5,11 +5,11 @@
 
 namespace surehit::test {
 
-// Corners are off by 3 u R and the axes square to an edge by 8 u R, which makes 12 with a little room. The plane is off
-// by its own slack on either side, a share of the normal; or, where the triangle is so thin that this says nothing, its
-// longest edge's axes keep it apart but for its width.
+// Corners are off by 3 eps R, and the axes that are square to an edge by 8 eps R. This makes 12 eps R with a little
+// room. The plane is off by its own slack on either side, which is a share of the normal. If the triangle is so thin
+// that this says nothing, the axes of its longest edge keep it apart, except for its width.
 double listing_slack(const ExactPolygon& triangle, double size) {
-  constexpr double u = 0x1p-24;
+  constexpr double eps = 0x1p-24;
   std::array<std::array<double, 3>, 2> edges;
   double longest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -28,9 +28,9 @@ double listing_slack(const ExactPolygon& triangle, double size) {
     taxicab_length += std::fabs(component);
     squared_length += component * component;
   }
-  const double axes = 12 * u * size;
+  const double axes = 12 * eps * size;
   if (taxicab_length == 0) return axes;
-  const double plane = 2 * (64 * u * longest * longest * longest / taxicab_length + 16 * u * (size + longest));
+  const double plane = 2 * (64 * eps * longest * longest * longest / taxicab_length + 16 * eps * (size + longest));
   const double width = std::sqrt(squared_length) / longest;
   return axes + std::min(plane, width);
 }

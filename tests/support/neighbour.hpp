@@ -7,8 +7,8 @@
 
 namespace surehit::test {
 
-/// The number `steps` places above x, or below for negative steps, in the order of all finite numbers; both zeros are
-/// one place. Integer arithmetic alone, so that neither libm nor a floating-point mode has a say.
+/// Returns the number `steps` positions above x, or below for negative steps, in the order of all finite numbers. Both
+/// zeros have one position. It uses integer arithmetic alone, so neither libm nor a floating-point mode has a say.
 template <typename Scalar>
 Scalar neighbour(Scalar x, int steps) {
   using Integer = std::conditional_t<sizeof(Scalar) == 4, std::int32_t, std::int64_t>;

@@ -17,7 +17,7 @@ Vector3<Scalar> lattice_point(Random& random, std::int64_t low, std::int64_t hig
   return point;
 }
 
-/// Triangles of a family, some of which share their corners with those before.
+/// Triangles of a family. Some share their corners with those before.
 template <typename Scalar>
 SmallMesh<Scalar> of_family(PairFamily family, Random& random) {
   SmallMesh<Scalar> mesh;

@@ -83,24 +83,24 @@ class CellLister {
   /// Tests what is in the lanes, and makes entries from all blocks.
   void ask();
 
-  OverlapLanes lanes_;                                          ///< blocks that are to be tested
-  std::array<std::size_t, OverlapLanes::count> block_of_lane_;  ///< the index in `blocks_` of each lane's block
-  std::size_t filled_ = 0;                                      ///< the number of lanes in use
-  ListedBlocks blocks_;                                         ///< blocks that are to become entries
-  std::size_t block_count_ = 0;                                 ///< the number of these blocks
+  OverlapLanes lanes_;                                          ///< The blocks that are still to be tested.
+  std::array<std::size_t, OverlapLanes::count> block_of_lane_;  ///< The index in `blocks_` of each lane's block.
+  std::size_t filled_ = 0;                                      ///< The number of lanes in use.
+  ListedBlocks blocks_;                                         ///< The blocks whose entries are still to be written.
+  std::size_t block_count_ = 0;                                 ///< The number of blocks in `blocks_`.
   CellEntries& entries_;
   bool may_grow_;
-  float size_;      ///< the edge of a cell, in finest cells
-  float per_size_;  ///< 1 / size_
+  float size_;      ///< The edge of a cell, in finest cells.
+  float per_size_;  ///< 1 / size_.
   CellPoint cell_padding_;
-  PaddedPoint padding_;  ///< the same padding, with a fourth lane
-  Cell first_;           ///< the first cell of the range
-  Cell last_;            ///< the last cell of the range
+  PaddedPoint padding_;  ///< The same as `cell_padding_`, with a fourth lane.
+  Cell first_;           ///< The first cell of the range.
+  Cell last_;            ///< The last cell of the range.
   CellOrder order_;
-  Cell pitch_;  ///< the index in this order grows by this to the next cell on each axis
+  Cell pitch_;  ///< The index in `order_` grows by this to the next cell on each axis.
 };
 
-/// Sorts the entries of so many cells into lists. It counts the entries of each cell first.
+/// Sorts the entries of `cell_count` cells into lists. It counts the entries of each cell first.
 void sort_entries(std::span<const CellEntries> parts, std::size_t cell_count, CellLists& lists);
 
 }  // namespace surehit::detail

@@ -151,18 +151,18 @@ class Octants {
   }
 
   std::array<std::uint32_t, 3> cells_;
-  std::size_t pitch_;  ///< the length of a row
+  std::size_t pitch_;  ///< The length of a row.
   // These point into the scratch.
-  std::uint8_t* emptiness_;                       ///< 0xff where a cell is empty, else 0
-  std::array<std::uint8_t*, octants> distances_;  ///< the distances of each octant
-  std::uint8_t* outer_row_;                       ///< a row outside the grid, where all is empty
+  std::uint8_t* emptiness_;                       ///< 0xff where a cell is empty, else 0.
+  std::array<std::uint8_t*, octants> distances_;  ///< The distances of each octant.
+  std::uint8_t* outer_row_;                       ///< A row outside the grid, where all is empty.
 };
 
 /// An axis of a brick, whose cells are the bits of one integer.
 struct BrickAxis {
-  int shift;              ///< from one cell to the next on the axis
-  std::uint64_t highest;  ///< the last cells on the axis
-  std::uint64_t lowest;   ///< the first cells on the axis
+  int shift;              ///< The number of bits from one cell to the next on the axis.
+  std::uint64_t highest;  ///< The bits of the last cells on the axis.
+  std::uint64_t lowest;   ///< The bits of the first cells on the axis.
 };
 constexpr std::array<BrickAxis, 3> brick_axes = {{{1, 0x8888888888888888, 0x1111111111111111},
                                                   {4, 0xf000f000f000f000, 0x000f000f000f000f},

@@ -24,11 +24,11 @@ struct PaddedBox {
 struct CellEntries {
   static constexpr std::size_t too_many = std::numeric_limits<std::size_t>::max();
 
-  std::size_t count = 0;                 ///< the number of pairs, or `too_many` if there was no room
-  RoomyVector<std::uint32_t> cells;      ///< the cell of each pair; its size is the room
-  RoomyVector<std::uint32_t> triangles;  ///< the triangle of each pair
+  std::size_t count = 0;                 ///< The number of pairs, or `too_many` if there was no room.
+  RoomyVector<std::uint32_t> cells;      ///< The cell of each pair. Its size is the room.
+  RoomyVector<std::uint32_t> triangles;  ///< The triangle of each pair.
 
-  /// Makes room for so many entries. The likely ones get their memory pages at once.
+  /// Makes room for this many entries. The likely ones get their memory pages at once.
   void make_room(std::size_t entries, std::size_t likely = 0) {
     if (cells.size() >= entries) return;
     triangles.resize(entries);
@@ -40,9 +40,9 @@ struct CellEntries {
 
 /// The triangle lists of some cells during a build.
 struct CellLists {
-  CellEntries entries;                   ///< what the lists are sorted from
-  UnsetVector<std::uint32_t> offsets;    ///< the index where each cell's list begins, and one more for the end
-  UnsetVector<std::uint32_t> triangles;  ///< the lists, one after the other
+  CellEntries entries;                   ///< The entries that are sorted into the lists.
+  UnsetVector<std::uint32_t> offsets;    ///< The index where each cell's list begins, and one more for the end.
+  UnsetVector<std::uint32_t> triangles;  ///< The lists, one after the other.
 };
 
 }  // namespace detail
@@ -57,12 +57,13 @@ class GridScratch {
   friend class GridBuild;
   friend class Grid;
 
-  detail::UnsetVector<detail::PaddedPoint> points_;  ///< the vertices
-  detail::UnsetVector<detail::PaddedBox> boxes_;     ///< the boxes of the triangles
-  std::array<detail::CellLists, 3> lists_;           ///< of the top cells, and of the current brick of each level
-  std::vector<detail::CellEntries> parts_;           ///< of the top cells, one for each task of an executor
-  detail::UnsetVector<std::uint32_t> words_;         ///< the words of the top cells
-  detail::UnsetVector<std::uint8_t> distances_;      ///< the distances through empty cells
+  detail::UnsetVector<detail::PaddedPoint> points_;  ///< The vertices.
+  detail::UnsetVector<detail::PaddedBox> boxes_;     ///< The boxes of the triangles.
+  std::array<detail::CellLists, 3>
+      lists_;  ///< The lists of the top cells, and those of the current brick of each level.
+  std::vector<detail::CellEntries> parts_;       ///< The entries of the top cells that each task of an executor found.
+  detail::UnsetVector<std::uint32_t> words_;     ///< The words of the top cells.
+  detail::UnsetVector<std::uint8_t> distances_;  ///< The distances through empty cells.
 };
 
 }  // namespace surehit

@@ -15,7 +15,8 @@
 
 namespace surehit::detail {
 
-/// The triangles of a mesh, as a grid lists them. `GridBuild` lists whatever has these functions.
+/// The triangles of a mesh, as a grid lists them. `GridBuild` lists whatever has these functions, and a lister that
+/// tests its shapes against cells.
 template <typename Scalar>
 class ListedTriangles {
  public:
@@ -79,6 +80,8 @@ class ListedTriangles {
     });
   }
 
+  /// Finds the cells that shapes meet.
+  using Lister = CellLister;
   /// What the overlap test needs of a triangle, in finest cells.
   using Shape = CellLister::Corners;
   [[nodiscard]] Shape shape(std::uint32_t triangle) const {

@@ -31,15 +31,15 @@ class TriangleOverlap {
  private:
   /// The interval that the triangle covers on an axis. This axis is normal to an edge and to a coordinate axis k.
   struct Shadow {
-    float l, m;       ///< the components of the axis on k + 1 and k + 2
-    float low, high;  ///< the interval
+    float l, m;       ///< The components of the axis on k + 1 and k + 2.
+    float low, high;  ///< The interval.
   };
 
   CellPoint padding_;
   std::array<Shadow, 9> shadows_;
   CellPoint normal_ = {};
-  float height_ = 0;        ///< the height of the triangle's plane along the normal
-  float height_slack_ = 0;  ///< a bound on the error of that height
+  float height_ = 0;        ///< The height of the triangle's plane along the normal.
+  float height_slack_ = 0;  ///< A bound on the error of that height.
 };
 
 }  // namespace surehit::detail

@@ -16,10 +16,10 @@ class CellWord {
   CellWord() = default;
   explicit CellWord(std::uint32_t bits) : bits_(bits) {}
 
-  /// So many lists, and so many bricks, can have a number.
+  /// The maximum number of lists. It is also the maximum number of bricks.
   static constexpr std::uint32_t max_numbers = std::uint32_t{1} << 27;
-  static constexpr std::uint32_t max_distance = 15;    ///< what 4 bits can hold
-  static constexpr std::uint32_t divided_bits = 0x1f;  ///< these bits are all 0 in the word of a divided cell
+  static constexpr std::uint32_t max_distance = 15;    ///< The largest number that 4 bits can hold.
+  static constexpr std::uint32_t divided_bits = 0x1f;  ///< These bits are all 0 in the word of a divided cell.
 
   /// Returns the word of a cell with a list.
   static CellWord listing(std::uint32_t list) { return CellWord(list << 5 | 1U << 4); }
@@ -43,7 +43,7 @@ class CellWord {
 /// not beyond the cell.
 class CellBox {
  public:
-  static constexpr std::uint32_t parts = 32;  ///< so many make an edge of the cell
+  static constexpr std::uint32_t parts = 32;  ///< The number of parts along an edge of the cell.
 
   CellBox() = default;
   explicit CellBox(std::uint32_t bits) : bits_(bits) {}
@@ -69,14 +69,14 @@ class CellBox {
 ///
 /// Each component of the normal is a whole number of 5 bits. The two heights along the normal have 8 bits each. They
 /// are counted from the cell's centre, in steps of 3/16 of the cell's edge. No point of the cell, grown by half a
-/// padding, is more than 127.5 steps from the centre. So the lowest and the highest height stand for all heights beyond
-/// them.
+/// padding, is more than 127.5 steps from the centre. So the lowest and the highest height are used for all heights
+/// beyond them.
 class CellSlab {
  public:
-  static constexpr std::int32_t longest = 15;   ///< the maximum component of a normal
-  static constexpr std::int32_t lowest = -128;  ///< the minimum height, in steps
-  static constexpr std::int32_t highest = 127;  ///< the maximum height, in steps
-  static constexpr float step = 3.0F / 16;      ///< the length of a step, in edges of the cell
+  static constexpr std::int32_t longest = 15;   ///< The maximum component of a normal.
+  static constexpr std::int32_t lowest = -128;  ///< The minimum height, in steps.
+  static constexpr std::int32_t highest = 127;  ///< The maximum height, in steps.
+  static constexpr float step = 3.0F / 16;      ///< The length of a step, in edges of the cell.
 
   /// A slab that holds the whole cell.
   CellSlab() = default;
@@ -102,8 +102,8 @@ class CellSlab {
 
 /// What a grid knows about a list besides its triangles. A list ends where the next list begins.
 struct CellList {
-  CellBox box;                ///< the part of the cell that the triangles take up
-  std::uint32_t first_entry;  ///< the index of the list's first entry among all entries of the grid
+  CellBox box;                ///< The part of the cell that the triangles take up.
+  std::uint32_t first_entry;  ///< The index of the list's first entry among all entries of the grid.
 };
 
 }  // namespace surehit

@@ -97,7 +97,7 @@ class Grid {
   GridCover cover_;
   std::uint32_t levels_ = 0;
   std::size_t top_count_ = 0;
-  detail::UnsetVector<CellWord> top_;  ///< longer than top_count_, because a vector load may read beyond the last cell
+  detail::UnsetVector<CellWord> top_;  ///< Longer than `top_count_`: a vector load may read beyond the last cell.
   std::vector<CellWord> bricks_;
   detail::UnsetVector<CellList> lists_;
   detail::UnsetVector<std::uint32_t> entries_;

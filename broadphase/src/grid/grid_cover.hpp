@@ -59,14 +59,16 @@ class GridCover {
   }
 
  private:
-  static constexpr float never = 0x1p120F;  ///< beyond every tau; the near side of a box that does not exist
+  static constexpr float never =
+      0x1p120F;  ///< Lies beyond every tau. It is the near side of a box that does not exist.
 
   /// The sides of all boxes on an axis, in finest cells. They are moved outward by one padding.
   struct Sides {
     std::array<detail::Float4, max_boxes / 4> near;
     std::array<detail::Float4, max_boxes / 4> far;
   };
-  std::array<std::array<Sides, 2>, 3> sides_ = {};  ///< for each axis: for a path that rises, then for one that falls
+  std::array<std::array<Sides, 2>, 3> sides_ =
+      {};  ///< On each axis: the sides for a path that rises, then for one that falls.
   bool is_useful_ = false;
 };
 

@@ -10,7 +10,7 @@ namespace surehit::detail {
 // compile these types for the vectors of any target.
 
 using Float4 = float __attribute__((vector_size(16)));
-using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< also a mask, whose lanes are all ones or zero
+using Int4 = std::int32_t __attribute__((vector_size(16)));  ///< It may be a mask, whose lanes are all ones or zero.
 
 /// Returns x in every lane.
 [[gnu::always_inline]] inline Float4 all_lanes(float x) { return Float4{x, x, x, x}; }

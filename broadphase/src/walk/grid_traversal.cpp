@@ -24,8 +24,8 @@ constexpr double max_start = 0x1p60;
 struct ScaledPath {
   std::array<Pair, 3> start;
   std::array<Pair, 3> rate;
-  int t_exponent = 0;                     ///< tau is t 2^t_exponent - origin[0] - origin[1]
-  std::array<double, 2> origin = {0, 0};  ///< the tau by which each of the two steps moved the start
+  int t_exponent = 0;                     ///< tau is t 2^t_exponent - origin[0] - origin[1].
+  std::array<double, 2> origin = {0, 0};  ///< The tau by which each of the two steps moved the start.
 
   template <typename Scalar>
   ScaledPath(const GridFrame& frame, const Path<Scalar>& path) {

@@ -138,8 +138,8 @@ class SUREHIT_API Collider {
   /// Returns the mask of a triangle. `triangle` must be below `triangle_count()`.
   [[nodiscard]] std::uint32_t mask(std::uint32_t triangle) const noexcept;
 
-  /// Returns the hit with the least exact t, or nothing if the path misses. Among hits with equal exact t, it returns
-  /// the one with the least triangle id.
+  /// Returns the hit with the lowest exact t, or nothing if the path misses. Among hits with equal exact t, it returns
+  /// the one with the lowest triangle id.
   ///
   /// Adds its work to `statistics`, unless this is null.
   [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Path<Scalar>& path, const QueryOptions<Scalar>& options = {},
@@ -192,7 +192,7 @@ class SUREHIT_API Collider {
   /// query under the same options: the segment from the start to it has no hit. If no candidate passes, the result is
   /// the start, which may itself touch a triangle. It is also the start if t or the segment is not finite.
   ///
-  /// The limits keep their places on the whole segment. On the shorter one, a positive min_t becomes the Scalar next
+  /// The limits keep their positions on the whole segment. On the shorter one, a positive min_t becomes the Scalar next
   /// below fl(min_t / s). max_t is not before the hit, so it admits all of the shorter segment. `ignore_end_contact` is
   /// about the shorter segment's end. With it, the point may stop exactly on a surface.
   ///
@@ -205,8 +205,8 @@ class SUREHIT_API Collider {
                                                 HitFilter<Scalar> filter,
                                                 const QueryOptions<Scalar>& options = {}) const noexcept;
 
-  /// Returns the limit that keeps a hit: the least Scalar that is not below its exact t. `max_t = hit.t` would lose the
-  /// hit in half of all cases, because t was rounded down there.
+  /// Returns the limit that keeps a hit: the smallest Scalar that is not below its exact t. `max_t = hit.t` would lose
+  /// the hit in half of all cases, because t was rounded down there.
   ///
   /// `hit` must be one of the path's hits in this collider. Decides one pair of a path and a triangle, and allocates
   /// nothing.

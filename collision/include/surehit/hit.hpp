@@ -28,12 +28,12 @@ enum class Side : std::uint8_t {
 /// keeps it. A default hit is a miss, and its other members mean nothing.
 template <FloatOrDouble Scalar>
 struct Hit {
-  /// The least parameter at which the path meets the triangle. It is in [0, 1] on a segment, in [0, inf] on a ray, and
+  /// The lowest parameter at which the path meets the triangle. It is in [0, 1] on a segment, in [0, inf] on a ray, and
   /// any number on a line. It is infinite if the exact t is too large for a finite Scalar. Zero is +0.
   Scalar t = 0;
   Scalar u = 0;                          ///< The weight of corner b, in [0, 1]. Zero is +0.
   Scalar v = 0;                          ///< The weight of corner c, in [0, 1]. Zero is +0.
-  std::uint32_t triangle = no_triangle;  ///< The triangle's id: its place in the mesh. `no_triangle` means a miss.
+  std::uint32_t triangle = no_triangle;  ///< The triangle's id: its index in the mesh. `no_triangle` means a miss.
   Side side = Side::edge_on;             ///< The side at which the path arrives.
 
   /// Returns true if all members are equal.

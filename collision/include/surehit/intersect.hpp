@@ -27,8 +27,8 @@ template <FloatOrDouble Scalar>
     const std::type_identity_t<Path<Scalar>>& path, const Triangle<Scalar>& triangle,
     const std::type_identity_t<QueryOptions<Scalar>>& options = {}) noexcept;
 
-/// Returns the limit that keeps a hit: the least Scalar that is not below the exact t. As `max_t` it keeps the hit, and
-/// `hit.t` may lose it. `hit` must be a hit of this path and this triangle.
+/// Returns the limit that keeps a hit: the smallest Scalar that is not below the exact t. As `max_t` it keeps the hit,
+/// and `hit.t` may lose it. `hit` must be a hit of this path and this triangle.
 ///
 /// Decides one pair, as `intersect` does. Allocates nothing.
 template <FloatOrDouble Scalar>

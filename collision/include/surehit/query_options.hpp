@@ -23,10 +23,10 @@ enum class Culling : std::uint8_t {
 /// What narrows a query. The defaults leave out only triangles whose mask is 0.
 template <FloatOrDouble Scalar>
 struct QueryOptions {
-  /// The least t that counts. The path is cut to [min_t, max_t], both ends included, and exact t are compared with
+  /// The minimum t that counts. The path is cut to [min_t, max_t], both ends included, and exact t are compared with
   /// them. This never makes a path longer. With a NaN, nothing is hit. A path of length zero has t = 0 alone.
   Scalar min_t = -detail::infinity<Scalar>;
-  /// The greatest t that counts, see `min_t`. To keep a known hit, set it to `max_t_keeping`. hit.t is rounded, and may
+  /// The maximum t that counts, see `min_t`. To keep a known hit, set it to `max_t_keeping`. hit.t is rounded, and may
   /// lose the hit.
   Scalar max_t = detail::infinity<Scalar>;
   /// Leaves out hits by their side.

@@ -35,7 +35,7 @@ struct TriangleList {
 };
 
 /// The verdicts on the triangles of one vector. Bit k of each mask is for lane k.
-struct Lanes {
+struct Verdicts {
   std::uint64_t possible;  ///< All lanes except the certain misses.
   std::uint64_t certain;   ///< All certain hits. They are possible too.
 };
@@ -48,7 +48,7 @@ struct FirstLanes {
   Scalar t_upper;       ///< The first exact t is at most this.
 };
 
-/// Returns the least lane, which may be infinite. Highway's emulated vectors begin with the largest finite number.
+/// Returns the lowest lane, which may be infinite. Highway's emulated vectors begin with the largest finite number.
 template <class D>
 HWY_INLINE hn::TFromD<D> min_of_lanes(D d, hn::Vec<D> v) {
 #if HWY_TARGET == HWY_EMU128
@@ -191,7 +191,7 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// Returns the certain misses and hits, by K12 to K15. A separate bound for each sign of det would need twice as many
   /// comparisons. Each comparison is true only for a certain verdict. If sizes might overflow, the bounds are infinite
   /// or NaN. Then all comparisons are false, and nothing is certain.
-  [[nodiscard]] HWY_INLINE Lanes classify(const RangeWeights<Scalar>& range, const Bounds& bounds) const {
+  [[nodiscard]] HWY_INLINE Verdicts classify(const RangeWeights<Scalar>& range, const Bounds& bounds) const {
     const struct {
       V side, range, det, min_side, min_end;
     } in_all_lanes = {all(bounds.side), all(bounds.range), all(bounds.det), all(bounds.min_side), all(bounds.min_end)};
@@ -241,21 +241,21 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// lists need it.
   HWY_NOINLINE static void classify_each(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list,
                                          std::size_t from, const RangeWeights<Scalar>& range, Scalar limit,
-                                         Lanes& lanes, FirstLanes<Scalar>& first) {
+                                         Verdicts& verdicts, FirstLanes<Scalar>& first) {
     constexpr Scalar too_large = std::numeric_limits<Scalar>::infinity();
     if (!(list.edge_size < too_large && path.d_size < too_large)) return;
     const BlockKernel kernel(path, list, from);
     const BlockBounds<Scalar> bounds(path, list, from, range);
-    const Lanes each = kernel.classify_by(range, bounds);
-    lanes.possible &= each.possible;
-    lanes.certain = lanes.possible & (lanes.certain | each.certain);
-    first = first_of(bounds.det, bounds.height, kernel.crossing(), lanes.certain, limit);
+    const Verdicts each = kernel.classify_by(range, bounds);
+    verdicts.possible &= each.possible;
+    verdicts.certain = verdicts.possible & (verdicts.certain | each.certain);
+    first = first_of(bounds.det, bounds.height, kernel.crossing(), verdicts.certain, limit);
   }
 
  private:
   /// Classifies by `BlockBounds`, or by any limits with the same member names.
   template <typename Limits>
-  [[nodiscard]] HWY_INLINE Lanes classify_by(const RangeWeights<Scalar>& range, const Limits& limits) const {
+  [[nodiscard]] HWY_INLINE Verdicts classify_by(const RangeWeights<Scalar>& range, const Limits& limits) const {
     const V sign = hn::And(det_, all(Scalar{-0.0}));
     const V det = hn::Abs(det_), height = hn::Xor(height_, sign);
     const V u = hn::Xor(u_, sign), v = hn::Xor(v_, sign), w = hn::Sub(hn::Sub(det, u), v);
@@ -334,21 +334,21 @@ class BlockKernel : BlockDeterminants<Scalar> {
 
 /// Returns the verdicts on the triangles of one vector, which begins with triangle `from`.
 template <typename Kernel, typename Scalar>
-HWY_NOINLINE Lanes classify(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
-                            const TriangleList<Scalar>& list, const ListBounds<Scalar>& bounds, std::size_t from) {
+HWY_NOINLINE Verdicts classify(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
+                               const TriangleList<Scalar>& list, const ListBounds<Scalar>& bounds, std::size_t from) {
   return Kernel(path, list, from).classify(range, bounds);
 }
 
 /// Does the same, and sets `first` to the certain hits that may be the first one. Several of them are cut at `limit`. A
 /// single one is not.
 template <typename Kernel, typename Scalar>
-HWY_NOINLINE Lanes classify(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
-                            const TriangleList<Scalar>& list, const ListBounds<Scalar>& bounds, std::size_t from,
-                            Scalar limit, FirstLanes<Scalar>& first) {
+HWY_NOINLINE Verdicts classify(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
+                               const TriangleList<Scalar>& list, const ListBounds<Scalar>& bounds, std::size_t from,
+                               Scalar limit, FirstLanes<Scalar>& first) {
   const Kernel kernel(path, list, from);
-  const Lanes lanes = kernel.classify(range, bounds);
-  if (lanes.possible != 0) first = kernel.first_of(bounds, lanes.certain, limit);
-  return lanes;
+  const Verdicts verdicts = kernel.classify(range, bounds);
+  if (verdicts.possible != 0) first = kernel.first_of(bounds, verdicts.certain, limit);
+  return verdicts;
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE

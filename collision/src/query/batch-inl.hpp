@@ -95,19 +95,19 @@ class Batch {
       // Each loop does one thing for all vectors, so that they do not wait for each other.
       const std::size_t used = (static_cast<std::size_t>(std::bit_width(walking_)) + max_lanes - 1) / max_lanes;
       for (std::size_t i = 0; i < used; ++i) {
-        cells_[i] = walk_.look<has_levels>(lanes_[i], lanes_of(i, walking_));
+        cells_[i] = walk_.look<has_levels>(walks_[i], lanes_of(i, walking_));
       }
       std::uint64_t arriving = 0;
       for (std::size_t i = 0; i < used; ++i) {
         const std::uint32_t in_lists = LaneWalk::in_lists(cells_[i], lanes_of(i, walking_));
-        arriving |= slots_of(i, walk_.meet_lists(cells_[i], in_lists, lanes_[i]));
+        arriving |= slots_of(i, walk_.meet_lists(cells_[i], in_lists, walks_[i]));
         hn::Store(cells_[i].word, du, &words_[i * max_lanes]);
       }
       const std::uint64_t walked = walking_;  // The paths that are done end together with the others.
       walking_ &= ~visit_lists(arriving);
       std::uint64_t still = 0;
       for (std::size_t i = 0; i < used; ++i) {
-        still |= slots_of(i, walk_.advance(cells_[i], lanes_of(i, walking_), lanes_[i]));
+        still |= slots_of(i, walk_.advance(cells_[i], lanes_of(i, walking_), walks_[i]));
       }
       end_paths(walked & ~still);
     }
@@ -140,7 +140,7 @@ class Batch {
       if constexpr (!is_float) taus_[slot] = (tau, ...);
       return jobs_.path(slot);
     };
-    walking_ |= slots_of(vector, queue_.template fill<has_levels>(idle, lanes_[vector], enter));
+    walking_ |= slots_of(vector, queue_.template fill<has_levels>(idle, walks_[vector], enter));
   }
 
   /// Gives the lists of these paths' cells to their visitors. Returns the paths that are done.
@@ -176,14 +176,15 @@ class Batch {
 
   /// Gives the triangles of an open job to the visitor of their path. Returns the bit of the slot if its path is done.
   HWY_INLINE std::uint64_t visit_job(const typename Jobs::Open& open) {
-    const auto& [slot, from, lanes, first] = open;
-    query_.statistics.undecided += static_cast<std::uint64_t>(std::popcount(lanes.possible & ~lanes.certain));
+    const auto& [slot, from, verdicts, first] = open;
+    query_.statistics.undecided += static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
     visited_ |= std::uint64_t{1} << slot;
     const auto& query = queries_.query(index_[slot]);
     const auto& range = queries_.range(index_[slot]);
     const PathOfSlot path{paths_, index_[slot]};
-    const bool shorter = visit(
-        CandidateBlock<Scalar, PathOfSlot>{query, range, path, jobs_.list(slot), from, lanes, first}, visitors_[slot]);
+    const bool shorter =
+        visit(CandidateBlock<Scalar, PathOfSlot>{query, range, path, jobs_.list(slot), from, verdicts, first},
+              visitors_[slot]);
     if constexpr (Visitor::wants_order) {
       if (shorter) shorten(slot, visitors_[slot].limit());
       return 0;
@@ -193,7 +194,7 @@ class Batch {
 
   /// Ends the walk of a slot at parameter t, because nothing beyond it counts.
   HWY_INLINE void shorten(std::size_t slot, double t) {
-    WalkingPaths& lanes = lanes_[slot / max_lanes];
+    WalkingPaths& lanes = walks_[slot / max_lanes];
     if constexpr (is_float) {
       lanes.shorten(slot % max_lanes, t);
     } else {
@@ -212,7 +213,7 @@ class Batch {
     visited_ &= ~ended;
   }
 
-  std::array<WalkingPaths, vectors> lanes_ = {};  ///< The walking paths.
+  std::array<WalkingPaths, vectors> walks_ = {};  ///< The walking paths.
   std::array<LaneWalk::Cells, vectors> cells_;    ///< The cells that they are in.
   const Query<Scalar>& query_;                    ///< The query of the batch.
   Queries& queries_;                              ///< The queries of its paths.

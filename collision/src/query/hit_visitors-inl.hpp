@@ -42,7 +42,7 @@ struct CandidateBlock {
   const AnyPath& path;               ///< The path.
   const TriangleList<Scalar>& list;  ///< The list that has the triangles.
   std::size_t from;                  ///< The index in the list of the triangle in lane 0.
-  Lanes lanes;                       ///< The verdicts of the kernel.
+  Verdicts verdicts;                 ///< The verdicts of the kernel.
   const FirstLanes<Scalar>& first;   ///< The hits that may be first. It is set only if the visitor wants an order.
 
   /// Returns the index of a lane's triangle among the grid's entries.
@@ -111,9 +111,9 @@ class FirstHit {
   /// `limit()`. Returns the lanes that are still to be decided.
   template <typename AnyPath>
   HWY_INLINE std::uint64_t take_certain(const CandidateBlock<Scalar, AnyPath>& block, bool& is_nearer) {
-    if (!trusts_kernel_) return block.lanes.possible;
+    if (!trusts_kernel_) return block.verdicts.possible;
     const FirstLanes<Scalar>& first = block.first;
-    const std::uint64_t undecided = block.lanes.possible & ~block.lanes.certain;
+    const std::uint64_t undecided = block.verdicts.possible & ~block.verdicts.certain;
     const bool is_alone = std::has_single_bit(first.lanes);
     const auto lane = static_cast<std::size_t>(std::countr_zero(first.lanes));
     is_nearer = is_alone && first.t_upper < t_lower_;
@@ -151,11 +151,12 @@ class FirstHit {
 
   /// Lets the narrowphase decide a candidate. Keeps it and returns true if it comes first.
   HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate) {
-    if (!query.takes_part(candidate.id) || (is_found() && candidate.id == id())) return false;
+    if (!query.takes_part(candidate.id) || (is_found() && grid_ == &query.grid && candidate.id == id())) return false;
     if (!narrowphase.find_contact(candidate.triangle, candidate.contact)) return false;
     if (is_found() && !narrowphase.comes_before(candidate, decide_best(narrowphase))) return false;
     if (query.filter != nullptr && !query.accepts(narrowphase.hit(candidate))) return false;
     state_ = State::decided;
+    grid_ = &query.grid;
     best_ = candidate;
     // Rounding to nearest moves these bounds by at most eps |t|. They are compared with the kernel's interval. It is
     // wider than it needs to be by 3 eps |t| (K16).
@@ -213,7 +214,7 @@ class FirstHit {
   /// Returns true if this triangle is the best one already. Most triangles come again in the next cell.
   template <typename AnyPath>
   [[nodiscard]] bool is_best(const CandidateBlock<Scalar, AnyPath>& block, std::size_t lane) const {
-    return is_found() && block.query.grid.entries()[block.entry(lane)] == id();
+    return is_found() && grid_ == &block.query.grid && block.query.grid.entries()[block.entry(lane)] == id();
   }
   /// Returns the best hit. If only the kernel has decided it, the narrowphase decides it first.
   const Candidate<Scalar>& decide_best(const Narrowphase& narrowphase) {
@@ -226,7 +227,7 @@ class FirstHit {
 
   State state_ = State::none;   ///< Who has decided the best hit.
   bool trusts_kernel_;          ///< True if every certain hit counts.
-  const Grid* grid_ = nullptr;  ///< The grid of a certain hit.
+  const Grid* grid_ = nullptr;  ///< The grid of the best hit.
   std::size_t entry_ = 0;       ///< The index of a certain hit among the entries.
   Scalar edge_size_ = 0;        ///< The edge size of the list of a certain hit.
   // The exact t of the best hit lies between these two. Those of a decided hit are rounded to nearest, so they may be
@@ -255,8 +256,8 @@ class AnyHit {
   /// Is done if the kernel is certain of a hit that counts. Returns the lanes that are still to be decided.
   template <typename AnyPath>
   HWY_INLINE std::uint64_t take_certain(const CandidateBlock<Scalar, AnyPath>& block, bool& /*is_nearer*/) {
-    is_done_ |= block.lanes.certain != 0 && counts_every_hit(block.query);
-    return is_done_ ? 0 : block.lanes.possible;
+    is_done_ |= block.verdicts.certain != 0 && counts_every_hit(block.query);
+    return is_done_ ? 0 : block.verdicts.possible;
   }
   /// Lets the narrowphase decide a candidate. Returns true if it is a hit that counts.
   HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate) {
@@ -282,7 +283,7 @@ class AllHits {
   /// Takes nothing. Returns all lanes that are not certain misses.
   template <typename AnyPath>
   HWY_INLINE std::uint64_t take_certain(const CandidateBlock<Scalar, AnyPath>& block, bool& /*is_nearer*/) {
-    return block.lanes.possible;
+    return block.verdicts.possible;
   }
   /// Lets the narrowphase decide a candidate, and keeps it if the path meets it. Returns false.
   HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate) {

@@ -46,7 +46,7 @@ class ListJobs {
   struct Open {
     std::size_t slot;          ///< The slot of the path.
     std::size_t from;          ///< The index in the list of the triangle in lane 0.
-    Lanes lanes;               ///< The verdicts of the kernel.
+    Verdicts verdicts;         ///< The verdicts of the kernel.
     FirstLanes<Scalar> first;  ///< The hits that may be first. It is set only if the visitor wants an order.
   };
 
@@ -93,13 +93,13 @@ class ListJobs {
       const Kernel kernel(kernel_path_[job.slot], lists_[job.slot], first_triangle);
       open_[open].slot = job.slot;
       open_[open].from = first_triangle;
-      open_[open].lanes = kernel.classify(queries.weights_in(job.slot), bounds_[job.slot]);
+      open_[open].verdicts = kernel.classify(queries.weights_in(job.slot), bounds_[job.slot]);
       if constexpr (Visitor::wants_order) {
         const typename Kernel::Crossing crossing = kernel.crossing();
         hn::Store(crossing.height, d, crossings_[open].height.data());
         hn::Store(crossing.det, d, crossings_[open].det.data());
       }
-      open += open_[open].lanes.possible != 0 ? 1 : 0;
+      open += open_[open].verdicts.possible != 0 ? 1 : 0;
     }
     if constexpr (Visitor::wants_order) {
       for (std::size_t i = 0; i < open; ++i) find_first(i, queries, visitors);
@@ -124,18 +124,18 @@ class ListJobs {
   HWY_INLINE void find_first(std::size_t i, const Queries& queries, const Visitors& visitors) {
     const hn::ScalableTag<Scalar> d;
     const auto& [height, det] = crossings_[i];
-    auto& [slot, from, lanes, first] = open_[i];
-    if (lanes.certain == lanes.possible && std::has_single_bit(lanes.certain)) [[likely]] {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes.certain));
-      first = Kernel::first_of_one(bounds_[slot], height[lane], det[lane], lanes.certain);
+    auto& [slot, from, verdicts, first] = open_[i];
+    if (verdicts.certain == verdicts.possible && std::has_single_bit(verdicts.certain)) [[likely]] {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(verdicts.certain));
+      first = Kernel::first_of_one(bounds_[slot], height[lane], det[lane], verdicts.certain);
       return;
     }
     const Scalar limit = visitors[slot].t_upper();
     first =
-        Kernel::first_of(bounds_[slot], {hn::Load(d, height.data()), hn::Load(d, det.data())}, lanes.certain, limit);
-    const bool is_clear = lanes.certain == lanes.possible && (first.lanes & (first.lanes - 1)) == 0;
+        Kernel::first_of(bounds_[slot], {hn::Load(d, height.data()), hn::Load(d, det.data())}, verdicts.certain, limit);
+    const bool is_clear = verdicts.certain == verdicts.possible && (first.lanes & (first.lanes - 1)) == 0;
     if (!is_clear) [[unlikely]] {
-      Kernel::classify_each(kernel_path_[slot], lists_[slot], from, queries.weights_in(slot), limit, lanes, first);
+      Kernel::classify_each(kernel_path_[slot], lists_[slot], from, queries.weights_in(slot), limit, verdicts, first);
     }
   }
 

@@ -30,8 +30,8 @@ struct PathRange {
   /// Returns true if the range has no finite t. An exact t is always finite.
   [[nodiscard]] bool is_empty() const { return !(first <= last && first < infinity && last > -infinity); }
 
-  Scalar first;  ///< The least t.
-  Scalar last;   ///< The greatest t.
+  Scalar first;  ///< The minimum t.
+  Scalar last;   ///< The maximum t.
 };
 
 /// Returns true if all coordinates are finite.

@@ -57,15 +57,15 @@ HWY_INLINE bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& 
   const auto bounds = Kernel::bounds(input.path, input.weights, list);
   for (std::size_t from = 0; from < list.count; from += hn::Lanes(hn::ScalableTag<Scalar>())) {
     FirstLanes<Scalar> first = {};
-    Lanes lanes;
+    Verdicts verdicts;
     if constexpr (Visitor::wants_order) {
-      lanes = classify<Kernel>(input.path, input.weights, list, bounds, from, visitor.t_upper(), first);
+      verdicts = classify<Kernel>(input.path, input.weights, list, bounds, from, visitor.t_upper(), first);
     } else {
-      lanes = classify<Kernel>(input.path, input.weights, list, bounds, from);
+      verdicts = classify<Kernel>(input.path, input.weights, list, bounds, from);
     }
-    if (lanes.possible == 0) continue;
-    query.statistics.undecided += static_cast<std::uint64_t>(std::popcount(lanes.possible & ~lanes.certain));
-    shorter |= visit(CandidateBlock<Scalar, Path<Scalar>>{query, range, path, list, from, lanes, first}, visitor);
+    if (verdicts.possible == 0) continue;
+    query.statistics.undecided += static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
+    shorter |= visit(CandidateBlock<Scalar, Path<Scalar>>{query, range, path, list, from, verdicts, first}, visitor);
     if (visitor.is_done()) return true;
   }
   return shorter;

@@ -94,7 +94,7 @@ TEST(CellLister, lists_many_blocks_without_asking_and_many_that_are_asked) {
   triangles.expect_listed();
 }
 
-/// What is written for a block, met or not, takes eight places at most.
+/// What is written for a block, met or not, takes eight entries at most.
 TEST(CellLister, has_too_many_entries_where_not_all_that_may_be_written_fits) {
   const auto fit = [](std::uint32_t count, std::size_t room) {
     TrianglesInTwoRows triangles(room);

@@ -28,7 +28,7 @@ class GridNesting : public testing::Test {
     return most;
   }
 
-  /// Points, one at each of count × count × count places in the unit cube: they part as far as cells go.
+  /// Points, one at each of count × count × count positions in the unit cube: they part as far as cells go.
   static GeneratedMesh<float> dust(std::uint32_t count) {
     GeneratedMesh<float> mesh;
     const auto at = [&](std::uint32_t i) { return (static_cast<float>(i) + 0.37F) / static_cast<float>(count); };

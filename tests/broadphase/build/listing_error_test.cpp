@@ -18,8 +18,8 @@ namespace {
 
 using detail::OverlapLanes;
 
-/// The worst rounding errors of listing: how much more than it truly takes a cell must grow until it lists a triangle,
-/// beside the 8 u R that triangle_overlap.cpp and overlap_lanes.cpp say it stays within.
+/// Measures the worst rounding errors of listing: how much more a cell must grow than it truly takes until it lists a
+/// triangle. By triangle_overlap.cpp and overlap_lanes.cpp, this stays within 8 eps R.
 class ListingError : public CellPointDraws, public testing::WithParamInterface<std::uint32_t> {
  protected:
   ListingError() : CellPointDraws(GetParam()) {}
@@ -58,11 +58,11 @@ class ListingError : public CellPointDraws, public testing::WithParamInterface<s
     return meets_box(polygon, box.grown({growth, growth, growth}));
   }
 
-  /// Growths are told in so many parts of u R.
+  /// Growths are counted in parts of eps R.
   static constexpr int parts = 64;
   [[nodiscard]] double growth_of(int count) const { return count * (0x1p-24 * resolution_ / parts); }
 
-  /// The least growth that lists the triangle, between those of `low` and `high` parts.
+  /// The smallest growth that lists the triangle, between those of `low` and `high` parts.
   template <typename IsListedFrom>
   static int min_parts(int low, int high, const IsListedFrom& is_listed) {
     while (high - low > 1) {
@@ -130,7 +130,8 @@ class ListingError : public CellPointDraws, public testing::WithParamInterface<s
   }
 };
 
-/// Far below: counted from the cell, what is rounded are distances and not places. The bound is that of one triangle.
+/// The error stays far below its bound, which is that of one triangle. Lanes count from the cell, so distances are
+/// rounded and not positions.
 TEST_P(ListingError, of_lanes_stays_below_its_bound) { EXPECT_LT(climb(is_listed_in_lanes), 1); }
 
 TEST_P(ListingError, of_one_triangle_stays_below_its_bound) {

@@ -86,7 +86,7 @@ TYPED_TEST(GridCoverTest, holds_walls_in_the_planes_of_its_boxes) {
   EXPECT_GT(this->met_, 0U);
 }
 
-/// Within a padding of the grid, where the cover's outer planes stand, past a near plane of the box in the last corner.
+/// Within a padding of the grid, where the cover's outer planes are, past a near plane of the box in the last corner.
 TYPED_TEST(GridCoverTest, looks_nowhere_outside_the_grid) {
   const auto cube = placed<TypeParam>(lattice_cube<TypeParam>(2), TypeParam{0.1F}, {0, 0, 0});
   this->build(joined(cube, placed<TypeParam>(cube, TypeParam{1}, {0.8F, 0.8F, 0.8F})), {.resolution = {40, 40, 40}});

@@ -27,7 +27,7 @@ class GridFrameTest : public testing::Test {
     return box;
   }
 
-  /// Boxes of every size, place and thinness.
+  /// Boxes of every size, position and thinness.
   static std::vector<Box<Scalar>> boxes() {
     using Limits = std::numeric_limits<Scalar>;
     const Scalar largest = Limits::max();

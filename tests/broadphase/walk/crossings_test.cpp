@@ -15,7 +15,7 @@
 namespace surehit::test {
 namespace {
 
-/// The cells in which a path stands at once, beside the 19 eps R that WALK.md (L5) says it stays within.
+/// The cells that a path is in at once, beside the 19 eps R that WALK.md (L5) says it stays within.
 class CrossingsTest : public WalkError<float> {
  protected:
   using Cell = std::array<float, 3>;

@@ -13,7 +13,7 @@
 namespace surehit::test {
 namespace {
 
-/// Of which only a part counts, or ever less while it is walked.
+/// Only a part of each path counts. This part may become shorter while the path is walked.
 template <typename Scalar>
 using GridTraversalRange = GridWalk<Scalar>;
 TYPED_TEST_SUITE(GridTraversalRange, Scalars, ScalarNames);

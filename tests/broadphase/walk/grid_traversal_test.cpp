@@ -66,7 +66,7 @@ TYPED_TEST(GridTraversalTest, finds_all_from_far_away) {
   EXPECT_GT(this->met_, 0U);
 }
 
-/// Where a far path stands near the mesh must be worked out in more than a double.
+/// Where a far path is near the mesh must be worked out in more than a double.
 TYPED_TEST(GridTraversalTest, finds_all_through_the_origin_from_far_away) {
   this->build(placed<TypeParam>(lattice_cube<TypeParam>(4), TypeParam{0.25}, {-0.5F, -0.5F, -0.5F}), this->uniform());
   Random random(7);
@@ -185,8 +185,8 @@ TYPED_TEST(GridTraversalTest, meets_a_slab_that_the_path_touches) {
 }
 
 /// Through corners of cells by steps and by leaps of every length, which are short in divided cells. A leap on one axis
-/// may land where another plane is crossed at the same rounded tau and the rounded place lies before that plane, so
-/// that the next one stays where it is.
+/// may land where another plane is crossed at the same rounded tau. If the rounded position lies before that plane, the
+/// next leap stays where it is.
 TYPED_TEST(GridTraversalTest, never_turns_back) {
   Random random(7);
   const auto dust = dust_in_square<TypeParam>(4000, random);
@@ -211,12 +211,12 @@ TYPED_TEST(GridTraversalTest, never_turns_back) {
   }
 }
 
-/// A step that enters a divided cell where the rounded place lies beyond it, or before it.
+/// A step that enters a divided cell where the rounded position lies beyond it, or before it.
 TYPED_TEST(GridTraversalTest, enters_divided_cells_through_their_corners) {
   Random random(7);
   this->build(dust_in_square<TypeParam>(4000, random), {.resolution = {25, 25, 1}, .crowded = 1});
   ASSERT_EQ(this->grid_.levels(), Grid::max_levels);
-  // Of 20,000 lines in float the four of which a place is rounded beyond the cell that they enter.
+  // These are four of 20,000 lines in float. A position on them is rounded beyond the cell that they enter.
   std::vector<Line<TypeParam>> lines = {{{0x1.3ae0e6p-2F, 0x1.a6663ap-2F, 0}, {4, -4, 0}},
                                         {{0x1.479eb8p-6F, 0x1.451edap-1F, 0}, {4, 3, 0}},
                                         {{0x1.828f1ep-2F, 0x1.147a6cp-2F, 0}, {3, -4, 0}},

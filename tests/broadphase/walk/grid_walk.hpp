@@ -61,7 +61,7 @@ struct Walk {
   std::vector<std::size_t> met;
 };
 
-/// Walks of paths through the grid of a mesh, each step of which is checked.
+/// Walks of paths through the grid of a mesh. Each step is checked.
 template <typename Scalar>
 class GridWalk : public testing::Test {
  protected:
@@ -129,7 +129,7 @@ class GridWalk : public testing::Test {
     }
   }
 
-  /// Returns the leaf in which the walk stands.
+  /// Returns the leaf that the walk is in.
   std::size_t expect_on_path(const Path<Scalar>& path, const Range& range, const ClippedPath& clipped,
                              const GridTraversal& traversal) const {
     std::array<std::uint32_t, 3> low;

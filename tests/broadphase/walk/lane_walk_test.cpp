@@ -200,8 +200,8 @@ TYPED_TEST(LaneWalk, of_hits_just_behind_a_plane_that_are_hardly_located) {
   EXPECT_GT(this->hits_, case_count(200) * 30);
 }
 
-/// Adds points that no path meets to the cells of a grid without levels: where most of them list triangles, a path
-/// stands in all of its cells at once.
+/// Adds points that no path meets to the cells of a grid without levels. If most cells list triangles, a path is in all
+/// of its cells at once.
 template <typename Scalar>
 void fill_cells(GeneratedMesh<Scalar>& mesh, const GridFrame& frame) {
   for (std::uint32_t x = 0; x < frame.resolution(0); ++x) {
@@ -217,8 +217,8 @@ void fill_cells(GeneratedMesh<Scalar>& mesh, const GridFrame& frame) {
   }
 }
 
-/// Walls that no more than a few paddings are off a plane between cells, met by paths of few cells through corners of
-/// cells, where planes of two or three axes are crossed at once but for roundings, and by paths that end beside a wall.
+/// Walls are at most three paddings away from a plane between cells. Short paths meet them through corners of cells.
+/// There, planes of two or three axes are crossed at once, except for roundings. Other paths end beside a wall.
 TYPED_TEST(LaneWalk, of_short_paths_through_corners_of_cells) {
   Random random(97);
   const GridOptions options{.resolution = {7, 6, 5}, .crowded = 0};
@@ -266,8 +266,9 @@ TYPED_TEST(LaneWalk, of_short_paths_through_corners_of_cells) {
   EXPECT_GT(this->hits_, case_count(600) * 5);
 }
 
-/// A path begins to be walked where it enters the grid's cover, which for this one was at a plane between cells or just
-/// before it, as one rounds: of all its cells at once the one behind that plane was left out. (Found by a fuzzer.)
+/// The walk of a path begins where it enters the grid's cover. For this path, that is at a plane between cells, or just
+/// before it if rounded differently. A walk of all its cells at once left out the cell behind that plane. (Found by a
+/// fuzzer.)
 TYPED_TEST(LaneWalk, of_a_path_that_enters_the_cover_at_a_plane) {
   const auto mesh = covered_from_a_plane<TypeParam>();
   const Vector3<TypeParam> start = {0x1.9f2b66p-1F, 0x1.63d34ep-4F, -0x1.dea05ap-2F};

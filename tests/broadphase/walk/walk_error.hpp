@@ -22,8 +22,8 @@ class WalkError : public GridWalk<Scalar> {
  protected:
   using Exact = std::array<mpq_class, 3>;
 
-  /// A segment's part in the box that the outer planes stand off from by two paddings, as the walk sees it: mirrored,
-  /// and from x to x + d.
+  /// A segment as the walk sees it: mirrored, and from x to x + d. Its part from `first` to `last` is at least two
+  /// paddings inside the outer planes.
   struct Course {
     Exact x;
     Exact d;
@@ -60,10 +60,10 @@ class WalkError : public GridWalk<Scalar> {
     Exact high;
   };
 
-  /// By what share of a bound, so many roundings of a number as great as the grid's resolution, the boxes must grow, so
-  /// that they cover the path from end to end. One is left and the next one entered at the same parameter if the plane
-  /// k of the one and the plane j of the other are crossed there: (high_k + g b_k - x_k) / d_k =
-  /// (low_j - g b_j - x_j) / d_j.
+  /// Returns the share of a bound by which the boxes must grow to cover the path from end to end. The bound is that of
+  /// `roundings` roundings of a number as large as the grid's resolution. One box is left and the next one is entered
+  /// at the same parameter if plane k of the one and plane j of the other are crossed there:
+  /// (high_k + g b_k - x_k) / d_k = (low_j - g b_j - x_j) / d_j.
   [[nodiscard]] double share_for(const std::vector<VisitedBox>& boxes, const Course& course, int roundings) const {
     if (boxes.empty()) {
       ADD_FAILURE() << "visits nothing";
@@ -104,7 +104,7 @@ class WalkError : public GridWalk<Scalar> {
     return random.one_in(3) ? this->nested() : this->uniform();
   }
 
-  /// A grid of another place and size.
+  /// A grid of another position and size.
   void place_anew(Random& random) {
     const auto factor = std::ldexp(1 + random.unit<Scalar>(), static_cast<int>(random.between(-3, 3)));
     const Scalar far = std::ldexp(factor, static_cast<int>(random.between(-4, 4)));
@@ -113,7 +113,7 @@ class WalkError : public GridWalk<Scalar> {
     this->place_ground(factor, offset, draw_options(random));
   }
 
-  /// Within a few widths of the grid, where the place is rounded most.
+  /// Within a few widths of the grid, where the position is rounded most.
   Vector3<Scalar> draw_point(Random& random) const {
     const Box<Scalar> box = box_of(this->mesh_.view());
     Vector3<Scalar> point;

@@ -110,7 +110,7 @@ class BlockKernel : public testing::Test {
     EXPECT_EQ(verdict_of_its_own(path, triangle), Verdict::undecided);
   }
 
-  /// Powers of two around `exponent`, small multiples of which often cancel exactly.
+  /// Small multiples of powers of two around `exponent`. They often cancel exactly.
   static Pair<Scalar> draw_near(Random& random, int exponent) {
     std::array<Scalar, 15> x;
     for (Scalar& coordinate : x) {
@@ -209,7 +209,7 @@ TYPED_TEST(BlockKernel, leaves_a_direction_undecided_that_is_too_large_for_the_b
   on_every_instruction_set([&] { this->expect_undecided(Ray<TypeParam>{{0, 0, -large / 8}, {0, 0, large}}, unit); });
 }
 
-/// Sizes that each are far from overflow, and of which only the determinants' products overflow, not their bounds.
+/// Each size is far from overflow. Only the products of the determinants overflow, and not their bounds.
 TYPED_TEST(BlockKernel, leaves_sizes_undecided_whose_products_overflow) {
   const TypeParam size = detail::KernelBound<TypeParam>::largest_size;
   const TypeParam quarter = size / 4;
@@ -278,9 +278,9 @@ TYPED_TEST(BlockKernel, leaves_an_edge_undecided_and_not_what_is_clear_of_it) {
   });
 }
 
-/// The bounds of kernel_bound.hpp, to the last step of what is measured: D is 2 long, E1 and E2 are 1.
+/// Tests the bounds of kernel_bound.hpp to within one step of what is measured. D is 2 long, and E1 and E2 are 1 long.
 TYPED_TEST(BlockKernel, is_certain_from_its_bounds_on) {
-  const TypeParam u = std::numeric_limits<TypeParam>::epsilon() / 2;
+  const TypeParam eps = std::numeric_limits<TypeParam>::epsilon() / 2;
   const TypeParam quarter{0.25};
   const TypeParam half{0.5};
   const Triangle<TypeParam> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -294,42 +294,42 @@ TYPED_TEST(BlockKernel, is_certain_from_its_bounds_on) {
     return this->verdict(Segment<TypeParam>{{quarter, quarter, from}, {quarter, quarter, to}}, triangle);
   };
   on_every_instruction_set([&] {
-    // 66 u |D| |E| (2 |S| + |E|) = 396 u for a hit, and det's bound, 66 u |D| |E|² = 132 u, more for a miss, where U is
-    // 2 x, and W is 2 (1/2 - y).
-    EXPECT_EQ(down_at(198 * u, quarter), Verdict::undecided);
-    EXPECT_EQ(down_at(199 * u, quarter), Verdict::hit);
-    EXPECT_EQ(down_at(-264 * u, quarter), Verdict::undecided);
-    EXPECT_EQ(down_at(-265 * u, quarter), Verdict::miss);
-    EXPECT_EQ(down_at(half, half - 198 * u), Verdict::undecided);
-    EXPECT_EQ(down_at(half, half - 199 * u), Verdict::hit);
-    EXPECT_EQ(down_at(half, half + 264 * u), Verdict::undecided);
-    EXPECT_EQ(down_at(half, half + 265 * u), Verdict::miss);
-    // Likewise 66 u |E|² (|S| + 2 |D|) = 280.5 u or 396 u of a segment that begins at z or ends at -z, where T is z and
-    // det - T is z.
-    EXPECT_EQ(along(280 * u, -2), Verdict::undecided);
-    EXPECT_EQ(along(281 * u, -2), Verdict::hit);
-    EXPECT_EQ(along(-412 * u, -2), Verdict::undecided);
-    EXPECT_EQ(along(-413 * u, -2), Verdict::miss);
-    EXPECT_EQ(along(2, -392 * u), Verdict::undecided);
-    EXPECT_EQ(along(2, -400 * u), Verdict::hit);
-    EXPECT_EQ(along(2, 524 * u), Verdict::undecided);
-    EXPECT_EQ(along(2, 532 * u), Verdict::miss);
-    // 66 u |E|² (|S| + 2 |D|) = 66 u (1/4 + 4) = 280.5 u, where T is z.
-    EXPECT_EQ(down_from(280 * u, {}), Verdict::undecided);
-    EXPECT_EQ(down_from(281 * u, {}), Verdict::hit);
-    EXPECT_EQ(down_from(-280 * u, {}), Verdict::undecided);
-    EXPECT_EQ(down_from(-281 * u, {}), Verdict::miss);
-    // 66 u |E|² (|S| + (1 + 3) |D|) = 66 u (6 + 8) = 924 u, where 3 det - T is 6 - z.
-    EXPECT_EQ(down_from(6 - 920 * u, {.max_t = 3}), Verdict::undecided);
-    EXPECT_EQ(down_from(6 - 928 * u, {.max_t = 3}), Verdict::hit);
-    EXPECT_EQ(down_from(6 + 920 * u, {.max_t = 3}), Verdict::undecided);
-    EXPECT_EQ(down_from(6 + 928 * u, {.max_t = 3}), Verdict::miss);
+    // The bound of a side is 66 eps |D| |E| (2 |S| + |E|) = 396 eps. For a miss, det's bound is added.
+    // That is 66 eps |D| |E|² = 132 eps. U is 2 x, and W is 2 (1/2 - y).
+    EXPECT_EQ(down_at(198 * eps, quarter), Verdict::undecided);
+    EXPECT_EQ(down_at(199 * eps, quarter), Verdict::hit);
+    EXPECT_EQ(down_at(-264 * eps, quarter), Verdict::undecided);
+    EXPECT_EQ(down_at(-265 * eps, quarter), Verdict::miss);
+    EXPECT_EQ(down_at(half, half - 198 * eps), Verdict::undecided);
+    EXPECT_EQ(down_at(half, half - 199 * eps), Verdict::hit);
+    EXPECT_EQ(down_at(half, half + 264 * eps), Verdict::undecided);
+    EXPECT_EQ(down_at(half, half + 265 * eps), Verdict::miss);
+    // The bound of an end is 66 eps |E|² (|S| + 2 |D|). It is 280.5 eps for a segment that begins at z, where T is z.
+    // It is 396 eps for a segment that ends at -z, where det - T is z.
+    EXPECT_EQ(along(280 * eps, -2), Verdict::undecided);
+    EXPECT_EQ(along(281 * eps, -2), Verdict::hit);
+    EXPECT_EQ(along(-412 * eps, -2), Verdict::undecided);
+    EXPECT_EQ(along(-413 * eps, -2), Verdict::miss);
+    EXPECT_EQ(along(2, -392 * eps), Verdict::undecided);
+    EXPECT_EQ(along(2, -400 * eps), Verdict::hit);
+    EXPECT_EQ(along(2, 524 * eps), Verdict::undecided);
+    EXPECT_EQ(along(2, 532 * eps), Verdict::miss);
+    // For a ray, the bound of T is 66 eps |E|² (|S| + 2 |D|) = 66 eps (1/4 + 4) = 280.5 eps. T is z.
+    EXPECT_EQ(down_from(280 * eps, {}), Verdict::undecided);
+    EXPECT_EQ(down_from(281 * eps, {}), Verdict::hit);
+    EXPECT_EQ(down_from(-280 * eps, {}), Verdict::undecided);
+    EXPECT_EQ(down_from(-281 * eps, {}), Verdict::miss);
+    // The bound of 3 det - T is 66 eps |E|² (|S| + (1 + 3) |D|) = 66 eps (6 + 8) = 924 eps. 3 det - T is 6 - z.
+    EXPECT_EQ(down_from(6 - 920 * eps, {.max_t = 3}), Verdict::undecided);
+    EXPECT_EQ(down_from(6 - 928 * eps, {.max_t = 3}), Verdict::hit);
+    EXPECT_EQ(down_from(6 + 920 * eps, {.max_t = 3}), Verdict::undecided);
+    EXPECT_EQ(down_from(6 + 928 * eps, {.max_t = 3}), Verdict::miss);
   });
 }
 
-/// The same of a triangle's own products.
+/// Tests the same bounds for a triangle's own products.
 TYPED_TEST(BlockKernel, is_certain_from_the_bounds_of_its_products_on) {
-  const TypeParam u = std::numeric_limits<TypeParam>::epsilon() / 2;
+  const TypeParam eps = std::numeric_limits<TypeParam>::epsilon() / 2;
   const TypeParam quarter{0.25};
   const TypeParam half{0.5};
   const Triangle<TypeParam> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -343,31 +343,31 @@ TYPED_TEST(BlockKernel, is_certain_from_the_bounds_of_its_products_on) {
     return this->verdict_of_its_own(Segment<TypeParam>{{quarter, quarter, from}, {quarter, quarter, to}}, triangle);
   };
   on_every_instruction_set([&] {
-    // 11 u of U = 2 x, V = 2 y and det = 2, where U is 27.5 u and W, which is 2 (1/2 - y), is 44 u. For a miss 22 u
-    // more, which are det's.
-    EXPECT_EQ(down_at(TypeParam(13.5) * u, quarter), Verdict::undecided);
-    EXPECT_EQ(down_at(14 * u, quarter), Verdict::hit);
-    EXPECT_EQ(down_at(TypeParam(-24.5) * u, quarter), Verdict::undecided);
-    EXPECT_EQ(down_at(-25 * u, quarter), Verdict::miss);
-    EXPECT_EQ(down_at(half, half - 21 * u), Verdict::undecided);
-    EXPECT_EQ(down_at(half, half - 23 * u), Verdict::hit);
-    EXPECT_EQ(down_at(half, half + 32 * u), Verdict::undecided);
-    EXPECT_EQ(down_at(half, half + 34 * u), Verdict::miss);
-    // Likewise 11 u of T = z and of twice det, 44 u, of a segment that begins at z.
-    EXPECT_EQ(along(43 * u, -2), Verdict::undecided);
-    EXPECT_EQ(along(45 * u, -2), Verdict::hit);
-    EXPECT_EQ(along(-65 * u, -2), Verdict::undecided);
-    EXPECT_EQ(along(-67 * u, -2), Verdict::miss);
-    // 11 u of T = z, which is next to nothing, and of twice det.
-    EXPECT_EQ(down_from(43 * u, {}), Verdict::undecided);
-    EXPECT_EQ(down_from(45 * u, {}), Verdict::hit);
-    EXPECT_EQ(down_from(-43 * u, {}), Verdict::undecided);
-    EXPECT_EQ(down_from(-45 * u, {}), Verdict::miss);
-    // 11 u of T = 6 and of 1 + 3 times det: 154 u, where 3 det - T is 6 - z.
-    EXPECT_EQ(down_from(6 - 152 * u, {.max_t = 3}), Verdict::undecided);
-    EXPECT_EQ(down_from(6 - 160 * u, {.max_t = 3}), Verdict::hit);
-    EXPECT_EQ(down_from(6 + 152 * u, {.max_t = 3}), Verdict::undecided);
-    EXPECT_EQ(down_from(6 + 160 * u, {.max_t = 3}), Verdict::miss);
+    // The bound of a side is 11 eps times the sum of the sizes of U = 2 x, V = 2 y and det = 2. It is 27.5 eps where U
+    // is tested. It is 44 eps where W = 2 (1/2 - y) is tested. For a miss, det's bound of 22 eps is added.
+    EXPECT_EQ(down_at(TypeParam(13.5) * eps, quarter), Verdict::undecided);
+    EXPECT_EQ(down_at(14 * eps, quarter), Verdict::hit);
+    EXPECT_EQ(down_at(TypeParam(-24.5) * eps, quarter), Verdict::undecided);
+    EXPECT_EQ(down_at(-25 * eps, quarter), Verdict::miss);
+    EXPECT_EQ(down_at(half, half - 21 * eps), Verdict::undecided);
+    EXPECT_EQ(down_at(half, half - 23 * eps), Verdict::hit);
+    EXPECT_EQ(down_at(half, half + 32 * eps), Verdict::undecided);
+    EXPECT_EQ(down_at(half, half + 34 * eps), Verdict::miss);
+    // For a segment that begins at z, the bound is 11 eps of T = z and of twice det. This is 44 eps.
+    EXPECT_EQ(along(43 * eps, -2), Verdict::undecided);
+    EXPECT_EQ(along(45 * eps, -2), Verdict::hit);
+    EXPECT_EQ(along(-65 * eps, -2), Verdict::undecided);
+    EXPECT_EQ(along(-67 * eps, -2), Verdict::miss);
+    // For a ray, it is 11 eps of T = z, which is close to 0, and of twice det. This is 44 eps.
+    EXPECT_EQ(down_from(43 * eps, {}), Verdict::undecided);
+    EXPECT_EQ(down_from(45 * eps, {}), Verdict::hit);
+    EXPECT_EQ(down_from(-43 * eps, {}), Verdict::undecided);
+    EXPECT_EQ(down_from(-45 * eps, {}), Verdict::miss);
+    // The bound of 3 det - T is 11 eps of T = 6 and of 1 + 3 times det. This is 154 eps. 3 det - T is 6 - z.
+    EXPECT_EQ(down_from(6 - 152 * eps, {.max_t = 3}), Verdict::undecided);
+    EXPECT_EQ(down_from(6 - 160 * eps, {.max_t = 3}), Verdict::hit);
+    EXPECT_EQ(down_from(6 + 152 * eps, {.max_t = 3}), Verdict::undecided);
+    EXPECT_EQ(down_from(6 + 160 * eps, {.max_t = 3}), Verdict::miss);
   });
 }
 

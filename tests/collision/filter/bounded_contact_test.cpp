@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "collision/contact_oracle.hpp"
@@ -69,6 +70,22 @@ TEST_P(BoundedContactOfFamily, is_never_wrong_for_double) { check<double>(); }
 INSTANTIATE_TEST_SUITE_P(Families, BoundedContactOfFamily, testing::ValuesIn(all_pair_families),
                          [](const auto& family) { return name_of(family.param); });
 
+/// `contact_of(path, triangle)` is a stage of the filter. It may leave one pair in a thousand undecided.
+template <typename Scalar, typename ContactOf>
+void expect_nearly_all_decided(std::uint64_t seed, const ContactOf& contact_of) {
+  Random random(seed);
+  const auto point = [&]() -> Vector3<Scalar> {
+    return Vector3<Scalar>::NullaryExpr([&] { return random.symmetric<Scalar>(); });
+  };
+  const std::size_t pairs = case_count(10'000);
+  std::size_t undecided = 0;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const Triangle<Scalar> triangle{point(), point(), point()};
+    undecided += contact_of(Segment<Scalar>{point(), point()}, triangle).verdict == Verdict::undecided;
+  }
+  EXPECT_LE(undecided, pairs / 1000);
+}
+
 template <typename Scalar>
 class BoundedContactOf : public testing::Test {
  protected:
@@ -78,19 +95,8 @@ class BoundedContactOf : public testing::Test {
 };
 TYPED_TEST_SUITE(BoundedContactOf, Scalars, ScalarNames);
 
-TYPED_TEST(BoundedContactOf, settles_nearly_all_random_pairs) {
-  Random random(12);
-  const std::size_t pairs = case_count(10'000);
-  std::size_t undecided = 0;
-  for (std::size_t i = 0; i < pairs; ++i) {
-    const auto point = [&]() -> Vector3<TypeParam> {
-      return Vector3<TypeParam>::NullaryExpr([&] { return random.symmetric<TypeParam>(); });
-    };
-    const Triangle<TypeParam> triangle{point(), point(), point()};
-    const Segment<TypeParam> segment{point(), point()};
-    undecided += this->contact_of(segment, triangle).verdict == Verdict::undecided;
-  }
-  EXPECT_LE(undecided, pairs / 1000);
+TYPED_TEST(BoundedContactOf, decides_nearly_all_random_pairs) {
+  expect_nearly_all_decided<TypeParam>(12, this->contact_of);
 }
 
 TYPED_TEST(BoundedContactOf, is_certain_of_edges_and_corners_and_ends_on_small_integers) {
@@ -137,18 +143,9 @@ class DoubleContactOf : public testing::Test {
 };
 TYPED_TEST_SUITE(DoubleContactOf, Scalars, ScalarNames);
 
-TYPED_TEST(DoubleContactOf, settles_nearly_all_random_pairs) {
-  Random random(14);
-  const std::size_t pairs = case_count(10'000);
-  std::size_t undecided = 0;
-  for (std::size_t i = 0; i < pairs; ++i) {
-    const auto point = [&]() -> Vector3<TypeParam> {
-      return Vector3<TypeParam>::NullaryExpr([&] { return random.symmetric<TypeParam>(); });
-    };
-    const Triangle<TypeParam> triangle{point(), point(), point()};
-    undecided += this->contact_of(Segment<TypeParam>{point(), point()}, triangle).verdict == Verdict::undecided;
-  }
-  EXPECT_LE(undecided, pairs / 1000);
+TYPED_TEST(DoubleContactOf, decides_nearly_all_random_pairs) {
+  expect_nearly_all_decided<TypeParam>(
+      14, [](const auto& path, const auto& triangle) { return TestFixture::contact_of(path, triangle); });
 }
 
 TYPED_TEST(DoubleContactOf, knows_side_and_parameter_of_a_clear_hit) {

@@ -117,7 +117,7 @@ class CertainHits {
   }
 
   static bool is_at_most(Scalar x, const mpq_class& t) {
-    return std::isinf(x) ? x < 0 : mpq_class(double{x}) <= t;  // a NaN is at no place
+    return std::isinf(x) ? x < 0 : mpq_class(double{x}) <= t;  // a NaN has no position
   }
   static bool is_at_least(Scalar x, const mpq_class& t) { return std::isinf(x) ? x > 0 : mpq_class(double{x}) >= t; }
 
@@ -324,17 +324,17 @@ TYPED_TEST(KernelCrossing, holds_where_hill_climbing_makes_the_error_worst) {
 
 TYPED_TEST(KernelCrossing, has_little_room_to_waste) { EXPECT_GT(this->climb(6, 1'000, false), 0.02); }
 
-/// t is 1/2, and D is 2 long: 3/2 (66 u (1 + 2) + 1/2 · 66 u 2) / 2 = 198 u.
+/// t is 1/2, and D is 2 long: 3/2 (66 eps (1 + 2) + 1/2 · 66 eps 2) / 2 = 198 eps.
 TYPED_TEST(KernelCrossing, is_as_wide_as_its_derivation) {
-  const TypeParam u = std::numeric_limits<TypeParam>::epsilon() / 2;
+  const TypeParam eps = std::numeric_limits<TypeParam>::epsilon() / 2;
   const TypeParam quarter{0.25};
   const TypeParam half{0.5};
   const KernelList<TypeParam> list(Triangle<TypeParam>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   const Path<TypeParam> path = Segment<TypeParam>{{quarter, quarter, 1}, {quarter, quarter, -1}};
   on_every_instruction_set([&] {
     const KernelFirst<TypeParam> first = list.first_from(path, 0, 1, no_limit<TypeParam>);
-    EXPECT_EQ(first.t_lower, half - 198 * u);
-    EXPECT_EQ(first.t_upper, half + 198 * u);
+    EXPECT_EQ(first.t_lower, half - 198 * eps);
+    EXPECT_EQ(first.t_upper, half + 198 * eps);
   });
 }
 
@@ -360,8 +360,8 @@ TYPED_TEST(KernelCrossing, tells_hits_apart_that_are_not_close) {
   });
 }
 
-/// Six products are at most what the product of sizes stands for, and at least what is summed from them: each of the
-/// two bounds has 11 u of |t|, and the interval is three times as wide as they are.
+/// The sizes of six products are together at most the product of sizes, and at least the number that is summed from
+/// them. So each of the two bounds is at least 11 eps |t|. The interval is three times as wide as both together.
 TYPED_TEST(KernelCrossing, is_no_wider_by_a_triangles_own_products_than_by_its_list) {
   Random random(56);
   std::size_t hits = 0;
@@ -380,10 +380,10 @@ TYPED_TEST(KernelCrossing, is_no_wider_by_a_triangles_own_products_than_by_its_l
     const TypeParam width = by_itself.t_upper - by_itself.t_lower;
     if (!std::isfinite(by_list.t_upper - by_list.t_lower)) continue;
     ++hits;
-    const TypeParam u_t = std::numeric_limits<TypeParam>::epsilon() / 2 *
-                          std::max(std::fabs(by_itself.t_lower), std::fabs(by_itself.t_upper));
-    EXPECT_LE(width, by_list.t_upper - by_list.t_lower + 4 * u_t) << hex_text(path) << hex_text(triangle);
-    EXPECT_GE(width, 60 * u_t) << hex_text(path) << hex_text(triangle);
+    const TypeParam eps_t = std::numeric_limits<TypeParam>::epsilon() / 2 *
+                            std::max(std::fabs(by_itself.t_lower), std::fabs(by_itself.t_upper));
+    EXPECT_LE(width, by_list.t_upper - by_list.t_lower + 4 * eps_t) << hex_text(path) << hex_text(triangle);
+    EXPECT_GE(width, 60 * eps_t) << hex_text(path) << hex_text(triangle);
   }
   EXPECT_GT(hits, 0U);
 }

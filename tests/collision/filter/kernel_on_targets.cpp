@@ -16,8 +16,8 @@ TriangleList<Scalar> list_of(const test::KernelTriangles<Scalar>& list) {
 }
 
 template <typename Scalar>
-Lanes verdicts_of(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range, const TriangleList<Scalar>& list,
-                  std::size_t from) {
+Verdicts verdicts_of(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
+                     const TriangleList<Scalar>& list, std::size_t from) {
   using Kernel = BlockKernel<Scalar>;
   return classify<Kernel>(path, range, list, Kernel::bounds(path, range, list), from);
 }
@@ -42,17 +42,17 @@ FirstLanes<Scalar> first_of_one_on(const KernelPath<Scalar>& path, const RangeWe
 template <typename Scalar>
 test::KernelEach<Scalar> each_of(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
                                  const TriangleList<Scalar>& list, std::size_t from, Scalar limit) {
-  Lanes lanes = verdicts_of(path, range, list, from);
-  FirstLanes<Scalar> first = first_lanes_of(path, range, list, from, lanes.certain, limit);
-  BlockKernel<Scalar>::classify_each(path, list, from, range, limit, lanes, first);
-  return {{lanes.possible, lanes.certain}, {first.lanes, first.t_lower, first.t_upper}};
+  Verdicts verdicts = verdicts_of(path, range, list, from);
+  FirstLanes<Scalar> first = first_lanes_of(path, range, list, from, verdicts.certain, limit);
+  BlockKernel<Scalar>::classify_each(path, list, from, range, limit, verdicts, first);
+  return {{verdicts.possible, verdicts.certain}, {first.lanes, first.t_lower, first.t_upper}};
 }
 
 #define SUREHIT_DEFINE(Scalar)                                                                                        \
   test::KernelVerdicts verdicts_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,           \
                                          const test::KernelTriangles<Scalar>& list, std::size_t from) {               \
-    const Lanes lanes = verdicts_of<Scalar>(path, range, list_of(list), from);                                        \
-    return {lanes.possible, lanes.certain};                                                                           \
+    const Verdicts verdicts = verdicts_of<Scalar>(path, range, list_of(list), from);                                  \
+    return {verdicts.possible, verdicts.certain};                                                                     \
   }                                                                                                                   \
   test::KernelFirst<Scalar> first_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,         \
                                            const test::KernelTriangles<Scalar>& list, std::size_t from,               \
@@ -60,9 +60,9 @@ test::KernelEach<Scalar> each_of(const KernelPath<Scalar>& path, const RangeWeig
     const auto first = first_lanes_of(path, range, list_of(list), from, certain, limit);                              \
     return {first.lanes, first.t_lower, first.t_upper};                                                               \
   }                                                                                                                   \
-  test::KernelFirst<Scalar> lone_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,          \
-                                          const test::KernelTriangles<Scalar>& list, std::size_t from,                \
-                                          std::size_t lane) {                                                         \
+  test::KernelFirst<Scalar> first_of_one_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,  \
+                                                  const test::KernelTriangles<Scalar>& list, std::size_t from,        \
+                                                  std::size_t lane) {                                                 \
     const auto first = first_of_one_on(path, range, list_of(list), from, lane);                                       \
     return {first.lanes, first.t_lower, first.t_upper};                                                               \
   }                                                                                                                   \
@@ -81,29 +81,29 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace surehit::detail {
 
-#define SUREHIT_EXPORT(Scalar)                                                                          \
-  HWY_EXPORT(verdicts_##Scalar);                                                                        \
-  HWY_EXPORT(first_##Scalar);                                                                           \
-  HWY_EXPORT(lone_##Scalar);                                                                            \
-  HWY_EXPORT(each_##Scalar);                                                                            \
-  HWY_EXPORT(lanes_##Scalar);                                                                           \
-  auto chosen_verdicts(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,               \
-                       const test::KernelTriangles<Scalar>& list, std::size_t from) {                   \
-    return HWY_DYNAMIC_DISPATCH(verdicts_##Scalar)(path, range, list, from);                            \
-  }                                                                                                     \
-  auto chosen_first(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                  \
-                    const test::KernelTriangles<Scalar>& list, std::size_t from, std::uint64_t certain, \
-                    Scalar limit) {                                                                     \
-    return HWY_DYNAMIC_DISPATCH(first_##Scalar)(path, range, list, from, certain, limit);               \
-  }                                                                                                     \
-  auto chosen_lone(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                   \
-                   const test::KernelTriangles<Scalar>& list, std::size_t from, std::size_t lane) {     \
-    return HWY_DYNAMIC_DISPATCH(lone_##Scalar)(path, range, list, from, lane);                          \
-  }                                                                                                     \
-  auto chosen_each(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                   \
-                   const test::KernelTriangles<Scalar>& list, std::size_t from, Scalar limit) {         \
-    return HWY_DYNAMIC_DISPATCH(each_##Scalar)(path, range, list, from, limit);                         \
-  }                                                                                                     \
+#define SUREHIT_EXPORT(Scalar)                                                                              \
+  HWY_EXPORT(verdicts_##Scalar);                                                                            \
+  HWY_EXPORT(first_##Scalar);                                                                               \
+  HWY_EXPORT(first_of_one_##Scalar);                                                                        \
+  HWY_EXPORT(each_##Scalar);                                                                                \
+  HWY_EXPORT(lanes_##Scalar);                                                                               \
+  auto chosen_verdicts(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                   \
+                       const test::KernelTriangles<Scalar>& list, std::size_t from) {                       \
+    return HWY_DYNAMIC_DISPATCH(verdicts_##Scalar)(path, range, list, from);                                \
+  }                                                                                                         \
+  auto chosen_first(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                      \
+                    const test::KernelTriangles<Scalar>& list, std::size_t from, std::uint64_t certain,     \
+                    Scalar limit) {                                                                         \
+    return HWY_DYNAMIC_DISPATCH(first_##Scalar)(path, range, list, from, certain, limit);                   \
+  }                                                                                                         \
+  auto chosen_first_of_one(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,               \
+                           const test::KernelTriangles<Scalar>& list, std::size_t from, std::size_t lane) { \
+    return HWY_DYNAMIC_DISPATCH(first_of_one_##Scalar)(path, range, list, from, lane);                      \
+  }                                                                                                         \
+  auto chosen_each(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                       \
+                   const test::KernelTriangles<Scalar>& list, std::size_t from, Scalar limit) {             \
+    return HWY_DYNAMIC_DISPATCH(each_##Scalar)(path, range, list, from, limit);                             \
+  }                                                                                                         \
   auto chosen_lanes(Scalar) { return HWY_DYNAMIC_DISPATCH(lanes_##Scalar)(); }
 SUREHIT_EXPORT(float)
 SUREHIT_EXPORT(double)
@@ -129,7 +129,7 @@ KernelFirst<Scalar> first_of(const detail::KernelPath<Scalar>& path, const detai
 template <typename Scalar>
 KernelFirst<Scalar> first_of_one(const detail::KernelPath<Scalar>& path, const detail::RangeWeights<Scalar>& range,
                                  const KernelTriangles<Scalar>& list, std::size_t from, std::size_t lane) {
-  return detail::chosen_lone(path, range, list, from, lane);
+  return detail::chosen_first_of_one(path, range, list, from, lane);
 }
 
 template <typename Scalar>

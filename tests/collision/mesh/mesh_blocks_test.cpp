@@ -177,7 +177,7 @@ TYPED_TEST(MeshBlocksTest, numbers_vertices_in_sixteen_bits_where_that_is_enough
   const auto drawn = scattered_triangles<TypeParam>(count, TypeParam(0.2), random);
   std::size_t memory_before = 0;
   for (const std::size_t vertex_count : {65536U, 65537U}) {
-    // Among as many vertices, the triangles' stand last.
+    // The mesh has this many vertices. Those of the triangles are the last ones.
     const auto skipped = static_cast<std::uint32_t>(vertex_count - drawn.vertices.size());
     GeneratedMesh<TypeParam> mesh = drawn;
     mesh.vertices.insert(mesh.vertices.begin(), skipped, Vector3<TypeParam>::Zero());

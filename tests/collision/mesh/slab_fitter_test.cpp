@@ -89,7 +89,7 @@ class SlabFitterTest : public testing::Test {
       if (slab.high() != CellSlab::highest) {
         EXPECT_GE(exact.high, high);
       }
-      // A cell without corners between the last places has its planes there.
+      // If a cell has no corners between the last steps, its planes are there.
       const mpq_class step = double{CellSlab::step} * cell.size;
       if (slab.low() != CellSlab::highest) {
         EXPECT_TRUE(exact.low + slack >= low || slab.bits() == CellSlab().bits());
@@ -169,7 +169,7 @@ TEST_F(SlabFitterTest, holds_lists_far_from_the_origin_and_of_any_size) {
   }
 }
 
-/// A triangle that is larger than its cell reaches beyond all places.
+/// A triangle that is larger than its cell reaches beyond all steps.
 TEST_F(SlabFitterTest, holds_what_other_cells_have_of_the_triangles) {
   const GridFrame frame = frame_of({20, 30, 25}, 1);
   for (std::size_t i = case_count(300); i > 0; --i) {
@@ -191,7 +191,7 @@ TEST_F(SlabFitterTest, is_as_thin_as_a_triangle_of_any_direction) {
       thickness += (high - low) / 2;
     }
     EXPECT_LE((slab.high() + 1 - slab.low()) * double{CellSlab::step}, thickness.get_d());
-    // As whole numbers of which the longest is 15.
+    // The components are whole numbers, and the longest is 15.
     std::int32_t longest = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, std::abs(slab.normal(axis)));
     EXPECT_EQ(longest, CellSlab::longest);

@@ -102,18 +102,18 @@ TEST(BatchRounding, of_random_hits_is_that_of_intersect) {
 /// t, u or v, or all of them, just between two floats, where no interval around them rounds to one; by turns with
 /// others that do, so that both share a vector.
 TEST(BatchRounding, of_hits_between_two_floats_is_that_of_intersect) {
-  constexpr float u = std::numeric_limits<float>::epsilon() / 2;
+  constexpr float eps = std::numeric_limits<float>::epsilon() / 2;
   GeneratedMesh<float> mesh;
-  mesh.add({{-u, -u, 1}, {2, -u, 1}, {-u, 2, 1}});
-  mesh.add({{-u, -u, 3}, {4, -u, 3}, {-u, 4, 3}});
+  mesh.add({{-eps, -eps, 1}, {2, -eps, 1}, {-eps, 2, 1}});
+  mesh.add({{-eps, -eps, 3}, {4, -eps, 3}, {-eps, 4, 3}});
   Random random(73);
   std::vector<Segment<float>> segments;
   for (std::size_t i = 0; i < 60; ++i) {
     const float x = random.one_in(2) ? 0.5F : random.unit<float>();
     const float y = random.one_in(2) ? 0.5F : random.unit<float>() / 2;
     const bool is_between = random.one_in(2);
-    // From -u to 1, by 1 or 2: t = 1 + u or (1 + u) / 2.
-    segments.push_back({{x, y, is_between ? -u : 0.0F}, {x, y, is_between ? 2 - u : 2.0F}});
+    // From -eps to 1, by 1 or 2: t = 1 + eps or (1 + eps) / 2.
+    segments.push_back({{x, y, is_between ? -eps : 0.0F}, {x, y, is_between ? 2 - eps : 2.0F}});
   }
   QueryStatistics statistics;
   expect_all_kinds_rounded(mesh, segments, 40, statistics);
@@ -123,23 +123,23 @@ TEST(BatchRounding, of_hits_between_two_floats_is_that_of_intersect) {
 
 /// The same of lines that leave the triangles behind them.
 TEST(BatchRounding, of_hits_at_negative_t_between_two_floats_is_that_of_intersect) {
-  constexpr float u = std::numeric_limits<float>::epsilon() / 2;
+  constexpr float eps = std::numeric_limits<float>::epsilon() / 2;
   GeneratedMesh<float> mesh;
-  mesh.add({{-u, -u, 1}, {2, -u, 1}, {-u, 2, 1}});
+  mesh.add({{-eps, -eps, 1}, {2, -eps, 1}, {-eps, 2, 1}});
   Random random(74);
   std::vector<Segment<float>> segments;
   for (std::size_t i = 0; i < 60; ++i) {
     const float x = random.unit<float>();
     const float y = random.unit<float>() / 2;
-    // From -u, by -2: t = -(1 + u) / 2.
-    segments.push_back({{x, y, -u}, {x, y, -2}});
+    // From -eps, by -2: t = -(1 + eps) / 2.
+    segments.push_back({{x, y, -eps}, {x, y, -2}});
   }
   QueryStatistics statistics;
   expect_rounded<Line<float>>(mesh, segments, 40, statistics);
   EXPECT_EQ(statistics.exact_roundings, statistics.paths);
 }
 
-/// All paths meet a triangle that they ignore: that it was shown to them makes it no hit.
+/// All paths meet a triangle that they ignore. The batch is given this triangle, but it is no hit.
 TEST(BatchRounding, of_ignored_triangles_gives_no_hits) {
   GeneratedMesh<float> mesh;
   mesh.add({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}});

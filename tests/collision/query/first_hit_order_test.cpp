@@ -95,8 +95,8 @@ TYPED_TEST(FirstHitOrder, of_triangles_within_the_kernels_bound) {
   EXPECT_GT(this->ties_, case_count(60));
 }
 
-/// Two alone, of which the path only grazes one, so that the kernel knows little of where: whichever is met first, the
-/// other may still come before it. What lies between them in the list is missed.
+/// A path meets only two triangles, and only grazes one of them. So the kernel knows little of where it meets this one.
+/// Whichever is met first, the other may still come before it. What lies between them in the list is missed.
 TYPED_TEST(FirstHitOrder, of_two_of_which_one_is_grazed) {
   Random random(85);
   for (std::size_t i = case_count(300); i > 0 && !this->HasFailure(); --i) {
@@ -157,8 +157,8 @@ TYPED_TEST(FirstHitOrder, of_floors_some_of_which_an_ulp_tilts) {
   EXPECT_GT(this->ties_, case_count(60));
 }
 
-/// The list of the first cell has a triangle so large that the kernel leaves its floor undecided, which the narrowphase
-/// finds. In the next cell it ties with one of a lower id, of which the kernel is certain.
+/// The list of the first cell has a triangle so large that the kernel leaves its floor undecided. The narrowphase finds
+/// this floor. In the next cell it ties with a floor of a lower id, and the kernel is certain of that one.
 TYPED_TEST(FirstHitOrder, of_a_floor_that_was_decided_and_one_that_was_not) {
   constexpr bool is_float = std::is_same_v<TypeParam, float>;
   constexpr TypeParam large = is_float ? 0x1p12 : 0x1p20;
@@ -185,8 +185,8 @@ TYPED_TEST(FirstHitOrder, of_a_floor_that_was_decided_and_one_that_was_not) {
   }
 }
 
-/// A floor is met in the first cell, and in the next one, where the path hits it, another of a lower id as well, whose
-/// u and v are others. More paths than a batch has at once.
+/// A floor is met in the first cell, but the path hits it in the next one. There it also hits another floor, which has
+/// a lower id and other u and v. More paths than a batch has at once.
 TYPED_TEST(FirstHitOrder, of_a_floor_and_one_of_a_lower_id_in_the_next_cell) {
   const TypeParam near = TypeParam{0.05F};
   GeneratedMesh<TypeParam> mesh;
@@ -237,8 +237,8 @@ TYPED_TEST(FirstHitOrder, of_long_stacks_an_ulp_apart) {
   EXPECT_GT(this->ties_, case_count(40));
 }
 
-/// Certain hits, of which many tie exactly, for triangles share corners' coordinates with each other's planes: the
-/// least id wins wherever it is listed.
+/// Many certain hits tie exactly, because all planes and paths pass through one point. The lowest id wins wherever it
+/// is listed.
 TYPED_TEST(FirstHitOrder, of_exact_ties_across_cells) {
   Random random(83);
   for (std::size_t i = case_count(60); i > 0 && !this->HasFailure(); --i) {
