@@ -12,7 +12,7 @@
 
 #include "collider_state.hpp"
 #include "exact/exact_contact.hpp"
-#include "query/path_range.hpp"
+#include "path_range.hpp"
 #include "query/query.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/in_parts.hpp"

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "build/grid_scratch.hpp"
 #include "grid/grid.hpp"
 #include "mesh/mesh_blocks.hpp"
 #include "query/query.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "exact/exact_contact.hpp"
-#include "query/path_range.hpp"
+#include "path_range.hpp"
 #include "support/exact_difference.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "contact.hpp"
-#include "query/path_range.hpp"
+#include "path_range.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/path.hpp"
 #include "surehit/query_options.hpp"

@@ -66,6 +66,17 @@ TYPED_TEST(ColliderBatch, of_rays_and_lines) {
   this->template expect_same_as_single_calls<Line<TypeParam>>(lines);
 }
 
+TYPED_TEST(ColliderBatch, of_paths_from_too_far_away_to_walk_side_by_side) {
+  const TypeParam far{0x1p100};
+  std::vector<Ray<TypeParam>> rays;
+  for (const auto& segment : this->segments(20)) {
+    rays.push_back({{segment.start[0], segment.start[1], far}, {0, 0, -1}});
+    rays.push_back({segment.start, {0, 0, -1}});
+  }
+  this->template expect_same_as_single_calls<Ray<TypeParam>>(rays);
+  EXPECT_TRUE(this->stack.first_hit(rays[0]));
+}
+
 TYPED_TEST(ColliderBatch, with_options) {
   this->template expect_same_as_single_calls<Segment<TypeParam>>(
       this->segments(50), {.max_t = TypeParam{0.5}, .culling = Culling::back, .ignored_triangle = 2});

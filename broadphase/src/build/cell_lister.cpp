@@ -86,7 +86,7 @@ void CellLister::add_blocks(std::uint32_t triangle, const Corners& corners, cons
   }
 }
 
-void CellLister::ask() {
+void CellLister::flush() {
   const std::size_t filled = std::exchange(filled_, 0);
   const std::size_t blocks = std::exchange(block_count_, 0);
   if (blocks == 0 || entries_.count == CellEntries::too_many) return;

@@ -43,7 +43,7 @@ class CellLister {
   }
 
   /// Completes the entries.
-  void finish() { ask(); }
+  void finish() { flush(); }
 
  private:
   /// The index of a cell on each axis, as whole numbers.
@@ -60,7 +60,7 @@ class CellLister {
     lanes_.more[lane] = more;
     block_of_lane_[lane] = block_count_;
     list(triangle, first, 0);
-    if (filled_ == OverlapLanes::count) ask();
+    if (filled_ == OverlapLanes::count) flush();
   }
 
   /// Adds a block with the bits of its overlaps. They are 0 if the lanes are not tested yet. All numbers are whole, and
@@ -70,7 +70,7 @@ class CellLister {
     blocks_.triangles[block] = triangle;
     blocks_.first[block] = static_cast<std::uint32_t>(static_cast<std::int32_t>(sum_of((first - first_) * pitch_)));
     blocks_.overlaps[block] = static_cast<std::int32_t>(overlaps);
-    if (block + 1 == ListedBlocks::max_count) ask();
+    if (block + 1 == ListedBlocks::max_count) flush();
   }
 
   /// Adds a triangle with any number of cells, from `first` to `last`.
@@ -81,7 +81,7 @@ class CellLister {
   /// Adds all blocks of the cells from `first` to `last`.
   void add_blocks(std::uint32_t triangle, const Corners& corners, const Cell& first, const Cell& last);
   /// Tests what is in the lanes, and makes entries from all blocks.
-  void ask();
+  void flush();
 
   OverlapLanes lanes_;                                          ///< The blocks that are still to be tested.
   std::array<std::size_t, OverlapLanes::count> block_of_lane_;  ///< The index in `blocks_` of each lane's block.

@@ -4,6 +4,7 @@
 
 #include "build/cell_lister.hpp"
 #include "build/empty_space.hpp"
+#include "build/grid_scratch.hpp"
 #include "build/listed_triangles.hpp"
 #include "build/triangle_overlap.hpp"
 #include "grid/grid.hpp"
@@ -75,17 +76,17 @@ std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, doubl
     }
     if (dimensions == 0) break;
     const double size = std::pow(volume / cells, 1.0 / dimensions);
-    bool settled = true;
+    bool is_final = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!divided[axis]) continue;
       resolution[axis] = width[axis] / size;
       if (!(resolution[axis] >= 1)) {  // NaN if all widths are 0.
         resolution[axis] = 1;
         divided[axis] = false;
-        settled = false;
+        is_final = false;
       }
     }
-    if (settled) break;
+    if (is_final) break;
   }
   return resolution;
 }

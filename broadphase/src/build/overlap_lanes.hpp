@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "build/grid_scratch.hpp"
 #include "build/triangle_overlap.hpp"
 #include "grid/grid.hpp"
 

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "build/grid_scratch.hpp"
 #include "grid/cell_word.hpp"
 #include "grid/grid_cover.hpp"
 #include "grid/grid_frame.hpp"
@@ -17,6 +16,8 @@
 #include "surehit/triangle_mesh_view.hpp"
 
 namespace surehit {
+
+class GridScratch;
 
 /// A uniform grid over a mesh's box. A crowded cell is divided into a brick of 4 × 4 × 4 cells. A crowded cell of a
 /// brick is divided in the same way. Each undivided cell lists the triangles that meet its box, grown by

@@ -133,10 +133,10 @@ template <typename Scalar>
   const Float4 speed = absolute(move);
   const Int4 is_near = (-stop <= at) & (at <= stop + stop) & (speed <= all_lanes(fast));
   const Int4 is_mirrored = move < all_lanes(0.0F);
-  const Int4 stands = speed < all_lanes(min_rate);
+  const Int4 is_still = speed < all_lanes(min_rate);
   const Float4 from = negated_where(at, is_mirrored) + masked(is_mirrored, stop);
-  rate = masked(~stands, speed);
-  inverse_rate = stands ? all_lanes(max_inverse) : 1 / speed;
+  rate = masked(~is_still, speed);
+  inverse_rate = is_still ? all_lanes(max_inverse) : 1 / speed;
   Float4 leaving = (from - stop) * inverse_rate;
   leaving[3] = -last_t;
   const Float4 limits = max_lanes(-from * inverse_rate, leaving, speed, masked(~is_near, all_lanes(1.0F)));

@@ -73,24 +73,24 @@ struct alignas(max_lanes * sizeof(float)) WalkingPaths {
   void shorten(std::size_t lane, double t, const WalkParameter& tau) { end[lane] = std::min(end[lane], tau.beyond(t)); }
 
   /// Copies other paths into some lanes. If bit i of `lanes` is set, lane i becomes lane `from_lane[i]` of `from`.
-  HWY_INLINE void take(std::uint32_t lanes, const WalkingPaths& from, const LaneIndices& from_lane) {
+  HWY_INLINE void copy(std::uint32_t lanes, const WalkingPaths& from, const LaneIndices& from_lane) {
     const auto indices = hn::Load(IntTag(), from_lane.data());
-    const auto take_all = [&](auto d, auto& to, const auto& of) {
+    const auto copy_all = [&](auto d, auto& to, const auto& of) {
       const auto taken = hn::TableLookupLanes(hn::Load(d, of.data()), hn::IndicesFromVec(d, indices));
       hn::Store(hn::IfThenElse(mask_of(d, lanes), taken, hn::Load(d, to.data())), d, to.data());
     };
     const FloatTag d;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      take_all(d, start[axis], from.start[axis]);
-      take_all(d, rate[axis], from.rate[axis]);
-      take_all(d, inverse_rate[axis], from.inverse_rate[axis]);
-      take_all(d, finest[axis], from.finest[axis]);
-      take_all(d, pitch[axis], from.pitch[axis]);
+      copy_all(d, start[axis], from.start[axis]);
+      copy_all(d, rate[axis], from.rate[axis]);
+      copy_all(d, inverse_rate[axis], from.inverse_rate[axis]);
+      copy_all(d, finest[axis], from.finest[axis]);
+      copy_all(d, pitch[axis], from.pitch[axis]);
     }
-    take_all(d, first_cell, from.first_cell);
-    take_all(d, enters, from.enters);
-    take_all(d, end, from.end);
-    take_all(BitsTag(), octant, from.octant);
+    copy_all(d, first_cell, from.first_cell);
+    copy_all(d, enters, from.enters);
+    copy_all(d, end, from.end);
+    copy_all(BitsTag(), octant, from.octant);
   }
 };
 
@@ -198,7 +198,7 @@ class LaneWalk {
 
   /// Puts a path that `ClippedPath` has clipped into one lane. It does not set `enters`, because the tau of such a path
   /// need not be t - `enters`.
-  void take(std::size_t lane, const ClippedPath& path, WalkingPaths& paths) const {
+  void put(std::size_t lane, const ClippedPath& path, WalkingPaths& paths) const {
     const GridFrame::TopOrder& order = frame_.top_orders[path.octant];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       paths.start[axis][lane] = path.start[axis];
@@ -331,8 +331,8 @@ class LaneWalk {
         Words cell = hn::ShiftLeft<6>(hn::ShiftRight<5>(cells.word));
         for (int axis = 0; axis < 3; ++axis) {
           const Words position = hn::BitCast(du, hn::ShiftRightSame(finest[axis], static_cast<int>(2 * level)));
-          const Words turned = hn::Sub(hn::Zero(du), hn::And(hn::ShiftRightSame(octant, axis), hn::Set(du, 1U)));
-          cell = hn::Add(cell, hn::ShiftLeftSame(hn::And(hn::Xor(position, turned), hn::Set(du, 3U)), 2 * axis));
+          const Words flips = hn::Sub(hn::Zero(du), hn::And(hn::ShiftRightSame(octant, axis), hn::Set(du, 1U)));
+          cell = hn::Add(cell, hn::ShiftLeftSame(hn::And(hn::Xor(position, flips), hn::Set(du, 3U)), 2 * axis));
         }
         const auto* bricks = reinterpret_cast<const std::uint32_t*>(grid_.bricks().data());
         const Words inner = hn::GatherIndex(du, bricks, hn::BitCast(di, hn::IfThenElseZero(divided, cell)));
@@ -449,8 +449,8 @@ class LaneWalk {
       const auto k = static_cast<std::size_t>(axis);
       const Floats component = hn::ConvertTo(d, hn::ShiftRight<27>(hn::ShiftLeftSame(slab, 27 - 5 * axis)));
       // The sign changes where the path is mirrored.
-      const Floats turned = hn::BitCast(d, hn::ShiftLeftSame(hn::And(octant, hn::Set(du, 1U << axis)), 31 - axis));
-      const Floats normal = hn::Xor(component, turned);
+      const Floats sign = hn::BitCast(d, hn::ShiftLeftSame(hn::And(octant, hn::Set(du, 1U << axis)), 31 - axis));
+      const Floats normal = hn::Xor(component, sign);
       const Floats to_start = hn::Sub(hn::Load(d, paths.start[k].data()), hn::Add(cells.low[k], half));
       const Floats rate = hn::Load(d, paths.rate[k].data());
       at_entry = hn::MulAdd(hn::MulAdd(enters, rate, to_start), normal, at_entry);

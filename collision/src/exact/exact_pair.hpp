@@ -4,7 +4,7 @@
 
 #include "contact.hpp"
 #include "exact/exact_scale.hpp"
-#include "query/path_range.hpp"
+#include "path_range.hpp"
 
 namespace surehit::detail {
 

@@ -4,7 +4,7 @@
 
 #include "contact.hpp"
 #include "filter/bounded.hpp"
-#include "query/path_range.hpp"
+#include "path_range.hpp"
 #include "surehit/path.hpp"
 #include "surehit/triangle.hpp"
 #include "verdict.hpp"

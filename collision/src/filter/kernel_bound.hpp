@@ -4,7 +4,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "query/path_range.hpp"
+#include "path_range.hpp"
 
 namespace surehit::detail {
 

@@ -159,15 +159,15 @@ class Batch {
   }
 
   /// Makes jobs from the lists of these slots. The jobs begin with triangle `from` of each list. Returns the slots
-  /// whose lists have more triangles than the jobs. If `finds_lists`, it finds the lists first. A separate loop for
+  /// whose lists have more triangles than the jobs. If `loads_lists`, it loads the lists first. A separate loop for
   /// this would cost one more branch that cannot be predicted.
-  template <bool finds_lists>
+  template <bool loads_lists>
   HWY_INLINE std::uint64_t list_jobs(std::uint64_t of_slots, std::size_t from) {
     std::uint64_t longer = 0;
     std::size_t count = 0;
     for (; of_slots != 0; of_slots &= of_slots - 1) {
       const auto slot = static_cast<std::size_t>(std::countr_zero(of_slots));
-      if constexpr (finds_lists) jobs_.find_list(slot, query_, CellWord(words_[slot]), queries_.weights_in(slot));
+      if constexpr (loads_lists) jobs_.load_list(slot, query_, CellWord(words_[slot]), queries_.weights_in(slot));
       longer |= std::uint64_t{jobs_.add(slot, from, count)} << slot;
     }
     jobs_.set_count(count);
@@ -269,7 +269,8 @@ HWY_NOINLINE void search_each_first_by(Queries queries, const PathSpan<Scalar>& 
       const Path<Scalar> path = paths[index];
       const auto& query = queries.query(index);
       const auto& range = queries.range(index);
-      hits[index] = first.decide_hit(Narrowphase<Scalar>(path, query.options, range, query.statistics));
+      hits[index] =
+          first.decide_hit(typename FirstHit<Scalar>::Narrowphase(path, query.options, range, query.statistics));
     };
     search_paths<FirstHit<Scalar>>(queries, paths, finish, alone);
   }

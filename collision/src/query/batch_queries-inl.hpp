@@ -16,7 +16,7 @@
 #include <type_traits>
 
 #include "filter/kernel_bound.hpp"
-#include "query/path_range.hpp"
+#include "path_range.hpp"
 #include "query/query.hpp"
 #if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
 #include "walk/lane_walk-inl.hpp"

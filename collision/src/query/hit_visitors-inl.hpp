@@ -19,7 +19,7 @@
 
 #include "filter/block_kernel-inl.hpp"
 #include "narrowphase.hpp"
-#include "query/path_range.hpp"
+#include "path_range.hpp"
 #include "query/query.hpp"
 
 HWY_BEFORE_NAMESPACE();

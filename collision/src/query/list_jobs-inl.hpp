@@ -55,8 +55,8 @@ class ListJobs {
   /// Returns the list of a slot.
   [[nodiscard]] const TriangleList<Scalar>& list(std::size_t slot) const { return lists_[slot]; }
 
-  /// Finds the list of the cell of a slot, and the bounds of its path with this list.
-  HWY_INLINE void find_list(std::size_t slot, const Query<Scalar>& query, CellWord word,
+  /// Loads the list of the cell of a slot, and computes the bounds of its path with this list.
+  HWY_INLINE void load_list(std::size_t slot, const Query<Scalar>& query, CellWord word,
                             const RangeWeights<Scalar>& weights) {
     const TriangleList<Scalar>& list = lists_[slot] = list_of(query, word);
     prefetch(list);
@@ -102,7 +102,7 @@ class ListJobs {
       open += open_[open].verdicts.possible != 0 ? 1 : 0;
     }
     if constexpr (Visitor::wants_order) {
-      for (std::size_t i = 0; i < open; ++i) find_first(i, queries, visitors);
+      for (std::size_t i = 0; i < open; ++i) locate_first(i, queries, visitors);
     }
     return std::span(open_).first(open);
   }
@@ -119,9 +119,9 @@ class ListJobs {
     std::array<Scalar, kernel_lanes> det;     ///< The det of each lane.
   };
 
-  /// Finds the certain hits of an open job that may be the first one.
+  /// Locates the certain hits of an open job that may be the first one.
   template <typename Queries, typename Visitors>
-  HWY_INLINE void find_first(std::size_t i, const Queries& queries, const Visitors& visitors) {
+  HWY_INLINE void locate_first(std::size_t i, const Queries& queries, const Visitors& visitors) {
     const hn::ScalableTag<Scalar> d;
     const auto& [height, det] = crossings_[i];
     auto& [slot, from, verdicts, first] = open_[i];

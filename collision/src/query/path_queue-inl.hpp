@@ -18,7 +18,7 @@
 
 #include "filter/kernel_lanes-inl.hpp"
 #include "filter/kernel_path.hpp"
-#include "query/path_range.hpp"
+#include "path_range.hpp"
 #include "surehit/path_span.hpp"
 #include "walk/lane_walk-inl.hpp"
 
@@ -54,7 +54,7 @@ class PathQueue {
         }
         filled |= std::uint32_t{1} << to;
       }
-      lanes.take(filled, clipped_, from_lane);
+      lanes.copy(filled, clipped_, from_lane);
       all_filled |= filled;
     }
     return all_filled;
@@ -119,7 +119,7 @@ class PathQueue {
       if (clipped.status == ClippedPath::Status::too_far) result.apart |= std::uint32_t{1} << lane;
       if (clipped.status != ClippedPath::Status::clipped) continue;
       result.inside |= std::uint32_t{1} << lane;
-      walk_.take(lane, clipped, clipped_);
+      walk_.put(lane, clipped, clipped_);
       kernel_paths_[lane] = KernelPath<Scalar>(path, grid.frame());
       taus_[lane] = clipped.tau;
     }

@@ -8,7 +8,7 @@
 
 #include "grid/grid.hpp"
 #include "mesh/mesh_blocks.hpp"
-#include "query/path_range.hpp"
+#include "path_range.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/hit_filter.hpp"
 #include "surehit/path.hpp"

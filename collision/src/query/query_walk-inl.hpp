@@ -279,7 +279,7 @@ std::optional<Hit<Scalar>> search_first(const Query<Scalar>& query, const Path<S
       return hit;
     }
   }
-  return first.decide_hit(Narrowphase<Scalar>(path, query.options, range, query.statistics));
+  return first.decide_hit(typename FirstHit<Scalar>::Narrowphase(path, query.options, range, query.statistics));
 }
 
 /// Returns true if the path has a hit.
@@ -297,7 +297,7 @@ void search_all(const Query<Scalar>& query, const Path<Scalar>& path, std::vecto
   const PathRange<Scalar> range(path, query.options);
   AllHits<Scalar> all;
   walk(query, path, range, all);
-  const Narrowphase<Scalar> narrowphase(path, query.options, range, query.statistics);
+  const typename AllHits<Scalar>::Narrowphase narrowphase(path, query.options, range, query.statistics);
   all.append_to(hits, query, narrowphase);
 }
 

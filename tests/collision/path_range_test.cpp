@@ -1,4 +1,4 @@
-#include "query/path_range.hpp"
+#include "path_range.hpp"
 
 #include <gtest/gtest.h>
 
