@@ -13,6 +13,7 @@
 #include "ratio_chart.hpp"
 #include "support/instruction_sets.hpp"
 #include "tables.hpp"
+#include "uneven_scenes.hpp"
 
 namespace surehit::benchmark {
 namespace {
@@ -48,6 +49,7 @@ struct Words {
   std::string csv_path;
   std::string chart_path;
   bool quick = false;
+  bool uneven = false;
   Request request;
 };
 
@@ -73,6 +75,7 @@ CLI::Option* add_choice(CLI::App& app, const char* option, Value& value, std::st
 void describe(CLI::App& app, Words& words, Request& request) {
   app.add_option("--meshes", words.folder, "Measure every mesh of a folder too")->type_name("FOLDER");
   add_choice(app, "--up", words.up, "The upward axis of the folder's meshes", {"y", "z"})->capture_default_str();
+  app.add_flag("--uneven", words.uneven, "Measure the meshes that are built to be hard for grids too");
   add_choice(app, "--table", words.tables, "Only these tables", names_of(all_tables(), &TableKind::name))
       ->type_name("NAME");
   app.add_option("--mesh", words.meshes, "Only these meshes; the built-in one is called level")->type_name("NAME");
@@ -121,6 +124,11 @@ void read_scenes(const Words& words, Request& request) {
   if (!words.folder.empty()) {
     for (Scene& scene : scenes_in(words.folder, words.up == "y" ? 1 : 2, words.meshes)) {
       request.scenes.push_back(std::move(scene));
+    }
+  }
+  if (words.uneven) {
+    for (const std::string& name : uneven_scene_names()) {
+      if (is_among(name, words.meshes)) request.scenes.push_back(uneven_scene(name, words.quick ? 0.05f : 1));
     }
   }
   if (request.scenes.empty()) throw example::InputError("there is no mesh of that name");

@@ -1,5 +1,6 @@
 #include "path_set.hpp"
 
+#include <cmath>
 #include <functional>
 
 namespace surehit::benchmark {
@@ -43,12 +44,38 @@ Draw short_draw(const Scene& scene) {
   };
 }
 
+/// Draws one of the triangles at which paths may be drawn, all alike.
+Trianglef draw_triangle(const Scene& scene, Random& random) {
+  const TriangleMeshViewf mesh = scene.mesh.view();
+  for (;;) {
+    const Trianglef triangle = mesh.triangle(random.below(mesh.triangle_count()));
+    if (scene.draws_at(triangle)) return triangle;
+  }
+}
+
+/// Returns a corner of a triangle. Corner 3 is corner 0 again.
+Vector3d corner_of(const Trianglef& triangle, std::size_t corner) {
+  return (corner % 3 == 0 ? triangle.a : corner % 3 == 1 ? triangle.b : triangle.c).cast<double>();
+}
+
+/// Draws a short segment that begins near this point.
+Segmentf draw_near(const Vector3d& point, double diagonal, Random& random) {
+  const Vector3d start = point + near_distance * diagonal * draw_in_unit_ball(random);
+  return rounded(start, start + short_length * diagonal * draw_direction(random));
+}
+
 Draw near_draw(const Scene& scene) {
-  const SurfacePoints surface(scene.mesh.view(), [](const Trianglef&) { return true; });
+  const SurfacePoints surface(scene.mesh.view(), [&](const Trianglef& triangle) { return scene.draws_at(triangle); });
   return [surface, diagonal = scene.diagonal()](Random& random) {
     const Vector3d touched = surface.draw(random);
-    const Vector3d start = touched + near_distance * diagonal * draw_in_unit_ball(random);
-    return rounded(start, start + short_length * diagonal * draw_direction(random));
+    return draw_near(touched, diagonal, random);
+  };
+}
+
+Draw detail_draw(const Scene& scene) {
+  return [&scene, diagonal = scene.diagonal()](Random& random) {
+    const Vector3d touched = draw_in_triangle(draw_triangle(scene, random), random);
+    return draw_near(touched, diagonal, random);
   };
 }
 
@@ -57,20 +84,84 @@ Draw sight_draw(const Scene& scene) {
              Random& random) { return rounded(eye, floor.draw(random) + above); };
 }
 
-Vector3d draw_vertex_or_edge_point(const TriangleMeshViewf& mesh, Random& random) {
-  const std::size_t triangle = random.below(mesh.triangle_count());
+Vector3d draw_vertex_or_edge_point(const Scene& scene, Random& random) {
+  const Trianglef triangle = draw_triangle(scene, random);
   const std::size_t which = random.below(3);
-  const Vector3d a = mesh.vertex(mesh.corner(triangle, which)).cast<double>();
+  const Vector3d a = corner_of(triangle, which);
   if (random.one_in(2)) return a;
-  const Vector3d b = mesh.vertex(mesh.corner(triangle, (which + 1) % 3)).cast<double>();
-  const Vector3d between = a + random.unit<double>() * (b - a);
+  const Vector3d between = a + random.unit<double>() * (corner_of(triangle, which + 1) - a);
   return between.cast<float>().cast<double>();
 }
 
 Draw edge_draw(const Scene& scene) {
-  return [points = BoxPoints(scene.box(), 1.2), mesh = scene.mesh.view()](Random& random) {
+  return [points = BoxPoints(scene.box(), 1.2), &scene](Random& random) {
     const Vector3d start = points.draw(random).cast<float>().cast<double>();
-    return rounded(start, 2 * draw_vertex_or_edge_point(mesh, random) - start);
+    return rounded(start, 2 * draw_vertex_or_edge_point(scene, random) - start);
+  };
+}
+
+Vector3d draw_vertex_or_edge_middle(const Scene& scene, Random& random) {
+  const Trianglef triangle = draw_triangle(scene, random);
+  const std::size_t which = random.below(3);
+  const Vector3d a = corner_of(triangle, which);
+  return random.one_in(2) ? a : Vector3d((a + corner_of(triangle, which + 1)) / 2);
+}
+
+Draw edge_end_draw(const Scene& scene) {
+  return [points = BoxPoints(scene.box(), 1.2), &scene](Random& random) {
+    const Vector3d start = points.draw(random);
+    return rounded(start, draw_vertex_or_edge_middle(scene, random));
+  };
+}
+
+Draw in_plane_draw(const Scene& scene) {
+  return [&scene, tilt = 1e-6 * scene.diagonal()](Random& random) {
+    const Trianglef triangle = draw_triangle(scene, random);
+    const Vector3d a = triangle.a.cast<double>();
+    const Vector3d to_b = triangle.b.cast<double>() - a;
+    const Vector3d to_c = triangle.c.cast<double>() - a;
+    const auto draw_in_plane = [&] {
+      const double u = 3 * random.unit<double>() - 1;
+      const double v = 3 * random.unit<double>() - 1;
+      return Vector3d(a + u * to_b + v * to_c);
+    };
+    const std::size_t which = random.below(4);
+    if (which == 0) return Segmentf{triangle.a, triangle.b};
+    const Vector3d start = draw_in_plane();
+    if (which == 1) return rounded(start, a);
+    const Vector3d end = draw_in_plane();
+    if (which == 2) return rounded(start, end);
+    return rounded(start + tilt * draw_in_unit_ball(random), end + tilt * draw_in_unit_ball(random));
+  };
+}
+
+/// Paths between centres of cubes. On meshes that are not made of cubes, both ends are on a grid of powers of two.
+Draw cell_draw(const Scene& scene) {
+  constexpr std::int64_t max_cells = 12;
+  constexpr double cells_in_diagonal = 200;
+  const double cell =
+      scene.cell > 0 ? scene.cell : std::exp2(std::round(std::log2(scene.diagonal() / cells_in_diagonal)));
+  return [points = BoxPoints(scene.box(), 1), cell](Random& random) {
+    const Vector3d first = (points.draw(random) / cell).array().floor();
+    Vector3d last = first;
+    for (int axis = 0; axis < 3; ++axis) last[axis] += static_cast<double>(random.between(-max_cells, max_cells));
+    const Vector3d half = Vector3d::Constant(0.5);
+    return rounded(cell * (first + half), cell * (last + half));
+  };
+}
+
+Draw far_draw(const Scene& scene) {
+  const Boxf box = scene.box();
+  const Vector3d centre = (box.low.cast<double>() + box.high.cast<double>()) / 2;
+  return [points = BoxPoints(box, 1), centre, diagonal = scene.diagonal()](Random& random) {
+    const double distance = diagonal * std::pow(10.0, 1 + 2 * random.unit<double>());
+    const Vector3d start = centre + distance * draw_direction(random);
+    // A path that passes the mesh does so at a distance of a few diagonals.
+    const bool is_aimed = random.one_in(2);
+    const Vector3d target =
+        is_aimed ? points.draw(random) : centre + (2 + 8 * random.unit<double>()) * diagonal * draw_direction(random);
+    // One path in two goes as far beyond, as a ray does.
+    return rounded(start, random.one_in(2) ? target : 2 * target - start);
   };
 }
 
@@ -85,15 +176,26 @@ Draw draw_of(PathSet set, const Scene& scene) {
     case PathSet::sight_paths:
       return sight_draw(scene);
     case PathSet::edge_paths:
+      return edge_draw(scene);
+    case PathSet::detail_paths:
+      return detail_draw(scene);
+    case PathSet::edge_end_paths:
+      return edge_end_draw(scene);
+    case PathSet::in_plane_paths:
+      return in_plane_draw(scene);
+    case PathSet::cell_paths:
+      return cell_draw(scene);
+    case PathSet::far_paths:
       break;
   }
-  return edge_draw(scene);
+  return far_draw(scene);
 }
 
 }  // namespace
 
 std::string name_of(PathSet set) {
-  constexpr std::array names = {"long", "short", "near", "sight", "edge"};
+  constexpr std::array names = {"long",   "short",    "near",     "sight", "edge",
+                                "detail", "edge_end", "in_plane", "cells", "far"};
   return names[static_cast<std::size_t>(set)];
 }
 

@@ -429,11 +429,12 @@ def main():
             figures.add(csv_path)
             sections.append(f"    {shown}\n\n{output.rstrip()}")
 
-        run(files=["--chart", chart_path])
+        sets = [option for paths in PATH_SETS for option in ("--set", paths)]
+        run(*sets, files=["--chart", chart_path])
         best = figures.instruction_sets[0]
         for name in OTHER_INSTRUCTION_SETS:
             if name != best:
-                run("--instruction-set", name, "--table", "queries", "--contender", MEDIUM)
+                run(*sets, "--instruction-set", name, "--table", "queries", "--contender", MEDIUM)
 
         check(figures)
         head = text_of_full.partition(ALL_TABLES)[0]

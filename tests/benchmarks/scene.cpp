@@ -51,6 +51,11 @@ bool is_mesh_file(const fs::path& path) {
 
 }  // namespace
 
+bool Scene::draws_at(const Trianglef& triangle) const {
+  return !drawn_in ||
+         ((triangle.a.array() >= drawn_in->low.array()).all() && (triangle.a.array() <= drawn_in->high.array()).all());
+}
+
 double Scene::diagonal() const {
   const Boxf around = box();
   return (around.high.cast<double>() - around.low.cast<double>()).norm();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <surehit/box.hpp>
 #include <vector>
@@ -18,8 +19,12 @@ struct Scene {
   example::Mesh<float> mesh;
   int up = 2;  ///< axis
   Vector3d eye = {0, 0, 0};
+  std::optional<Boxf> drawn_in = {};  ///< The box that paths are drawn in, if not the mesh's.
+  double cell = 0;                    ///< The edge of the cubes that the mesh is made of, or 0.
 
-  [[nodiscard]] Boxf box() const { return box_of(mesh.view()); }
+  [[nodiscard]] Boxf box() const { return drawn_in ? *drawn_in : box_of(mesh.view()); }
+  /// Returns false for a triangle outside the box that paths are drawn in.
+  [[nodiscard]] bool draws_at(const Trianglef& triangle) const;
   [[nodiscard]] double diagonal() const;
   /// Where somebody could stand: of the triangles that look upward.
   [[nodiscard]] SurfacePoints floor() const;

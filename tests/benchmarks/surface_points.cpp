@@ -36,6 +36,10 @@ Vector3d SurfacePoints::draw(test::Random& random) const {
   const double area = random.unit<double>() * area_up_to_.back();
   const auto place = std::upper_bound(area_up_to_.begin(), area_up_to_.end(), area);
   const Trianglef triangle = mesh_.triangle(static_cast<std::size_t>(place - area_up_to_.begin()));
+  return draw_in_triangle(triangle, random);
+}
+
+Vector3d draw_in_triangle(const Trianglef& triangle, test::Random& random) {
   double u = random.unit<double>();
   double v = random.unit<double>();
   if (u + v > 1) {

@@ -23,6 +23,8 @@ class SurfacePoints {
   std::vector<double> area_up_to_;  ///< of the chosen triangles up to each one, itself included
 };
 
+/// Draws a point of a triangle, all points alike.
+[[nodiscard]] Vector3d draw_in_triangle(const Trianglef& triangle, test::Random& random);
 /// Three coordinates in [0, 1).
 [[nodiscard]] Vector3d draw_in_unit_cube(test::Random& random);
 /// In the ball of radius 1 around the origin.

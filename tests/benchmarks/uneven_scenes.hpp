@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene.hpp"
+
+namespace surehit::benchmark {
+
+/// Names the meshes that are built here. They are what games are made of: small things in large surroundings, a
+/// triangle far from all others, cubes on whole numbers, and a large terrain.
+[[nodiscard]] std::vector<std::string> uneven_scene_names();
+
+/// Builds the mesh of that name. `detail` is 1, or less for a quick look. Has the same bits on every platform.
+[[nodiscard]] Scene uneven_scene(const std::string& name, float detail);
+
+}  // namespace surehit::benchmark
