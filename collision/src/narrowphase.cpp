@@ -1,6 +1,8 @@
 #include "narrowphase.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "exact/exact_contact.hpp"
@@ -27,6 +29,31 @@ bool try_round(const BoundedContact& bounded, Hit<Scalar>& hit) {
          try_round(min_v, max_v, hit.v);
 }
 
+/// Returns true if the path is certain to miss the triangle's box, or to enter it after parameter `limit`. Comparisons
+/// of coordinates are exact. A parameter has three roundings, each by 2^-53 of itself.
+template <typename Scalar>
+bool misses_box(const Path<Scalar>& path, const Triangle<Scalar>& triangle, double limit) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax({triangle.a[axis], triangle.b[axis], triangle.c[axis]});
+    const Scalar start = path.start[axis];
+    const Scalar toward = path.toward[axis];
+    const Scalar rest = path.has_end() ? start : Scalar{0};
+    const bool rises = toward > rest;
+    const bool falls = toward < rest;
+    // A line may come from either side.
+    if (start < low && !(rises || (falls && !path.has_start()))) return true;
+    if (start > high && !(falls || (rises && !path.has_start()))) return true;
+    if (path.has_end() && (std::max(start, toward) < low || std::min(start, toward) > high)) return true;
+    if (!(rises || falls)) continue;
+    const double gap = double{rises ? low : high} - double{start};
+    const double way = path.has_end() ? double{toward} - double{start} : double{toward};
+    if (!std::isfinite(gap) || !std::isfinite(way)) continue;
+    const double enters = gap / way;
+    if (enters - std::fabs(enters) * 0x1p-50 - std::numeric_limits<double>::min() > limit) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 template <typename Scalar>
@@ -45,7 +72,8 @@ template bool share_axis_plane(const Triangle<float>&, const Triangle<float>&);
 template bool share_axis_plane(const Triangle<double>&, const Triangle<double>&);
 
 template <typename Scalar>
-bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact& found) const {
+bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact& found, double limit) const {
+  if (misses_box(path_, triangle, limit)) return false;
   const BoundedContact bounded = double_contact(path_, triangle, range_);
   if (bounded.verdict == Verdict::miss) return false;
   found = bounded.contact;
@@ -57,11 +85,14 @@ bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact
 // are on the stack at the same time.
 template <typename Scalar>
 [[gnu::noinline]] bool Narrowphase<Scalar>::find_exactly(const Triangle<Scalar>& triangle, Contact& found) const {
-  const BoundedContact bounded = bounded_contact(path_, triangle, range_);
-  found = bounded.contact;
-  if (bounded.verdict != Verdict::undecided) return bounded.verdict == Verdict::hit;
+  std::optional<Contact> contact;
+  if (!try_compact_contact(path_, triangle, range_, contact)) {
+    const BoundedContact bounded = bounded_contact(path_, triangle, range_);
+    found = bounded.contact;
+    if (bounded.verdict != Verdict::undecided) return bounded.verdict == Verdict::hit;
+    contact = exact_contact(path_, triangle, range_);
+  }
   ++statistics_.exact_decisions;
-  const std::optional<Contact> contact = exact_contact(path_, triangle, range_);
   if (contact) found = *contact;
   return contact.has_value();
 }
@@ -81,8 +112,10 @@ bool Narrowphase<Scalar>::comes_before(const Candidate<Scalar>& x, const Candida
   if (y.contact.t_upper < x.contact.t_lower) return false;
   // In levels, most ties are floors that lie on floors. If neither contact is edge-on, the path crosses the plane, so
   // both t are equal.
-  if (x.contact.side != Side::edge_on && y.contact.side != Side::edge_on && share_axis_plane(x.triangle, y.triangle)) {
-    return x.id < y.id;
+  if (x.contact.side != Side::edge_on && y.contact.side != Side::edge_on) {
+    // Where a path ends in two triangles, both t are 1. Where it starts in two, both are 0.
+    const bool share_end = (x.contact.at_end && y.contact.at_end) || (x.contact.at_start && y.contact.at_start);
+    if (share_end || share_axis_plane(x.triangle, y.triangle)) return x.id < y.id;
   }
   return exactly_before(x, y);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "contact.hpp"
@@ -36,8 +37,10 @@ class Narrowphase {
       : path_(path), options_(options), range_(range), statistics_(statistics) {}
 
   /// Returns true, with the contact in `found`, if the path meets the triangle and the options on contacts admit it.
-  /// Otherwise `found` has no meaning. Masks, filters and the ignored triangle are for the caller.
-  [[nodiscard]] bool find_contact(const Triangle<Scalar>& triangle, Contact& found) const;
+  /// Otherwise `found` has no meaning. A contact after parameter `limit` may count as none. Masks, filters and the ignored
+  /// triangle are for the caller.
+  [[nodiscard]] bool find_contact(const Triangle<Scalar>& triangle, Contact& found,
+                                  double limit = std::numeric_limits<double>::infinity()) const;
 
   /// Returns true if x comes before y: by the exact t, then by the id.
   [[nodiscard]] bool comes_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const;

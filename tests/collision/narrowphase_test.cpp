@@ -100,10 +100,43 @@ TYPED_TEST(NarrowphaseOf, clear_hit_takes_no_exact_decision) {
 }
 
 /// What double with bounds known beforehand cannot tell, running bounds can: exact operations do not enlarge them.
-TYPED_TEST(NarrowphaseOf, edge_of_small_integers_takes_no_exact_decision) {
+/// A coordinate is too small for compact integers, which would decide before.
+TYPED_TEST(NarrowphaseOf, edge_of_exact_products_takes_no_exact_decision) {
   this->path_ = Segment<TypeParam>{{TypeParam{0.25}, 0, -1}, {TypeParam{0.25}, 0, 1}};
-  static_cast<void>(this->candidate_of(unit_triangle<TypeParam>(), 0));
+  const Triangle<TypeParam> triangle{{0, 0, 0}, {1, 0, 0}, {TypeParam{0x1p-60}, 1, 0}};
+  static_cast<void>(this->candidate_of(triangle, 0));
   EXPECT_EQ(this->statistics_.exact_decisions, 0u);
+}
+
+TYPED_TEST(NarrowphaseOf, box_beside_the_path_takes_no_exact_decision) {
+  Contact contact;
+  const auto expect_miss = [&](const Path<TypeParam>& path, double limit) {
+    this->path_ = path;
+    this->range_ = PathRange<TypeParam>(path, this->options_);
+    EXPECT_FALSE(this->narrowphase_.find_contact(unit_triangle<TypeParam>(), contact, limit));
+    EXPECT_EQ(this->statistics_.exact_decisions, 0u);
+  };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  expect_miss(Segment<TypeParam>{{2, 0, 0}, {3, 0, 0}}, infinity);
+  expect_miss(Segment<TypeParam>{{3, 0, 0}, {2, 0, 0}}, infinity);
+  expect_miss(Ray<TypeParam>{{2, 0, 0}, {1, 0, 0}}, infinity);
+  expect_miss(Ray<TypeParam>{{-1, 0, 0}, {-1, 0, 0}}, infinity);
+  expect_miss(Line<TypeParam>{{0, 2, 0}, {1, 0, 0}}, infinity);
+  // It enters the box at t = 1/4.
+  expect_miss(Segment<TypeParam>{{-1, TypeParam{0.25}, 0}, {3, TypeParam{0.25}, 0}}, 0.2);
+}
+
+TYPED_TEST(NarrowphaseOf, contact_at_the_limit_counts) {
+  Contact contact;
+  const auto expect_hit = [&](const Path<TypeParam>& path, double limit) {
+    this->path_ = path;
+    this->range_ = PathRange<TypeParam>(path, this->options_);
+    EXPECT_TRUE(this->narrowphase_.find_contact(unit_triangle<TypeParam>(), contact, limit));
+  };
+  expect_hit(Segment<TypeParam>{{-1, TypeParam{0.25}, 0}, {3, TypeParam{0.25}, 0}}, 0.25);
+  expect_hit(Line<TypeParam>{{2, TypeParam{0.25}, 0}, {1, 0, 0}}, -1.75);
+  expect_hit(Line<TypeParam>{{-1, TypeParam{0.25}, 0}, {-1, 0, 0}}, -1.5);
+  expect_hit(Ray<TypeParam>{{0, 0, -3}, {0, 0, 1}}, 3);
 }
 
 TYPED_TEST(NarrowphaseOf, contact_in_the_plane_takes_exact_arithmetic) {
@@ -112,6 +145,19 @@ TYPED_TEST(NarrowphaseOf, contact_in_the_plane_takes_exact_arithmetic) {
   static_cast<void>(this->narrowphase_.hit(candidate));
   EXPECT_EQ(this->statistics_.exact_decisions, 1u);
   EXPECT_EQ(this->statistics_.exact_roundings, 1u);
+}
+
+/// Where a path ends in two triangles, both t are 1.
+TYPED_TEST(NarrowphaseOf, order_of_two_triangles_that_share_the_end_takes_no_exact_arithmetic) {
+  const Triangle<TypeParam> tilted{{0, 0, 0}, {0, 1, 1}, {1, 0, -1}};
+  for (const bool ends : {true, false}) {
+    this->path_ = ends ? Segment<TypeParam>{{0, 0, -1}, {0, 0, 0}} : Segment<TypeParam>{{0, 0, 0}, {0, 0, -1}};
+    const auto first = this->candidate_of(unit_triangle<TypeParam>(), 9);
+    const auto second = this->candidate_of(tilted, 4);
+    EXPECT_TRUE(this->narrowphase_.comes_before(second, first));
+    EXPECT_FALSE(this->narrowphase_.comes_before(first, second));
+    EXPECT_EQ(this->statistics_.exact_orders, 0u);
+  }
 }
 
 TYPED_TEST(NarrowphaseOf, order_is_by_t_and_then_by_id) {

@@ -9,21 +9,18 @@
 namespace surehit::detail {
 namespace {
 
+/// Returns whether compact integers hold a path, its triangles and the begin of its range.
 template <typename Scalar>
-[[gnu::noinline]] void find_parameter(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
-                                      const Scale<Scalar>& scale, const PathRange<Scalar>& range,
-                                      Ratio<Bits<Scalar>::parameter>& t) {
-  static_cast<void>(ExactPair<Scalar>(path, triangle, scale).find(range, t, nullptr));
+bool are_compact(const Scale<Scalar>& scale, const PathRange<Scalar>& range) {
+  return scale.is_compact() &&
+         (range.first == -PathRange<Scalar>::infinity || Limit<Scalar>(range.first, scale.t_exponent).is_compact());
 }
 
-}  // namespace
-
-template <typename Scalar>
-std::optional<Contact> exact_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
-                                     const PathRange<Scalar>& range) {
-  const Scale<Scalar> scale(path, triangle);
-  Ratio<Bits<Scalar>::parameter> t;
-  std::optional<Contact> contact = ExactPair<Scalar>(path, triangle, scale).find(range, t, nullptr);
+template <typename Size, typename Scalar>
+[[gnu::noinline]] std::optional<Contact> find_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                                      const Scale<Scalar>& scale, const PathRange<Scalar>& range) {
+  typename ExactPair<Scalar, Size>::Parameter t;
+  std::optional<Contact> contact = ExactPair<Scalar, Size>(path, triangle, scale).find(range, t, nullptr);
   if (contact) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     // The nearest double is at most half an ulp from the exact t, so its neighbours enclose it.
@@ -34,32 +31,76 @@ std::optional<Contact> exact_contact(const Path<Scalar>& path, const Triangle<Sc
   return contact;
 }
 
+template <typename Size, typename Scalar>
+[[gnu::noinline]] void round_hit(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const Scale<Scalar>& scale,
+                                 const PathRange<Scalar>& range, Hit<Scalar>& hit) {
+  typename ExactPair<Scalar, Size>::Parameter t;
+  Weights<Scalar> weights;
+  if (!ExactPair<Scalar, Size>(path, triangle, scale).find(range, t, &weights)) return;
+  hit.t = rounded_quotient<Scalar>(t.num, t.den, scale.t_exponent);
+  hit.u = weights.u;
+  hit.v = weights.v;
+}
+
+template <typename Size, typename Scalar>
+[[gnu::noinline]] void find_parameter(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                      const Scale<Scalar>& scale, const PathRange<Scalar>& range,
+                                      typename ExactPair<Scalar, Size>::Parameter& t) {
+  static_cast<void>(ExactPair<Scalar, Size>(path, triangle, scale).find(range, t, nullptr));
+}
+
+template <typename Size, typename Scalar>
+[[gnu::noinline]] int compare_contacts(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                       const Triangle<Scalar>& other, const Scale<Scalar>& scale,
+                                       const PathRange<Scalar>& range) {
+  typename ExactPair<Scalar, Size>::Parameter t;
+  typename ExactPair<Scalar, Size>::Parameter other_t;
+  find_parameter<Size>(path, triangle, scale, range, t);
+  find_parameter<Size>(path, other, scale, range, other_t);
+  return compare(t, other_t);
+}
+
+}  // namespace
+
+template <typename Scalar>
+std::optional<Contact> exact_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                     const PathRange<Scalar>& range) {
+  const Scale<Scalar> scale(path, triangle);
+  return are_compact(scale, range) ? find_contact<CompactSize>(path, triangle, scale, range)
+                                   : find_contact<AnySize<Scalar>>(path, triangle, scale, range);
+}
+
+template <typename Scalar>
+bool try_compact_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const PathRange<Scalar>& range,
+                         std::optional<Contact>& contact) {
+  const Scale<Scalar> scale(path, triangle);
+  if (!are_compact(scale, range)) return false;
+  contact = find_contact<CompactSize>(path, triangle, scale, range);
+  return true;
+}
+
 template <typename Scalar>
 void exact_rounding(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const PathRange<Scalar>& range,
                     Hit<Scalar>& hit) {
   const Scale<Scalar> scale(path, triangle);
-  Ratio<Bits<Scalar>::parameter> t;
-  Weights<Scalar> weights;
-  if (!ExactPair<Scalar>(path, triangle, scale).find(range, t, &weights)) return;
-  hit.t = rounded_quotient<Scalar>(t.num, t.den, scale.t_exponent);
-  hit.u = weights.u;
-  hit.v = weights.v;
+  if (are_compact(scale, range)) {
+    round_hit<CompactSize>(path, triangle, scale, range, hit);
+  } else {
+    round_hit<AnySize<Scalar>>(path, triangle, scale, range, hit);
+  }
 }
 
 template <typename Scalar>
 std::strong_ordering exact_order(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
                                  const Triangle<Scalar>& other, const PathRange<Scalar>& range) {
   const Scale<Scalar> scale(path, triangle, other);
-  Ratio<Bits<Scalar>::parameter> t;
-  Ratio<Bits<Scalar>::parameter> other_t;
-  find_parameter(path, triangle, scale, range, t);
-  find_parameter(path, other, scale, range, other_t);
-  return compare(t, other_t) <=> 0;
+  return (are_compact(scale, range) ? compare_contacts<CompactSize>(path, triangle, other, scale, range)
+                                    : compare_contacts<AnySize<Scalar>>(path, triangle, other, scale, range)) <=> 0;
 }
 
 template <typename Scalar>
 Vector3<Scalar> exact_point(const Path<Scalar>& path, Scalar t) {
-  using B = Bits<Scalar>;
+  using B = Bits<AnySize<Scalar>>;
   Vector3<Scalar> result;
   const Decomposed<Scalar> parts(t);
   for (int i = 0; i < 3; ++i) {
@@ -85,15 +126,15 @@ Vector3<Scalar> exact_point(const Path<Scalar>& path, Scalar t) {
 
 template <typename Scalar>
 Vector3<double> exact_cross(const Triangle<Scalar>& triangle) {
-  using B = Bits<Scalar>;
+  using B = Bits<AnySize<Scalar>>;
   BinaryUnit unit;
   unit.include(triangle);
   if (unit.exponent == std::numeric_limits<int>::max()) unit.exponent = 0;
-  Differences<Scalar> e1;
-  Differences<Scalar> e2;
+  Differences<AnySize<Scalar>> e1;
+  Differences<AnySize<Scalar>> e2;
   set_difference(e1, triangle.b, triangle.a, unit);
   set_difference(e2, triangle.c, triangle.a, unit);
-  WideVector<B::cross> cross;
+  IntVector<WideInt<B::cross>> cross;
   set_cross(cross, e1, e2);
   const int exponent = -std::max({cross[0].bit_length(), cross[1].bit_length(), cross[2].bit_length()});
   const auto one = WideInt<1>::power_of_two(0);
@@ -104,6 +145,8 @@ Vector3<double> exact_cross(const Triangle<Scalar>& triangle) {
 #define SUREHIT_INSTANTIATE(Scalar)                                                                                   \
   template std::optional<Contact> exact_contact(const Path<Scalar>&, const Triangle<Scalar>&,                         \
                                                 const PathRange<Scalar>&);                                            \
+  template bool try_compact_contact(const Path<Scalar>&, const Triangle<Scalar>&, const PathRange<Scalar>&,           \
+                                    std::optional<Contact>&);                                                         \
   template void exact_rounding(const Path<Scalar>&, const Triangle<Scalar>&, const PathRange<Scalar>&, Hit<Scalar>&); \
   template std::strong_ordering exact_order(const Path<Scalar>&, const Triangle<Scalar>&, const Triangle<Scalar>&,    \
                                             const PathRange<Scalar>&);                                                \

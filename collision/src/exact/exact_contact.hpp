@@ -18,6 +18,12 @@ template <typename Scalar>
 [[nodiscard]] std::optional<Contact> exact_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
                                                    const PathRange<Scalar>& range);
 
+/// Does the same if compact integers hold the coordinates, which takes a small part of the time. Returns false if they
+/// do not. Then `contact` has no meaning.
+template <typename Scalar>
+[[nodiscard]] bool try_compact_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                       const PathRange<Scalar>& range, std::optional<Contact>& contact);
+
 /// Sets t, u and v of a hit that is known to exist. Each is rounded once, to nearest. `hit.triangle` and `hit.side`
 /// keep their values.
 template <typename Scalar>

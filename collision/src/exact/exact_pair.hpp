@@ -24,12 +24,16 @@ struct Weights {
 ///
 /// The steps are not inlined into each other, so each stack frame ends with its step. The integers are large enough for
 /// all of double. One frame for all steps would exceed the 16 KiB of stack that a query may use.
-template <typename Scalar>
+///
+/// `Size` is `AnySize`, or `CompactSize` if the scale is compact.
+template <typename Scalar, typename Size>
 class ExactPair {
  public:
-  using B = Bits<Scalar>;
-  using Parameter = Ratio<B::parameter>;
-  using PlaneParameter = Ratio<B::cross + 3>;  ///< Its largest part is n - (U + V), see `set_weight`.
+  using B = Bits<Size>;
+  template <int Bound>
+  using Int = typename Size::template Int<Bound>;
+  using Parameter = Ratio<Int<B::parameter>>;
+  using PlaneParameter = Ratio<Int<B::cross + 3>>;  ///< Its largest part is n - (U + V), see `set_weight`.
 
   ExactPair(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const Scale<Scalar>& scale)
       : path_(path), triangle_(triangle), scale_(scale) {
@@ -59,15 +63,15 @@ class ExactPair {
     bool is_degenerate = true;    ///< True if the corners are on one line, so that there is no plane.
     bool contains_start = false;  ///< True if the path's start is in the plane.
     std::size_t axis = 0;         ///< The axis of the projection.
-    WideInt<B::cross> normal;     ///< The normal's component on that axis.
+    Int<B::cross> normal;         ///< The normal's component on that axis.
   };
 
   [[gnu::noinline]] Plane find_plane() const {
     Plane plane;
-    WideVector<B::cross> normal;
+    IntVector<Int<B::cross>> normal;
     set_cross(normal, e1_, e2_);
     if (is_zero(normal)) return plane;
-    WideInt<B::det> height;
+    Int<B::det> height;
     set_dot(height, s_, normal);
     plane.is_degenerate = false;
     plane.contains_start = height.is_zero();
@@ -78,7 +82,7 @@ class ExactPair {
 
   /// Cuts the interval [first, last] to the range. Returns the contact, or nothing if they do not overlap. Sets `t` to
   /// the lower end of the overlap. `t` and `first` may be the same object.
-  template <int F, int L, int P>
+  template <typename F, typename L, typename P>
   [[gnu::noinline]] std::optional<Contact> cut(const Ratio<F>& first, const Ratio<L>& last,
                                                const PathRange<Scalar>& range, Ratio<P>& t) {
     Contact contact = {};
@@ -123,14 +127,14 @@ class ExactPair {
   enum class Crossing { none, beside, from_front, from_back };
 
   [[gnu::noinline]] Crossing cross_plane(Parameter& t) const {
-    WideInt<B::det> det;
-    WideInt<B::det> u;
-    WideInt<B::det> v;
+    Int<B::det> det;
+    Int<B::det> u;
+    Int<B::det> v;
     set_determinants(det, u, v, t);
     if (det.is_zero()) return Crossing::none;
     const int side = det.sign();
     if (u.sign() * side < 0 || v.sign() * side < 0) return Crossing::beside;
-    WideInt<B::weight> w = det;
+    Int<B::weight> w = det;
     w.add(u, true);
     w.add(v, true);
     if (w.sign() * side < 0) return Crossing::beside;
@@ -139,17 +143,16 @@ class ExactPair {
 
   /// Computes the determinants a second time. If they were kept, they would use stack while `cut` runs.
   [[gnu::noinline]] Weights<Scalar> crossing_weights() const {
-    WideInt<B::det> det;
-    WideInt<B::det> u;
-    WideInt<B::det> v;
+    Int<B::det> det;
+    Int<B::det> u;
+    Int<B::det> v;
     Parameter t;
     set_determinants(det, u, v, t);
     return {rounded_quotient<Scalar>(u, det), rounded_quotient<Scalar>(v, det)};
   }
 
-  [[gnu::noinline]] void set_determinants(WideInt<B::det>& det, WideInt<B::det>& u, WideInt<B::det>& v,
-                                          Parameter& t) const {
-    WideVector<B::cross> cross;
+  [[gnu::noinline]] void set_determinants(Int<B::det>& det, Int<B::det>& u, Int<B::det>& v, Parameter& t) const {
+    IntVector<Int<B::cross>> cross;
     set_cross(cross, d_, e2_);
     set_dot(det, e1_, cross);
     set_dot(u, s_, cross);
@@ -173,7 +176,7 @@ class ExactPair {
   [[gnu::noinline]] std::optional<Contact> along_plane(const Plane& plane, const PathRange<Scalar>& range, Parameter& t,
                                                        Weights<Scalar>* weights) {
     const std::size_t axis = plane.axis;
-    const WideInt<B::cross>& n = plane.normal;
+    const Int<B::cross>& n = plane.normal;
     PlaneParameter at;
     const std::optional<Contact> contact = cut_to_weights(axis, n, range, at);
     if (!contact) return std::nullopt;
@@ -183,11 +186,11 @@ class ExactPair {
   }
 
   enum class PlaneWeight { u, v, w };
-  using PlaneTerm = WideInt<B::cross + 3>;
+  using PlaneTerm = Int<B::cross + 3>;
 
   /// Sets s and d of one weight. The line's point at t has the weight (s + t d) / n, where n is the normal's component
   /// on the axis.
-  [[gnu::noinline]] void set_weight(PlaneWeight which, std::size_t axis, const WideInt<B::cross>& n, PlaneTerm& s,
+  [[gnu::noinline]] void set_weight(PlaneWeight which, std::size_t axis, const Int<B::cross>& n, PlaneTerm& s,
                                     PlaneTerm& d) const {
     switch (which) {
       case PlaneWeight::u:
@@ -202,27 +205,27 @@ class ExactPair {
         s = n;
         s.add(cross_component(s_, e2_, axis), true);
         s.add(cross_component(e1_, s_, axis), true);
-        d = WideInt<1>();
+        d = PlaneTerm();
         d.add(cross_component(d_, e2_, axis), true);
         d.add(cross_component(e1_, d_, axis), true);
         break;
     }
   }
 
-  [[gnu::noinline]] Scalar weight_at(PlaneWeight which, std::size_t axis, const WideInt<B::cross>& n,
+  [[gnu::noinline]] Scalar weight_at(PlaneWeight which, std::size_t axis, const Int<B::cross>& n,
                                      const PlaneParameter& t) const {
     WideInt<2 * B::cross + 7> num;
     {
       PlaneTerm s;
       PlaneTerm d;
       set_weight(which, axis, n, s, d);
-      num.set_product(s, t.den);
-      num.add(t.num * d);
+      num.set_product(wide(s), wide(t.den));
+      num.add(wide(t.num) * wide(d));
     }
-    return rounded_quotient<Scalar>(num, t.den * n);
+    return rounded_quotient<Scalar>(num, wide(t.den) * wide(n));
   }
 
-  [[gnu::noinline]] std::optional<Contact> cut_to_weights(std::size_t axis, const WideInt<B::cross>& n,
+  [[gnu::noinline]] std::optional<Contact> cut_to_weights(std::size_t axis, const Int<B::cross>& n,
                                                           const PathRange<Scalar>& range, PlaneParameter& t) {
     Interval interval;
     for (const PlaneWeight which : {PlaneWeight::u, PlaneWeight::v, PlaneWeight::w}) {
@@ -253,7 +256,7 @@ class ExactPair {
     }
   };
 
-  [[gnu::noinline]] bool bound_by(PlaneWeight which, std::size_t axis, const WideInt<B::cross>& n,
+  [[gnu::noinline]] bool bound_by(PlaneWeight which, std::size_t axis, const Int<B::cross>& n,
                                   Interval& interval) const {
     PlaneTerm s;
     PlaneTerm d;
@@ -265,11 +268,10 @@ class ExactPair {
     return interval.bound(s, d);
   }
 
-  template <int X, int Y>
-  static WideInt<X + Y + 1> cross_component(const WideVector<X>& x, const WideVector<Y>& y, std::size_t axis) {
+  static Int<B::cross> cross_component(const Differences<Size>& x, const Differences<Size>& y, std::size_t axis) {
     const std::size_t j = (axis + 1) % 3;
     const std::size_t k = (axis + 2) % 3;
-    WideInt<X + Y + 1> result;
+    Int<B::cross> result;
     set_minor(result, x[j], y[k], x[k], y[j]);
     return result;
   }
@@ -293,10 +295,10 @@ class ExactPair {
     return span;
   }
 
-  const Differences<Scalar>& e(int corner) const { return corner == 1 ? e1_ : e2_; }
+  const Differences<Size>& e(int corner) const { return corner == 1 ? e1_ : e2_; }
 
   /// Sets r = start - min and g = max - min, where min and max are the extreme corners of a degenerate triangle.
-  void set_span_differences(const Span& span, Differences<Scalar>& r, Differences<Scalar>& g) const {
+  void set_span_differences(const Span& span, Differences<Size>& r, Differences<Size>& g) const {
     for (std::size_t i = 0; i < 3; ++i) {
       r[i] = s_[i];
       if (span.max != 0) g[i] = e(span.max)[i];
@@ -307,9 +309,8 @@ class ExactPair {
   }
 
   /// Returns the weights of b and c at the point min + (num / den) (max - min).
-  template <int N, int D>
-  [[gnu::noinline]] static Weights<Scalar> span_weights(const Span& span, const WideInt<N>& num,
-                                                        const WideInt<D>& den) {
+  template <typename N, typename D>
+  [[gnu::noinline]] static Weights<Scalar> span_weights(const Span& span, const N& num, const D& den) {
     return span_weights(span, rounded_quotient<Scalar>(num, den), rounded_quotient<Scalar>(den - num, den));
   }
 
@@ -322,8 +323,8 @@ class ExactPair {
   [[gnu::noinline]] std::optional<Contact> along_degenerate(const PathRange<Scalar>& range, Parameter& t,
                                                             Weights<Scalar>* weights) {
     const Span ends = span();
-    Differences<Scalar> r;
-    Differences<Scalar> g;
+    Differences<Size> r;
+    Differences<Size> g;
     set_span_differences(ends, r, g);
     if (!are_parallel(d_, g)) {
       const std::optional<std::size_t> axis = crossing_axis(r, g);
@@ -333,15 +334,15 @@ class ExactPair {
     return are_parallel(d_, r) ? along_span(ends, r, g, range, t, weights) : std::nullopt;
   }
 
-  [[gnu::noinline]] static bool are_parallel(const Differences<Scalar>& x, const Differences<Scalar>& y) {
-    WideVector<B::cross> cross;
+  [[gnu::noinline]] static bool are_parallel(const Differences<Size>& x, const Differences<Size>& y) {
+    IntVector<Int<B::cross>> cross;
     set_cross(cross, x, y);
     return is_zero(cross);
   }
 
   /// Handles a path on the line of the corners, by its coordinates on an axis on which it moves.
-  [[gnu::noinline]] std::optional<Contact> along_span(const Span& ends, const Differences<Scalar>& r,
-                                                      const Differences<Scalar>& g, const PathRange<Scalar>& range,
+  [[gnu::noinline]] std::optional<Contact> along_span(const Span& ends, const Differences<Size>& r,
+                                                      const Differences<Size>& g, const PathRange<Scalar>& range,
                                                       Parameter& t, Weights<Scalar>* weights) {
     const std::size_t axis = nonzero_axis(d_);
     PlaneParameter at;
@@ -352,12 +353,12 @@ class ExactPair {
     return contact;
   }
 
-  [[gnu::noinline]] std::optional<Contact> cut_to_span(const WideInt<B::difference>& r, const WideInt<B::difference>& g,
-                                                       const WideInt<B::difference>& d, const PathRange<Scalar>& range,
+  [[gnu::noinline]] std::optional<Contact> cut_to_span(const Int<B::difference>& r, const Int<B::difference>& g,
+                                                       const Int<B::difference>& d, const PathRange<Scalar>& range,
                                                        PlaneParameter& t) {
-    Ratio<B::difference> first;
-    Ratio<B::difference> last;
-    WideInt<B::difference> ahead = r;  // This becomes min - start, and then max - start.
+    Ratio<Int<B::difference>> first;
+    Ratio<Int<B::difference>> last;
+    Int<B::difference> ahead = r;  // This becomes min - start, and then max - start.
     ahead.negate();
     first.set(ahead, d);
     ahead.add(g);
@@ -366,13 +367,12 @@ class ExactPair {
   }
 
   /// Returns the weights at the point min + w (max - min), where w = (r + t d) / g.
-  [[gnu::noinline]] static Weights<Scalar> weights_along_span(const Span& ends, const WideInt<B::difference>& r,
-                                                              const WideInt<B::difference>& g,
-                                                              const WideInt<B::difference>& d,
+  [[gnu::noinline]] static Weights<Scalar> weights_along_span(const Span& ends, const Int<B::difference>& r,
+                                                              const Int<B::difference>& g, const Int<B::difference>& d,
                                                               const PlaneParameter& t) {
-    WideInt<B::difference + B::cross + 5> w = r * t.den;
-    w.add(d * t.num);
-    const auto den = g * t.den;
+    WideInt<B::difference + B::cross + 5> w = wide(r) * wide(t.den);
+    w.add(wide(d) * wide(t.num));
+    const auto den = wide(g) * wide(t.den);
     const Scalar at_max = rounded_quotient<Scalar>(w, den);
     w.negate();  // The same memory then holds den - w, since stack is scarce here.
     w.add(den);
@@ -381,8 +381,8 @@ class ExactPair {
 
   /// Handles two lines in one plane that are not parallel. They cross where r + t d = w g. The product with g gives
   /// t = (r × g)·axis / (g × d)·axis. The product with d gives w = (d × r)·axis / (d × g)·axis.
-  [[gnu::noinline]] std::optional<Contact> across_span(std::size_t axis, const Span& ends, const Differences<Scalar>& r,
-                                                       const Differences<Scalar>& g, const PathRange<Scalar>& range,
+  [[gnu::noinline]] std::optional<Contact> across_span(std::size_t axis, const Span& ends, const Differences<Size>& r,
+                                                       const Differences<Size>& g, const PathRange<Scalar>& range,
                                                        Parameter& t, Weights<Scalar>* weights) {
     const auto across = cross_component(d_, g, axis);
     const auto w = cross_component(d_, r, axis);
@@ -396,11 +396,11 @@ class ExactPair {
   }
 
   /// Returns an axis on which d × g is not zero. Returns nothing if the two lines are not in one plane.
-  [[gnu::noinline]] std::optional<std::size_t> crossing_axis(const Differences<Scalar>& r,
-                                                             const Differences<Scalar>& g) const {
-    WideVector<B::cross> cross;
+  [[gnu::noinline]] std::optional<std::size_t> crossing_axis(const Differences<Size>& r,
+                                                             const Differences<Size>& g) const {
+    IntVector<Int<B::cross>> cross;
     set_cross(cross, d_, g);
-    WideInt<B::det> height;
+    Int<B::det> height;
     set_dot(height, r, cross);
     return height.is_zero() ? std::optional(nonzero_axis(cross)) : std::nullopt;
   }
@@ -409,7 +409,7 @@ class ExactPair {
   [[gnu::noinline]] std::optional<Contact> standing_point(const PathRange<Scalar>& range, Parameter& t,
                                                           Weights<Scalar>* weights) {
     if (!(range.first <= 0 && range.last >= 0)) return std::nullopt;
-    t.set(WideInt<1>(), WideInt<1>::power_of_two(0));
+    t.set(Int<1>(), Int<1>::power_of_two(0));
     Contact contact = {};
     contact.at_start = path_.has_start();
     contact.at_end = path_.has_end();
@@ -424,7 +424,7 @@ class ExactPair {
 
   /// Returns whether the triangle contains the start, which must be in its plane.
   [[gnu::noinline]] bool on_plane(const Plane& plane, Weights<Scalar>* weights) const {
-    const WideInt<B::cross>& n = plane.normal;
+    const Int<B::cross>& n = plane.normal;
     const auto u = cross_component(s_, e2_, plane.axis);
     const auto v = cross_component(e1_, s_, plane.axis);
     const auto w = n - (u + v);
@@ -437,8 +437,8 @@ class ExactPair {
   /// Returns whether a degenerate triangle, which is a segment or a point, contains the start.
   [[gnu::noinline]] bool on_span(Weights<Scalar>* weights) const {
     const Span ends = span();
-    Differences<Scalar> r;
-    Differences<Scalar> g;
+    Differences<Size> r;
+    Differences<Size> g;
     set_span_differences(ends, r, g);
     if (is_zero(g)) return is_zero(r);
     if (!are_parallel(r, g)) return false;
@@ -452,10 +452,10 @@ class ExactPair {
   const Path<Scalar>& path_;
   const Triangle<Scalar>& triangle_;
   const Scale<Scalar>& scale_;
-  Differences<Scalar> d_;
-  Differences<Scalar> e1_;
-  Differences<Scalar> e2_;
-  Differences<Scalar> s_;
+  Differences<Size> d_;
+  Differences<Size> e1_;
+  Differences<Size> e2_;
+  Differences<Size> s_;
 };
 
 }  // namespace surehit::detail

@@ -4,25 +4,41 @@
 #include <array>
 #include <limits>
 
+#include "exact/compact_int.hpp"
 #include "exact/wide_int.hpp"
 
 namespace surehit::detail {
 
-/// The maximum number of bits of each term of the exact stage. Coordinates are integers here, in units of `BinaryUnit`.
+/// The integers for any coordinates.
 template <typename Scalar>
-struct Bits {
-  /// A coordinate needs no more, since the unit is at least the smallest denormal.
+struct AnySize {
+  /// A coordinate needs no more bits, since the unit is at least the smallest denormal.
   static constexpr int coordinate = std::numeric_limits<Scalar>::max_exponent - Decomposed<Scalar>::min_exponent;
+  template <int B>
+  using Int = WideInt<B>;
+};
+
+/// The integers for coordinates that are not too far from each other in size. Most coordinates of a game are.
+struct CompactSize {
+  static constexpr int coordinate = 40;  ///< The most bits with which every term fits in 127 bits.
+  template <int B>
+  using Int = CompactInt<B>;
+};
+
+/// The maximum number of bits of each term of the exact stage. Coordinates are integers here, in units of `BinaryUnit`.
+/// `Size` is `AnySize` or `CompactSize`.
+template <typename Size>
+struct Bits {
+  static constexpr int coordinate = Size::coordinate;
   static constexpr int difference = coordinate + 1;   ///< D, E1, E2 and S are differences.
   static constexpr int cross = 2 * difference + 1;    ///< D × E2, S × E1 and the normal sum two products.
   static constexpr int det = difference + cross + 2;  ///< det, T, U and V sum three products.
   static constexpr int weight = det + 1;              ///< W is such a determinant too, but det - U needs one more bit.
-  static constexpr int limit = 2 * coordinate;        ///< A limit on t has its own bits, shifted by `t_exponent`.
   static constexpr int parameter = weight;            ///< The numerator and the denominator of any t fit in this.
 };
 
-template <int B>
-using WideVector = std::array<WideInt<B>, 3>;
+template <typename Int>
+using IntVector = std::array<Int, 3>;
 
 /// Sets out = a b - c d.
 template <int Out, int A, int B>
@@ -32,16 +48,22 @@ template <int Out, int A, int B>
   out.set_product(a, b);
   out.add(product, true);
 }
-
 template <int Out, int A, int B>
-void set_cross(WideVector<Out>& out, const WideVector<A>& x, const WideVector<B>& y) {
+void set_minor(CompactInt<Out>& out, const CompactInt<A>& a, const CompactInt<B>& b, const CompactInt<A>& c,
+               const CompactInt<B>& d) {
+  out.set_product(a, b);
+  out.add(c * d, true);
+}
+
+template <typename Out, typename A, typename B>
+void set_cross(IntVector<Out>& out, const IntVector<A>& x, const IntVector<B>& y) {
   set_minor(out[0], x[1], y[2], x[2], y[1]);
   set_minor(out[1], x[2], y[0], x[0], y[2]);
   set_minor(out[2], x[0], y[1], x[1], y[0]);
 }
 
 template <int Out, int A, int B>
-[[gnu::noinline]] void set_dot(WideInt<Out>& out, const WideVector<A>& x, const WideVector<B>& y) {
+[[gnu::noinline]] void set_dot(WideInt<Out>& out, const IntVector<WideInt<A>>& x, const IntVector<WideInt<B>>& y) {
   WideInt<A + B> product;
   out.set_product(x[0], y[0]);
   product.set_product(x[1], y[1]);
@@ -49,26 +71,32 @@ template <int Out, int A, int B>
   product.set_product(x[2], y[2]);
   out.add(product);
 }
+template <int Out, int A, int B>
+void set_dot(CompactInt<Out>& out, const IntVector<CompactInt<A>>& x, const IntVector<CompactInt<B>>& y) {
+  out = x[0] * y[0];
+  out.add(x[1] * y[1]);
+  out.add(x[2] * y[2]);
+}
 
-template <int B>
-bool is_zero(const WideVector<B>& x) {
+template <typename Int>
+bool is_zero(const IntVector<Int>& x) {
   return x[0].is_zero() && x[1].is_zero() && x[2].is_zero();
 }
 
 /// Returns an axis on which x is not zero. The vector must not be zero.
-template <int B>
-std::size_t nonzero_axis(const WideVector<B>& x) {
+template <typename Int>
+std::size_t nonzero_axis(const IntVector<Int>& x) {
   return !x[0].is_zero() ? 0 : !x[1].is_zero() ? 1 : 2;
 }
 
 /// The fraction num / den, with den > 0.
-template <int B>
+template <typename Int>
 struct Ratio {
-  WideInt<B> num;
-  WideInt<B> den;
+  Int num;
+  Int den;
 
-  template <int N, int D>
-  void set(const WideInt<N>& numerator, const WideInt<D>& denominator) {
+  template <typename N, typename D>
+  void set(const N& numerator, const D& denominator) {
     num = numerator;
     den = denominator;
     if (den.sign() < 0) {
@@ -79,14 +107,14 @@ struct Ratio {
 };
 
 /// Returns the sign of x_num / x_den - y_num / y_den. Both denominators must be positive.
-template <int XN, int XD, int YN, int YD>
-int compare(const WideInt<XN>& x_num, const WideInt<XD>& x_den, const WideInt<YN>& y_num, const WideInt<YD>& y_den) {
+template <typename XN, typename XD, typename YN, typename YD>
+int compare(const XN& x_num, const XD& x_den, const YN& y_num, const YD& y_den) {
   if (x_num.sign() != y_num.sign()) return x_num.sign() < y_num.sign() ? -1 : 1;
   return x_num.sign() * compare_products(x_num, y_den, y_num, x_den);
 }
 
 /// Returns the sign of x - y.
-template <int A, int B>
+template <typename A, typename B>
 int compare(const Ratio<A>& x, const Ratio<B>& y) {
   return compare(x.num, x.den, y.num, y.den);
 }

@@ -64,6 +64,17 @@ class WideInt {
     return result;
   }
 
+  /// Returns ±magnitude.
+  static WideInt of(Uint128 magnitude, bool negative) {
+    WideInt result;
+    result.limb_[0] = static_cast<std::uint64_t>(magnitude);
+    result.limb_[1] = static_cast<std::uint64_t>(magnitude >> 64);
+    result.size_ = 2;
+    result.trim();
+    result.negative_ = negative;
+    return result;
+  }
+
   [[nodiscard]] int sign() const { return size_ == 0 ? 0 : negative_ ? -1 : 1; }
   [[nodiscard]] bool is_zero() const { return size_ == 0; }
   void negate() { negative_ = !negative_; }

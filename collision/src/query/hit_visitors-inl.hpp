@@ -152,7 +152,7 @@ class FirstHit {
   /// Lets the narrowphase decide a candidate. Keeps it and returns true if it comes first.
   HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate) {
     if (!query.takes_part(candidate.id) || (is_found() && grid_ == &query.grid && candidate.id == id())) return false;
-    if (!narrowphase.find_contact(candidate.triangle, candidate.contact)) return false;
+    if (!narrowphase.find_contact(candidate.triangle, candidate.contact, limit())) return false;
     if (is_found() && !narrowphase.comes_before(candidate, decide_best(narrowphase))) return false;
     if (query.filter != nullptr && !query.accepts(narrowphase.hit(candidate))) return false;
     state_ = State::decided;
