@@ -37,8 +37,8 @@ class Narrowphase {
       : path_(path), options_(options), range_(range), statistics_(statistics) {}
 
   /// Returns true, with the contact in `found`, if the path meets the triangle and the options on contacts admit it.
-  /// Otherwise `found` has no meaning. A contact after parameter `limit` may count as none. Masks, filters and the ignored
-  /// triangle are for the caller.
+  /// Otherwise `found` has no meaning. A contact after parameter `limit` may count as none. Masks, filters and the
+  /// ignored triangle are for the caller.
   [[nodiscard]] bool find_contact(const Triangle<Scalar>& triangle, Contact& found,
                                   double limit = std::numeric_limits<double>::infinity()) const;
 

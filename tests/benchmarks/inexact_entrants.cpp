@@ -71,6 +71,9 @@ class Unfiltered : BlockDeterminants<float> {
     const float least = min_of_lanes(d, t);
     return {bits_of(d, hn::And(taken, hn::Eq(t, all(least)))), least, least};
   }
+  [[nodiscard]] HWY_INLINE FirstLanes<float> first_of(const Bounds& bounds, std::uint64_t hits, float limit) const {
+    return first_of(bounds, crossing(), hits, limit);
+  }
 
   [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of_one(const Bounds& /*bounds*/, float height, float det,
                                                                  std::uint64_t hits) {
@@ -97,6 +100,9 @@ class WithoutExactStage : public BlockKernel<float> {
   [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of(const Bounds& /*bounds*/, const Crossing& crossing,
                                                              std::uint64_t hits, float limit) {
     return Unfiltered::first_of({}, {crossing.height, crossing.det}, hits, limit);
+  }
+  [[nodiscard]] HWY_INLINE FirstLanes<float> first_of(const Bounds& bounds, std::uint64_t hits, float limit) const {
+    return first_of(bounds, crossing(), hits, limit);
   }
   [[nodiscard]] HWY_INLINE static FirstLanes<float> first_of_one(const Bounds& /*bounds*/, float height, float det,
                                                                  std::uint64_t hits) {

@@ -60,7 +60,11 @@ class Copy:
         self.jobs = jobs
         files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=root, capture_output=True,
                                text=True, check=True).stdout.split("\n")
-        for name in filter(None, files):
+        names = set(filter(None, files))
+        for path in self.source.rglob("*"):  # What the sources no longer have.
+            if path.is_file() and str(path.relative_to(self.source)) not in names:
+                path.unlink()
+        for name in sorted(names):
             target = self.source / name
             if target.exists() and target.read_bytes() == (root / name).read_bytes():
                 continue

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace surehit::test {
 namespace {
@@ -174,13 +175,14 @@ ExactSlab LeafCell::placed(CellSlab slab) const {
   return exact;
 }
 
-LeafCells::LeafCells(const Grid& grid) {
-  const auto& [x_cells, y_cells, z_cells] = grid.resolution();
-  const std::uint32_t size = grid.frame().division;
-  std::size_t cell = 0;
+LeafCells::LeafCells(const Grid& grid, const GridFrame& frame) {
+  const auto& [x_cells, y_cells, z_cells] = frame.cells;
+  const std::uint32_t size = frame.division;
+  std::size_t cell = frame.first_top;
   for (std::uint32_t z = 0; z < z_cells; ++z) {
     for (std::uint32_t y = 0; y < y_cells; ++y) {
-      for (std::uint32_t x = 0; x < x_cells; ++x) add(grid, grid.top()[cell++], {x * size, y * size, z * size}, size);
+      for (std::uint32_t x = 0; x < x_cells; ++x)
+        add(grid, grid.all_top()[cell++], {x * size, y * size, z * size}, size);
     }
   }
 }
@@ -194,9 +196,21 @@ void LeafCells::add(const Grid& grid, CellWord word, const std::array<std::uint3
   }
   const std::uint32_t part = size / edge;
   for (std::uint32_t cell = 0; cell < Grid::brick_size; ++cell) {
-    add(grid, grid.bricks()[std::size_t{word.number()} * Grid::brick_size + cell],
+    add(grid, grid.bricks()[std::size_t{word.brick()} * Grid::brick_size + cell],
         {low[0] + cell % edge * part, low[1] + cell / edge % edge * part, low[2] + cell / edge / edge * part}, part);
   }
+}
+
+std::vector<std::uint32_t> triangles_in(const Grid& grid, CellWord word) {
+  std::set<std::uint32_t> ids;
+  const auto add_list = [&](const auto& self, CellWord any) -> void {
+    if (any.is_empty()) return;
+    ids.insert(grid.triangles(any).begin(), grid.triangles(any).end());
+    if (!any.has_inner_grid()) return;
+    for (const LeafCell& leaf : LeafCells(grid, grid.inner_frame(any))) self(self, leaf.word);
+  };
+  add_list(add_list, word);
+  return {ids.begin(), ids.end()};
 }
 
 std::optional<std::size_t> LeafCells::at(const std::array<std::uint32_t, 3>& low) const {

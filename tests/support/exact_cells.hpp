@@ -72,10 +72,12 @@ struct LeafCell {
   [[nodiscard]] ExactSlab placed(CellSlab slab) const;
 };
 
-/// All cells of a grid that are not divided: they fill it without overlap.
+/// All cells of a grid's frame that are not divided: they fill it without overlap.
 class LeafCells {
  public:
-  explicit LeafCells(const Grid& grid);
+  /// Of the outermost frame.
+  explicit LeafCells(const Grid& grid) : LeafCells(grid, grid.frame()) {}
+  LeafCells(const Grid& grid, const GridFrame& frame);
 
   [[nodiscard]] std::size_t size() const { return leaves_.size(); }
   [[nodiscard]] const LeafCell& operator[](std::size_t leaf) const { return leaves_[leaf]; }
@@ -93,6 +95,9 @@ class LeafCells {
   std::vector<LeafCell> leaves_;
   std::map<std::array<std::uint32_t, 3>, std::size_t> by_low_;
 };
+
+/// The ids in a cell's list and in its inner grid, if it has one, ascending and each once. The cell is not empty.
+[[nodiscard]] std::vector<std::uint32_t> triangles_in(const Grid& grid, CellWord word);
 
 /// The part of a convex polygon that lies in the box.
 [[nodiscard]] ExactPolygon part_in(const ExactBox& box, const ExactPolygon& polygon);

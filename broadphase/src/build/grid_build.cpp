@@ -31,6 +31,10 @@ constexpr double cells_per_triangle_limit = 8;
 constexpr double free_cells = 0x1p20;
 /// The maximum number of top cells. Cells are counted in float, which is exact up to here.
 constexpr double max_cells = 0x1p24;
+/// The maximum number of inner grids.
+constexpr std::size_t max_inner_grids = std::size_t{1} << 19;
+/// The triangles of all inner grids are at most this many times those of the mesh.
+constexpr std::size_t max_inner_share = 4;
 /// The maximum number of top cells on an axis.
 constexpr double max_cells_on_an_axis = 0x1p11;
 /// Cells are cubes unless the triangles' mean box is longer on one axis than on another by more than this factor. A
@@ -96,12 +100,13 @@ std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, doubl
 /// its minimum where all quotients are equal. If cells are narrow for the triangles, each triangle is in many lists.
 /// Then there are fewer cells.
 template <typename Listed>
-std::array<double, 3> wished_resolution(const GridFrame& frame, const Listed& listed, const GridOptions& options) {
+std::array<double, 3> wished_resolution(const GridFrame& frame, const Listed& listed, const GridOptions& options,
+                                        double cells_left) {
   const std::array<double, 3> extent = mean_extent(frame, listed);
   const auto [shortest, longest] = std::minmax({extent[0], extent[1], extent[2]});
   const double mean = (extent[0] + extent[1] + extent[2]) / 3;
   const bool are_stretched = mean > 0 && longest > min_stretch * shortest;
-  std::array<double, 3> width = listed.width(frame);
+  std::array<double, 3> width = detail::scaled_extent(frame, listed.box().low, listed.box().high);
   for (std::size_t axis = 0; axis < 3; ++axis) {  // Stretched so that cells are cubes.
     if (are_stretched) width[axis] /= std::clamp(extent[axis] / mean, 1 / max_stretch, max_stretch);
   }
@@ -116,7 +121,7 @@ std::array<double, 3> wished_resolution(const GridFrame& frame, const Listed& li
     if (options.resolution[axis] != 0) wished[axis] = options.resolution[axis];
     wished[axis] = std::clamp(std::floor(wished[axis]), 1.0, max_cells_on_an_axis);
   }
-  const double limit = std::min(std::max(free_cells, cells_per_triangle_limit * count), max_cells);
+  const double limit = std::min(std::max(free_cells, cells_per_triangle_limit * count), cells_left);
   while (wished[0] * wished[1] * wished[2] > limit) {
     double& finest = *std::max_element(wished.begin(), wished.end());
     finest = std::floor(finest / 2);
@@ -126,32 +131,38 @@ std::array<double, 3> wished_resolution(const GridFrame& frame, const Listed& li
 
 }  // namespace
 
-/// Builds a grid. `Listed` is what it lists, which has boxes and an overlap test, as `ListedTriangles` has. The build
-/// sorts the triangles into the lists of the top cells, by counting. Then it emits the lists cell by
-/// cell, and divides the crowded cells.
+/// Builds a grid: the outermost one, or an inner one. `Listed` is what it lists, which has boxes and an overlap test,
+/// as `ListedTriangles` has. The build sorts the triangles into the lists of the top cells, by counting. Then it emits
+/// the lists cell by cell, and divides the crowded cells.
 template <typename Listed>
 class GridBuild {
  public:
-  GridBuild(Grid& grid, GridScratch& scratch, Listed& listed, const GridOptions& options, const Executor* executor)
+  /// Fills `frame`, and adds to the arrays of `grid`. `depth` is the number of grids around this one.
+  GridBuild(Grid& grid, GridFrame& frame, GridScratch& scratch, Listed& listed, const GridOptions& options,
+            std::uint32_t depth, const Executor* executor)
       : grid_(grid),
+        frame_(frame),
         scratch_(scratch),
         listed_(listed),
         executor_(executor),
-        crowded_(options.crowded == 0 ? std::numeric_limits<std::size_t>::max() : options.crowded) {
+        crowded_(options.crowded == 0 ? std::numeric_limits<std::size_t>::max() : options.crowded),
+        depth_(depth) {
     scratch.boxes_.resize(listed.count());
-    const std::size_t budget = std::min<std::size_t>(std::max(free_entries, entries_per_triangle * listed.count()),
+    const std::size_t free = depth == 0 ? free_entries : 0;
+    const std::size_t budget = std::min<std::size_t>(std::max(free, entries_per_triangle * listed.count()),
                                                      std::numeric_limits<std::uint32_t>::max());
-    std::array<double, 3> wished = wished_resolution(listed.frame({1, 1, 1}, division), listed, options);
+    // Each inner grid has at least one cell.
+    const double cells_left = std::max(1.0, max_cells - max_inner_grids - static_cast<double>(grid.top_.size()));
+    std::array<double, 3> wished =
+        wished_resolution(GridFrame::around(listed.box(), {1, 1, 1}, division), listed, options, cells_left);
     for (;;) {
-      grid.frame_ = listed.frame(wished, division);
-      listed.compute_points(grid.frame_, executor);
-      for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = grid.frame_.padding(axis);
+      frame_ = GridFrame::around(listed.box(), wished, division);
+      listed.compute_points(frame_, executor);
+      for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame_.padding(axis);
       if (try_list_all(budget)) break;
       for (double& cells : wished) cells = std::max(1.0, std::floor(cells / 2));
     }
     emit_all();
-    shrink_division();
-    grid.cover_ = GridCover(grid);
   }
 
  private:
@@ -159,10 +170,20 @@ class GridBuild {
   static_assert(Grid::max_levels == 2);
   /// A cell is not divided if the lists of its bricks would be more than this many times as long as its own.
   static constexpr std::size_t max_growth = 3;
+  /// A cell that lists more than this many times as many triangles as a crowded cell gets an inner grid if it can. Its
+  /// bricks would be crowded again.
+  static constexpr std::size_t max_divided = 32;
+  /// So does a cell that lists more triangles than this, and more than one in so many of all. The resolution of the
+  /// grid is far from what these triangles need.
+  static constexpr std::size_t many_triangles = 384;
+  static constexpr std::size_t large_share = 20;
+  /// The minimum number of triangles of an inner grid. For fewer, the way into it would take longer than they do.
+  static constexpr std::size_t min_inner_triangles = 64;
+  /// A triangle is small for a cell if its box is at most the cell's edge over this, on all axes.
+  static constexpr float small_share = 4;
   /// The maximum number of cells in bricks. So all cells together have no more lists than a word can number.
-  static constexpr std::size_t max_brick_cells = CellWord::max_numbers - static_cast<std::size_t>(max_cells);
-  /// A vector load may read so many words beyond the last top cell.
-  static constexpr std::size_t top_slack = 64;
+  static constexpr std::size_t max_brick_cells = CellWord::max_lists / 2 - static_cast<std::size_t>(max_cells);
+  static_assert(max_brick_cells / Grid::brick_size <= CellWord::max_bricks);
 
   /// Finds the cells that the triangles meet: `id(i)` for each i from `first` to below `last`. Returns false if there
   /// are more than `max_entries` entries. Each triangle comes once among the top cells. There its box is stored too.
@@ -184,7 +205,7 @@ class GridBuild {
 
   /// Lists all triangles in top cells. Returns false if that takes more entries than the budget. One cell always fits.
   bool try_list_all(std::size_t budget) {
-    const std::array<std::uint32_t, 3>& cells = grid_.frame_.cells;
+    const std::array<std::uint32_t, 3>& cells = frame_.cells;
     const std::size_t cell_count = std::size_t{cells[0]} * cells[1] * cells[2];
     if (cell_count == 1) budget = detail::CellEntries::too_many - 1;
     detail::CellLists& lists = scratch_.lists_[0];
@@ -203,7 +224,7 @@ class GridBuild {
                     bool may_grow) const {
     entries.make_room(usual_entries * (last - first), min_entries * (last - first));
     const auto id = [](std::size_t i) { return static_cast<std::uint32_t>(i); };
-    return try_find<true>(first, last, id, {{0, 0, 0}, grid_.frame_.cells}, division, max_entries, entries, may_grow);
+    return try_find<true>(first, last, id, {{0, 0, 0}, frame_.cells}, division, max_entries, entries, may_grow);
   }
 
   /// Does the same for all triangles, in tasks of the executor. It also returns false if a part takes unusually much
@@ -226,28 +247,26 @@ class GridBuild {
 
   /// Makes the words, bricks, lists and entries.
   void emit_all() {
-    const auto& cells = grid_.frame_.cells;
+    const auto& cells = frame_.cells;
     const auto& offsets = scratch_.lists_[0].offsets;
     const auto& listed = scratch_.lists_[0].triangles;
     auto& words = scratch_.words_;
-    grid_.levels_ = 0;
-    grid_.top_count_ = offsets.size() - 1;
+    const std::size_t top_count = offsets.size() - 1;
     // Reserves room for lists of bricks of the maximum length, in half of their cells. The second level may need more.
     std::size_t entries = listed.size();
     std::size_t lists = 1;
-    for (std::size_t cell = 0; cell < grid_.top_count_; ++cell) {
+    for (std::size_t cell = 0; cell < top_count; ++cell) {
       const std::size_t count = offsets[cell + 1] - offsets[cell];
       const bool is_crowded = count > crowded_;
       entries += is_crowded ? (max_growth - 1) * count : 0;
       lists += is_crowded ? Grid::brick_size / 2 : count != 0 ? 1 : 0;
     }
-    grid_.entries_.clear();
-    grid_.entries_.reserve(entries);
-    grid_.lists_.clear();
-    grid_.lists_.reserve(lists);
-    grid_.bricks_.clear();
-    spare_entries_ = std::numeric_limits<std::uint32_t>::max() - listed.size();
-    words.assign(grid_.top_count_, 0);
+    if (depth_ == 0) {
+      grid_.entries_.reserve(entries);
+      grid_.lists_.reserve(lists);
+    }
+    spare_entries_ = std::numeric_limits<std::uint32_t>::max() - listed.size() - grid_.entries_.size();
+    words.assign(top_count, 0);
     std::size_t cell = 0;
     for (std::uint32_t z = 0; z < cells[2]; ++z) {
       for (std::uint32_t y = 0; y < cells[1]; ++y) {
@@ -257,22 +276,85 @@ class GridBuild {
         }
       }
     }
-    grid_.lists_.push_back({CellBox(), static_cast<std::uint32_t>(grid_.entries_.size())});
     detail::measure_empty_space(words, cells, scratch_.distances_);
-    grid_.top_.assign(grid_.top_count_ + top_slack, CellWord());
-    std::transform(words.begin(), words.end(), grid_.top_.begin(), [](std::uint32_t bits) { return CellWord(bits); });
+    const std::size_t first_top = grid_.top_.size();
+    frame_.begin_at(static_cast<std::uint32_t>(first_top));
+    grid_.top_.resize(first_top + top_count);
+    std::transform(words.begin(), words.end(), grid_.top_.data() + first_top,
+                   [](std::uint32_t bits) { return CellWord(bits); });
   }
 
   /// Emits a cell that is not empty, and returns its word. `cell` is its index, counted in cells of its `size`.
   std::uint32_t emit(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& cell, std::uint32_t size,
                      std::uint32_t level) {
-    if (ids.size() > crowded_ && level < Grid::max_levels) {
-      if (const std::uint32_t word = divide(ids, cell, size / Grid::brick_edge, level + 1); word != 0) return word;
+    if (ids.size() > crowded_) {
+      const bool has_large_share = ids.size() > many_triangles && ids.size() > listed_.count() / large_share;
+      const bool may_divide = level < Grid::max_levels && ids.size() <= max_divided * crowded_ && !has_large_share;
+      if (may_divide) {
+        if (const std::uint32_t word = divide(ids, cell, size / Grid::brick_edge, level + 1); word != 0) return word;
+      }
+      if (const std::uint32_t word = emit_inner(ids, cell, size); word != 0) return word;
+      if (!may_divide && level < Grid::max_levels) {
+        if (const std::uint32_t word = divide(ids, cell, size / Grid::brick_edge, level + 1); word != 0) return word;
+      }
     }
-    const auto list = static_cast<std::uint32_t>(grid_.lists_.size());
-    grid_.lists_.push_back({box_of(ids, cell, size), static_cast<std::uint32_t>(grid_.entries_.size())});
+    const std::uint32_t list = begin_list(box_of(ids, cell, size));
+    const std::size_t first = grid_.entries_.size();
     grid_.entries_.insert(grid_.entries_.end(), ids.begin(), ids.end());
+    listed_.to_ids(std::span(grid_.entries_).subspan(first));
     return CellWord::listing(list).bits();
+  }
+
+  /// Begins a list, and returns its number.
+  std::uint32_t begin_list(CellBox box) {
+    grid_.lists_.push_back({box, static_cast<std::uint32_t>(grid_.entries_.size())});
+    return static_cast<std::uint32_t>(grid_.lists_.size() - 1);
+  }
+
+  /// Emits a cell that gets an inner grid for its small triangles, and returns its word. Returns 0 if too few are
+  /// small, or if the inner grid would not be much smaller than this grid.
+  std::uint32_t emit_inner(std::span<const std::uint32_t> ids, const std::array<std::uint32_t, 3>& cell,
+                           std::uint32_t size) {
+    using namespace detail;
+    if (depth_ == Grid::max_depth) return 0;
+    const Float4 max_extent = all_lanes(static_cast<float>(size) / small_share);
+    const auto is_small = [&](std::uint32_t i) {
+      const PaddedBox& box = scratch_.boxes_[i];
+      return !any_lane(box.high - box.low > max_extent);
+    };
+    PaddedBox around = {all_lanes(std::numeric_limits<float>::max()), all_lanes(0.0F)};
+    std::size_t count = 0;
+    for (const std::uint32_t i : ids) {
+      if (!is_small(i)) continue;
+      around = {min(around.low, scratch_.boxes_[i].low), max(around.high, scratch_.boxes_[i].high)};
+      ++count;
+    }
+    if (count < min_inner_triangles || count <= crowded_ || !is_much_smaller(around) ||
+        scratch_.inner_ids_.size() + count > scratch_.max_inner_ids_ || scratch_.pending_.size() == max_inner_grids) {
+      return 0;
+    }
+    scratch_.pending_.push_back({scratch_.inner_ids_.size(), count, depth_ + 1});
+    const std::uint32_t list = begin_list(box_of(ids, cell, size));
+    for (const std::uint32_t i : ids) {
+      if (is_small(i)) {
+        scratch_.inner_ids_.push_back(listed_.id(i));
+      } else {
+        grid_.entries_.push_back(listed_.id(i));
+      }
+    }
+    begin_list(CellBox(static_cast<std::uint32_t>(scratch_.pending_.size() - 1)));
+    return CellWord::with_inner_grid(list).bits();
+  }
+
+  /// Returns whether the longest edge of a box is less than half of that of this grid, in mesh units.
+  [[nodiscard]] bool is_much_smaller(const detail::PaddedBox& box) const {
+    const std::array<double, 3> whole = detail::scaled_extent(frame_, listed_.box().low, listed_.box().high);
+    double inner = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      inner = std::max(inner, static_cast<double>(box.high[axis] - box.low[axis]) / frame_.scale[axis]);
+    }
+    const double outer = *std::max_element(whole.begin(), whole.end());
+    return inner < outer / 2;
   }
 
   /// Returns the part of the cell that the triangles' boxes take up. The boxes are padded as in listing, so each meets
@@ -345,19 +427,14 @@ class GridBuild {
     return CellWord::divided(static_cast<std::uint32_t>(first / Grid::brick_size)).bits();
   }
 
-  /// Counts in cells of the finest level that the grid has.
-  void shrink_division() {
-    for (std::uint32_t level = grid_.levels_; level < Grid::max_levels; ++level) {
-      grid_.frame_.coarsen(Grid::brick_edge);
-    }
-  }
-
   Grid& grid_;
+  GridFrame& frame_;
   GridScratch& scratch_;
   const Listed& listed_;
   const Executor* executor_;
   std::size_t crowded_;
   std::size_t spare_entries_ = 0;  ///< The number of entries that divisions may add. 32 bits cannot number more.
+  std::uint32_t depth_;
   detail::CellPoint padding_ = {};
 };
 
@@ -384,12 +461,40 @@ template <typename Scalar>
 void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
                    GridScratch& scratch, const Executor* executor) {
   const FloatingPointEnvironment environment;
-  if (mesh.triangle_count() != 0) {
-    detail::ListedTriangles<Scalar> triangles(mesh, box, scratch.points_);
-    GridBuild<detail::ListedTriangles<Scalar>>(*this, scratch, triangles, options, executor);
-  } else {
+  if (mesh.triangle_count() == 0) {
     *this = Grid();
+    return;
   }
+  top_.clear();
+  bricks_.clear();
+  lists_.clear();
+  entries_.clear();
+  inner_frames_.clear();
+  levels_ = 0;
+  scratch.pending_.clear();
+  scratch.inner_ids_.clear();
+  scratch.max_inner_ids_ = max_inner_share * mesh.triangle_count();
+  detail::ListedTriangles<Scalar> triangles(mesh, box, scratch.points_);
+  GridBuild<detail::ListedTriangles<Scalar>>(*this, frame_, scratch, triangles, options, 0, executor);
+  top_count_ = top_.size();
+  const GridOptions inner_options{.cells_per_triangle = options.cells_per_triangle, .crowded = options.crowded};
+  for (std::size_t i = 0; i < scratch.pending_.size(); ++i) {  // The build of an inner grid may add more of them.
+    const detail::PendingGrid pending = scratch.pending_[i];
+    const std::vector<std::uint32_t> ids(
+        scratch.inner_ids_.begin() + static_cast<std::ptrdiff_t>(pending.first),
+        scratch.inner_ids_.begin() + static_cast<std::ptrdiff_t>(pending.first + pending.count));
+    detail::InnerTriangles<Scalar> some(mesh, ids);
+    GridBuild<detail::InnerTriangles<Scalar>>(*this, inner_frames_.emplace_back(), scratch, some, inner_options,
+                                              pending.depth, nullptr);
+  }
+  lists_.push_back({CellBox(), static_cast<std::uint32_t>(entries_.size())});
+  top_.resize(top_.size() + top_slack, CellWord());
+  // From now on, all is counted in cells of the finest level that there is.
+  for (std::uint32_t level = levels_; level < max_levels; ++level) {
+    frame_.coarsen(brick_edge);
+    for (GridFrame& frame : inner_frames_) frame.coarsen(brick_edge);
+  }
+  cover_ = GridCover(*this);
 }
 
 template Grid::Grid(const TriangleMeshView<float>&, const Box<float>&, const GridOptions&, const Executor*);

@@ -45,6 +45,13 @@ struct CellLists {
   UnsetVector<std::uint32_t> triangles;  ///< The lists, one after the other.
 };
 
+/// An inner grid that is still to be built.
+struct PendingGrid {
+  std::size_t first;    ///< The index of its first triangle in `GridScratch::inner_ids_`.
+  std::size_t count;    ///< The number of its triangles.
+  std::uint32_t depth;  ///< The number of grids around it.
+};
+
 }  // namespace detail
 
 /// The memory that a build needs besides the grid. The next build can use it again.
@@ -64,6 +71,9 @@ class GridScratch {
   std::vector<detail::CellEntries> parts_;       ///< The entries of the top cells that each task of an executor found.
   detail::UnsetVector<std::uint32_t> words_;     ///< The words of the top cells.
   detail::UnsetVector<std::uint8_t> distances_;  ///< The distances through empty cells.
+  std::vector<detail::PendingGrid> pending_;     ///< All inner grids, in the order in which they are built.
+  std::vector<std::uint32_t> inner_ids_;         ///< The ids of the triangles of all inner grids.
+  std::size_t max_inner_ids_ = 0;                ///< The maximum number of `inner_ids_`.
 };
 
 }  // namespace surehit

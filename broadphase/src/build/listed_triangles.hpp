@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <type_traits>
 
 #include "build/cell_lister.hpp"
@@ -15,8 +17,59 @@
 
 namespace surehit::detail {
 
+/// Computes the positions of a mesh's vertices in finest cells. The arguments must outlive this.
+template <typename Scalar>
+class VertexPoints {
+ public:
+  VertexPoints(const TriangleMeshView<Scalar>& mesh, const GridFrame& frame)
+      : mesh_(mesh), frame_(frame), vertices_(mesh), margin_(frame.float_margin) {
+    margin_[3] = 0;
+  }
+
+  [[nodiscard]] PaddedPoint operator[](std::size_t i) const {
+    if constexpr (std::is_same_v<Scalar, float>) {
+      if (frame_.has_floats) {
+        Float4 vertex;
+        vertices_.load(i, vertex);
+        return (vertex - frame_.float_low) * frame_.float_scale + margin_;
+      }
+    }
+    const Vector3<Scalar> vertex = mesh_.vertex(i);
+    const auto coordinate = [&](std::size_t axis) {
+      return static_cast<float>(frame_.to_cells(axis, frame_.scaled(vertex[static_cast<Eigen::Index>(axis)])));
+    };
+    return PaddedPoint{coordinate(0), coordinate(1), coordinate(2), 0};
+  }
+
+ private:
+  const TriangleMeshView<Scalar>& mesh_;
+  const GridFrame& frame_;
+  VertexLanes<Scalar> vertices_;
+  Float4 margin_;
+};
+
+/// Returns the edges of a box in the scaled frame.
+template <typename Scalar>
+std::array<double, 3> scaled_extent(const GridFrame& frame, const Vector3<Scalar>& low, const Vector3<Scalar>& high) {
+  std::array<double, 3> extent;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<Eigen::Index>(axis);
+    extent[axis] = frame.scaled(high[at]) - frame.scaled(low[at]);
+  }
+  return extent;
+}
+
+/// Returns the box of a triangle of a mesh.
+template <typename Scalar>
+Box<Scalar> box_of_triangle(const TriangleMeshView<Scalar>& mesh, std::size_t triangle) {
+  const Vector3<Scalar> a = mesh.vertex(mesh.corner(triangle, 0));
+  const Vector3<Scalar> b = mesh.vertex(mesh.corner(triangle, 1));
+  const Vector3<Scalar> c = mesh.vertex(mesh.corner(triangle, 2));
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
 /// The triangles of a mesh, as a grid lists them. `GridBuild` lists whatever has these functions, and a lister that
-/// tests its shapes against cells.
+/// tests its shapes against cells. What is listed has numbers from 0 to below `count`.
 template <typename Scalar>
 class ListedTriangles {
  public:
@@ -28,55 +81,24 @@ class ListedTriangles {
       : mesh_(mesh), box_(box), points_(points) {}
 
   [[nodiscard]] std::size_t count() const { return mesh_.triangle_count(); }
-  /// Returns the frame of a grid around all of them.
-  [[nodiscard]] GridFrame frame(const std::array<double, 3>& cells, std::uint32_t division) const {
-    return GridFrame::around(box_, cells, division);
-  }
-  /// Returns the edges of the box around all of them, in the scaled frame.
-  [[nodiscard]] std::array<double, 3> width(const GridFrame& frame) const {
-    std::array<double, 3> width;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      width[axis] = frame.scaled(box_.high[static_cast<Eigen::Index>(axis)]) - frame.origin[axis];
-    }
-    return width;
-  }
+  /// Returns the id of triangle number i.
+  [[nodiscard]] std::uint32_t id(std::uint32_t i) const { return i; }
+  /// Turns numbers of triangles into ids.
+  void to_ids(std::span<std::uint32_t> /*numbers*/) const {}
+  /// Returns the box around all of them.
+  [[nodiscard]] const Box<Scalar>& box() const { return box_; }
   /// Returns the edges of the box of one of them, in the scaled frame.
   [[nodiscard]] std::array<double, 3> extent(const GridFrame& frame, std::size_t triangle) const {
-    const Vector3<Scalar> a = mesh_.vertex(mesh_.corner(triangle, 0));
-    const Vector3<Scalar> b = mesh_.vertex(mesh_.corner(triangle, 1));
-    const Vector3<Scalar> c = mesh_.vertex(mesh_.corner(triangle, 2));
-    const Vector3<Scalar> low = a.cwiseMin(b).cwiseMin(c);
-    const Vector3<Scalar> high = a.cwiseMax(b).cwiseMax(c);
-    std::array<double, 3> extent;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto at = static_cast<Eigen::Index>(axis);
-      extent[axis] = frame.scaled(high[at]) - frame.scaled(low[at]);
-    }
-    return extent;
+    const Box<Scalar> box = box_of_triangle(mesh_, triangle);
+    return scaled_extent(frame, box.low, box.high);
   }
 
   /// Computes the positions of all vertices in finest cells. The functions below need them.
   void compute_points(const GridFrame& frame, const Executor* executor) {
     points_.resize(mesh_.vertex_count());
-    const VertexLanes<Scalar> vertices(mesh_);
-    Float4 margin = frame.float_margin;
-    margin[3] = 0;
-    const auto to_cells = [&](std::size_t i) -> PaddedPoint {
-      if constexpr (std::is_same_v<Scalar, float>) {
-        if (frame.has_floats) {
-          Float4 vertex;
-          vertices.load(i, vertex);
-          return (vertex - frame.float_low) * frame.float_scale + margin;
-        }
-      }
-      const Vector3<Scalar> vertex = mesh_.vertex(i);
-      const auto coordinate = [&](std::size_t axis) {
-        return static_cast<float>(frame.to_cells(axis, frame.scaled(vertex[static_cast<Eigen::Index>(axis)])));
-      };
-      return PaddedPoint{coordinate(0), coordinate(1), coordinate(2), 0};
-    };
+    const VertexPoints<Scalar> points(mesh_, frame);
     in_parts(executor, points_.size(), vertices_in_a_part, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) points_[i] = to_cells(i);
+      for (std::size_t i = first; i < last; ++i) points_[i] = points[i];
     });
   }
 
@@ -97,6 +119,48 @@ class ListedTriangles {
   const TriangleMeshView<Scalar>& mesh_;
   const Box<Scalar>& box_;
   UnsetVector<PaddedPoint>& points_;
+};
+
+/// Some triangles of a mesh, as an inner grid lists them. The functions do the same as those of `ListedTriangles`.
+template <typename Scalar>
+class InnerTriangles {
+ public:
+  /// `ids` has the triangles in ascending order, at least one. The mesh and the ids must outlive this.
+  InnerTriangles(const TriangleMeshView<Scalar>& mesh, std::span<const std::uint32_t> ids)
+      : mesh_(mesh), ids_(ids), box_(box_of_triangle(mesh, ids.front())) {
+    for (const std::uint32_t id : ids.subspan(1)) {
+      const Box<Scalar> box = box_of_triangle(mesh, id);
+      box_ = {box_.low.cwiseMin(box.low), box_.high.cwiseMax(box.high)};
+    }
+  }
+
+  [[nodiscard]] std::size_t count() const { return ids_.size(); }
+  [[nodiscard]] std::uint32_t id(std::uint32_t i) const { return ids_[i]; }
+  void to_ids(std::span<std::uint32_t> numbers) const {
+    for (std::uint32_t& number : numbers) number = ids_[number];
+  }
+  [[nodiscard]] const Box<Scalar>& box() const { return box_; }
+  [[nodiscard]] std::array<double, 3> extent(const GridFrame& frame, std::size_t i) const {
+    const Box<Scalar> box = box_of_triangle(mesh_, ids_[i]);
+    return scaled_extent(frame, box.low, box.high);
+  }
+
+  /// Keeps the frame, which must outlive the calls of `shape`.
+  void compute_points(const GridFrame& frame, const Executor* /*executor*/) { points_.emplace(mesh_, frame); }
+
+  using Lister = CellLister;
+  using Shape = CellLister::Corners;
+  [[nodiscard]] Shape shape(std::uint32_t i) const {
+    const auto point = [&](std::size_t corner) { return (*points_)[mesh_.corner(ids_[i], corner)]; };
+    return {point(0), point(1), point(2)};
+  }
+  [[nodiscard]] static PaddedBox box_of(const Shape& shape) { return ListedTriangles<Scalar>::box_of(shape); }
+
+ private:
+  const TriangleMeshView<Scalar>& mesh_;
+  std::span<const std::uint32_t> ids_;
+  Box<Scalar> box_;
+  std::optional<VertexPoints<Scalar>> points_;
 };
 
 }  // namespace surehit::detail

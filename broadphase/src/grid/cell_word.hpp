@@ -10,31 +10,43 @@ namespace surehit {
 ///
 /// An empty cell has a distance of 4 bits for each octant of directions: the edge, in cells, of a cube of empty cells
 /// that begins with this cell. A path of that octant may leap over the whole cube. In any other cell the first 4 bits
-/// are 0. The fifth bit is 1 for a list and 0 for a brick. The rest is the number of the list or brick.
+/// are 0. The fifth bit is 1 for a list and 0 for a brick. The rest of a brick's word is its number. The sixth bit of a
+/// list is 1 if the cell also has an inner grid. The rest of its word is the number of the list.
 class CellWord {
  public:
   CellWord() = default;
   explicit CellWord(std::uint32_t bits) : bits_(bits) {}
 
-  /// The maximum number of lists. It is also the maximum number of bricks.
-  static constexpr std::uint32_t max_numbers = std::uint32_t{1} << 27;
-  static constexpr std::uint32_t max_distance = 15;    ///< The largest number that 4 bits can hold.
+  static constexpr std::uint32_t max_lists = std::uint32_t{1} << 26;   ///< The maximum number of lists.
+  static constexpr std::uint32_t max_bricks = std::uint32_t{1} << 27;  ///< The maximum number of bricks.
+  static constexpr std::uint32_t max_distance = 15;                    ///< The largest number that 4 bits can hold.
   static constexpr std::uint32_t divided_bits = 0x1f;  ///< These bits are all 0 in the word of a divided cell.
+  static constexpr std::uint32_t inner_bit = 1U << 5;  ///< This bit of a list's word is set if there is an inner grid.
+  static constexpr int list_shift = 6;                 ///< The bits below the number of a list.
+  static constexpr int brick_shift = 5;                ///< The bits below the number of a brick.
 
   /// Returns the word of a cell with a list.
-  static CellWord listing(std::uint32_t list) { return CellWord(list << 5 | 1U << 4); }
+  static CellWord listing(std::uint32_t list) { return CellWord(list << list_shift | list_bit); }
+  /// Returns the word of a cell with a list and an inner grid.
+  static CellWord with_inner_grid(std::uint32_t list) { return CellWord(list << list_shift | inner_bit | list_bit); }
   /// Returns the word of a cell that is divided into a brick.
-  static CellWord divided(std::uint32_t brick) { return CellWord(brick << 5); }
+  static CellWord divided(std::uint32_t brick) { return CellWord(brick << brick_shift); }
 
   [[nodiscard]] std::uint32_t bits() const { return bits_; }
   [[nodiscard]] bool is_empty() const { return (bits_ & 15) != 0; }
   [[nodiscard]] bool is_divided() const { return (bits_ & divided_bits) == 0; }
-  /// Returns the number of the list, or of the brick if the cell is divided.
-  [[nodiscard]] std::uint32_t number() const { return bits_ >> 5; }
+  /// Returns true if a cell with a list also has an inner grid.
+  [[nodiscard]] bool has_inner_grid() const { return (bits_ & inner_bit) != 0; }
+  /// Returns the number of the list of a cell that has one.
+  [[nodiscard]] std::uint32_t list() const { return bits_ >> list_shift; }
+  /// Returns the number of the brick of a divided cell.
+  [[nodiscard]] std::uint32_t brick() const { return bits_ >> brick_shift; }
   /// Returns the edge of the cube of empty cells that begins with this empty cell.
   [[nodiscard]] std::uint32_t distance(std::uint32_t octant) const { return bits_ >> 4 * octant & 15; }
 
  private:
+  static constexpr std::uint32_t list_bit = 1U << 4;
+
   std::uint32_t bits_ = 0;
 };
 

@@ -96,6 +96,7 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
     frame.float_box_high[axis] = nearest_float(frame.high[axis]);
     frame.float_cell_size[axis] = nearest_float(frame.cell_size[axis]);
   }
+  frame.begin_at(0);
   frame.coarsen(1);
   return frame;
 }
@@ -104,13 +105,13 @@ double GridFrame::to_cells(std::size_t axis, double scaled_coordinate) const noe
   return (scaled_coordinate - origin[axis]) * scale[axis] + double{margin[axis]};
 }
 
-void GridFrame::coarsen(std::uint32_t factor) noexcept {
-  division /= factor;
+void GridFrame::begin_at(std::uint32_t top) noexcept {
+  first_top = top;
   for (std::uint32_t octant = 0; octant < 8; ++octant) {
     TopOrder& order = top_orders[octant];
     order = {};
     std::uint32_t pitch = 1;
-    std::uint32_t first = 0;
+    std::uint32_t first = top;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
       const bool is_mirrored = (octant >> axis & 1) != 0;
       order.pitch[axis] = static_cast<std::int32_t>(is_mirrored ? -pitch : pitch);
@@ -124,6 +125,10 @@ void GridFrame::coarsen(std::uint32_t factor) noexcept {
       }
     }
   }
+}
+
+void GridFrame::coarsen(std::uint32_t factor) noexcept {
+  division /= factor;
   has_floats = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     scale[axis] /= factor;

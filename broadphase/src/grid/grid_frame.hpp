@@ -24,6 +24,7 @@ struct GridFrame {
   std::array<double, 3> cell_size = {0, 0, 0};
   std::array<std::uint32_t, 3> cells = {0, 0, 0};  ///< The number of top cells on each axis.
   std::uint32_t division = 1;                      ///< The number of finest cells along an edge of a top cell.
+  std::uint32_t first_top = 0;                     ///< The index of top cell (0, 0, 0) among those of all frames.
   /// The indices of top cells for a path of one octant. Cells are mirrored, so that the path rises on every axis.
   struct TopOrder {
     std::array<std::int32_t, 3> pitch = {};  ///< The index grows by this to the next cell on an axis.
@@ -62,6 +63,8 @@ struct GridFrame {
   [[nodiscard]] double scaled(double x) const noexcept { return x * unit[0] * unit[1]; }
   /// Returns the number of finest cells on an axis.
   [[nodiscard]] std::uint32_t resolution(std::size_t axis) const noexcept { return cells[axis] * division; }
+  /// Sets `first_top`.
+  void begin_at(std::uint32_t top) noexcept;
   /// Counts in cells that are longer by this factor, a power of two.
   void coarsen(std::uint32_t factor) noexcept;
   /// Returns the padding on an axis, in finest cells.

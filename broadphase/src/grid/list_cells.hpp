@@ -26,7 +26,7 @@ void visit_list_cells(const Grid& grid, const ListCell& cell, const Visit& visit
     return;
   }
   const std::uint32_t size = cell.size / Grid::brick_edge;
-  const std::size_t brick = std::size_t{cell.word.number()} * Grid::brick_size;
+  const std::size_t brick = std::size_t{cell.word.brick()} * Grid::brick_size;
   for (std::uint32_t i = 0; i < Grid::brick_size; ++i) {
     const std::array<std::uint32_t, 3> part = Grid::position_in_brick(i);
     visit_list_cells(grid,
@@ -37,13 +37,16 @@ void visit_list_cells(const Grid& grid, const ListCell& cell, const Visit& visit
   }
 }
 
-/// Does the same for the top cells from `first` to `last` - 1. It visits the lists in the order of their numbers.
+/// Does the same for the top cells of a frame from `first` to `last` - 1. It visits the lists in the order of their
+/// numbers.
 template <typename Visit>
-void visit_list_cells(const Grid& grid, std::size_t first, std::size_t last, const Visit& visit) {
-  const auto& [columns, rows, layers] = grid.resolution();
-  const std::uint32_t size = grid.frame().division;
+void visit_list_cells(const Grid& grid, const GridFrame& frame, std::size_t first, std::size_t last,
+                      const Visit& visit) {
+  const auto& [columns, rows, layers] = frame.cells;
+  const std::uint32_t size = frame.division;
+  const CellWord* const words = grid.all_top().data() + frame.first_top;
   for (std::size_t top = first; top < last; ++top) {
-    const CellWord word = grid.top()[top];
+    const CellWord word = words[top];
     if (word.is_empty()) continue;
     const auto index = static_cast<std::uint32_t>(top);
     visit_list_cells(

@@ -15,7 +15,13 @@ using detail::exact_difference;
 
 // WALK.md proves that the walk misses nothing. L1 to L12 are its lemmas. L9 bounds the errors of what is clipped here.
 
-/// A start at most this far from the box's low corner is not moved (L10).
+/// A start at most this many widths from the grid's low corner, on each axis, need not be moved (L9).
+constexpr double far_widths = 0x1p20;
+/// A path that is faster than this on some axis, in cells a unit of t, is scaled.
+constexpr double too_fast = 0x1p60;
+/// A ray or line whose start is farther than it moves in so many units of t is scaled (L11).
+constexpr double max_t_to_grid = 0x1p38;
+/// A start that is moved ends up at most twice this far from the box's low corner (L10).
 constexpr double near = 4;
 /// A start farther away than this cannot be moved within the padding (L10).
 constexpr double max_start = 0x1p60;
@@ -80,6 +86,18 @@ struct ScaledPath {
 
 }  // namespace
 
+bool ClippedPath::misses_from_afar(const detail::Float4& from, const detail::Float4& stop,
+                                   float last_t) const noexcept {
+  using namespace detail;
+  if (any_lane((absolute(from) > 0x1p20F * stop) | (rate > all_lanes(0x1p60F)))) return false;
+  const Float4 margin = 0x1p-10F * (absolute(from) + stop);
+  const Float4 enters = (-margin - from) * inverse_rate;
+  const Float4 leaves = (stop + margin - from) * inverse_rate;
+  const float first = std::max({enters[0], enters[1], enters[2]});
+  const float last = std::min({leaves[0], leaves[1], leaves[2], last_t});
+  return first > last;
+}
+
 template <typename Scalar>
 void ClippedPath::clip_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t,
                                  double last_t) noexcept {
@@ -90,19 +108,20 @@ void ClippedPath::clip_in_double(const GridFrame& frame, const Path<Scalar>& pat
   std::array<double, 3> from;
   std::array<double, 3> by;
   double fastest = 0;
-  double distance = 0;
-  bool is_near_in_cells = true;
+  double distance = 0;  // In cells, as `fastest`.
+  bool is_near = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     const double scaled = frame.scaled(path.start[i]);
     from[axis] = scaled - frame.origin[axis];
     by[axis] = detail::direction_of(path.kind, scaled, frame.scaled(path.toward[i]));
-    distance = std::max(distance, std::fabs(from[axis]));
+    const double cells = std::fabs(from[axis]) * frame.scale[axis];
+    distance = std::max(distance, cells);
     fastest = std::max(fastest, std::fabs(by[axis]) * frame.scale[axis]);
-    is_near_in_cells &= std::fabs(from[axis]) * frame.scale[axis] <= 2.0 * frame.resolution(axis);
+    is_near &= cells <= far_widths * frame.resolution(axis);
   }
-  const bool is_plain =
-      distance <= near && is_near_in_cells && fastest <= double{fast} && (fastest >= double{slow} || path.has_end());
+  const bool is_plain = is_near && fastest <= too_fast &&
+                        (path.has_end() || (fastest >= double{slow} && distance <= max_t_to_grid * fastest));
   if (!is_plain) {
     ScaledPath scaled(frame, path);
     status = scaled.clip();

@@ -39,7 +39,7 @@ struct ClippedPath {
 
   /// A ray or line that is slower than this on all axes, in cells a unit of t, is scaled (L11).
   static constexpr float slow = 0x1p-20F;
-  /// A path that is faster than this on some axis is scaled.
+  /// A path that is faster than this on some axis is clipped in double.
   static constexpr float fast = 0x1p20F;
   /// A lower rate counts as 0, because it moves the path by less than 2^-27 cells (L11).
   static constexpr float min_rate = 0x1p-66F;
@@ -62,8 +62,11 @@ struct ClippedPath {
     return (all_lanes(static_cast<std::int32_t>(octant)) & Int4{1, 2, 4, 0}) != all_lanes(0);
   }
 
-  /// Clips a path. [first_t, last_t] is the part that counts; either end may be infinite. A path that is not finite
-  /// misses the grid. The caller must hold a FloatingPointEnvironment.
+  /// Clips a path to a grid that is not empty. [first_t, last_t] is the part that counts; either end may be infinite. A
+  /// path that is not finite misses the grid. The caller must hold a FloatingPointEnvironment.
+  template <typename Scalar>
+  ClippedPath(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t) noexcept;
+  /// Clips a path to the outermost grid. Every path misses a grid without cells.
   template <typename Scalar>
   ClippedPath(const Grid& grid, const Path<Scalar>& path, double first_t, double last_t) noexcept;
   ClippedPath() = default;
@@ -71,19 +74,20 @@ struct ClippedPath {
   /// Returns true if the path meets nothing, because it ends in the cube of empty cells in which it begins (L6). Most
   /// short paths do. The path must be clipped. If it begins in a cell with a list, the word of its last cell is
   /// prefetched.
-  [[gnu::always_inline]] [[nodiscard]] bool stays_in_empty_space(const Grid& grid) const noexcept {
+  [[gnu::always_inline]] [[nodiscard]] bool stays_in_empty_space(const Grid& grid,
+                                                                 const GridFrame& frame) const noexcept {
     using namespace detail;
-    const GridFrame& frame = grid.frame();
+    const CellWord* const top = grid.all_top().data();
     const auto shift = static_cast<std::int32_t>(2 * grid.levels());
     const Int4 first = to_int(start) >> shift;
     const Int4 last = to_int(start + std::min(end, exit) * rate) >> shift;
     const GridFrame::TopOrder& order = frame.top_orders[octant];
-    const CellWord word = grid.top()[static_cast<std::size_t>(order.index(first))];
+    const CellWord word = top[order.index(first)];
     if (!word.is_empty()) {
       // Most short paths go through one more cell, the last one. Without a prefetch the walk would wait for its word.
       const Int4 stop = to_int(frame.float_stop) >> shift;
       const Int4 end_cell = min(max(last, first), stop - 1);
-      __builtin_prefetch(&grid.top()[static_cast<std::size_t>(order.index(end_cell))]);
+      __builtin_prefetch(&top[order.index(end_cell)]);
       return false;
     }
     const auto cells = static_cast<std::int32_t>(word.distance(octant));
@@ -102,22 +106,40 @@ struct ClippedPath {
   }
 
  private:
+  /// Clips a path to a frame.
+  template <typename Scalar>
+  void clip(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t) noexcept;
   /// Clips any path in double (L9).
   template <typename Scalar>
   void clip_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t) noexcept;
-  /// Clips a path in float (L8). Returns false if it is not near the grid, or if it is too slow or too fast.
+  /// Returns true if a path that is not near the grid is certain to miss it (L13).
+  [[nodiscard]] bool misses_from_afar(const detail::Float4& from, const detail::Float4& stop,
+                                      float last_t) const noexcept;
+  /// Clips a path in float (L8). Returns false if it is too slow or too fast, or if it is not near the grid and may
+  /// meet it.
   bool try_clip_in_float(const GridFrame& frame, const Path<float>& path, float first_t, float last_t) noexcept;
 };
 
 template <typename Scalar>
-[[gnu::always_inline]] inline ClippedPath::ClippedPath(const Grid& grid, const Path<Scalar>& path, double first_t,
+[[gnu::always_inline]] inline ClippedPath::ClippedPath(const GridFrame& frame, const Path<Scalar>& path, double first_t,
                                                        double last_t) noexcept {
-  if (grid.is_empty()) return;
+  clip(frame, path, first_t, last_t);
+}
+
+template <typename Scalar>
+[[gnu::always_inline]] inline void ClippedPath::clip(const GridFrame& frame, const Path<Scalar>& path, double first_t,
+                                                     double last_t) noexcept {
   if constexpr (std::is_same_v<Scalar, float>) {
     // The limits of a path of floats are floats.
-    if (try_clip_in_float(grid.frame(), path, static_cast<float>(first_t), static_cast<float>(last_t))) return;
+    if (try_clip_in_float(frame, path, static_cast<float>(first_t), static_cast<float>(last_t))) return;
   }
-  clip_in_double(grid.frame(), path, first_t, last_t);
+  clip_in_double(frame, path, first_t, last_t);
+}
+
+template <typename Scalar>
+[[gnu::always_inline]] inline ClippedPath::ClippedPath(const Grid& grid, const Path<Scalar>& path, double first_t,
+                                                       double last_t) noexcept {
+  if (!grid.is_empty()) clip(grid.frame(), path, first_t, last_t);
 }
 
 // It has no branches on the direction, because a processor could not predict them.
@@ -140,7 +162,8 @@ template <typename Scalar>
   Float4 leaving = (from - stop) * inverse_rate;
   leaving[3] = -last_t;
   const Float4 limits = max_lanes(-from * inverse_rate, leaving, speed, masked(~is_near, all_lanes(1.0F)));
-  if (limits[3] != 0 || !(limits[2] >= slow || path.has_end())) return false;
+  if (!(limits[2] >= slow || path.has_end())) return false;
+  if (limits[3] != 0) return misses_from_afar(from, stop, last_t);
   // Most paths begin inside the grid. This test does not wait for the divisions, so these paths do not wait either.
   const bool may_enter_later = any_lane(from < all_lanes(0.0F)) || first_t != 0;
   float enters = 0;
@@ -172,22 +195,19 @@ class GridTraversal {
   /// neither for a word nor for a conversion to an index. A walk that begins in an empty cell begins with a leap.
   static constexpr std::uint32_t min_leap = 6;
 
-  /// Begins at the first cell. If the path is not clipped, the walk is at its end at once. The grid and the path must
-  /// outlive the walk. `enters` is the tau at which the walk begins: where the path enters the grid's cover (L7).
-  [[gnu::always_inline]] GridTraversal(const Grid& grid, const ClippedPath& path, float enters = 0) noexcept
-      : grid_(grid), path_(path), end_(path.end) {
-    using namespace detail;
-    if (path.status != ClippedPath::Status::clipped) return;
-    is_mirrored_ = path.is_mirrored();
-    at_end_ = false;
-    Float4 position = path.start;
-    if (enters > 0) [[unlikely]] {
-      position = min(position + enters * path.rate, grid.frame().float_stop * (1 - 0x1p-24F));
-    }
-    enter(to_int(position));
-    if (!word_.is_empty()) begin_steps();
+  /// Begins at the first cell of a frame of the grid. If the path is not clipped to this frame, the walk is at its end
+  /// at once. The grid, the frame and the path must outlive the walk. `enters` is the tau at which the walk begins:
+  /// where the path enters the grid's cover (L7).
+  [[gnu::always_inline]] GridTraversal(const Grid& grid, const GridFrame& frame, const ClippedPath& path,
+                                       float enters = 0) noexcept
+      : grid_(grid), frame_(frame), path_(path), end_(path.end) {
+    begin(enters);
   }
-
+  /// Begins at the first cell of the outermost grid.
+  [[gnu::always_inline]] GridTraversal(const Grid& grid, const ClippedPath& path, float enters = 0) noexcept
+      : grid_(grid), frame_(grid.frame()), path_(path), end_(path.end) {
+    begin(enters);
+  }
   [[nodiscard]] bool at_end() const noexcept { return at_end_; }
   /// Returns what the current cell holds. The cell is never divided.
   [[nodiscard]] CellWord word() const noexcept { return word_; }
@@ -229,7 +249,7 @@ class GridTraversal {
     const Float4 to_start = path_.start - (planes_ - size / 2);
     const float enters = sum_of_three((to_start + max_lane(tau.enters) * path_.rate) * normal);
     const float leaves = sum_of_three((to_start + min_lane(tau.leaves) * path_.rate) * normal);
-    const float slack = sum_of_three(absolute(normal) * (GridFrame::padding_share * grid_.frame().float_stop));
+    const float slack = sum_of_three(absolute(normal) * (GridFrame::padding_share * frame_.float_stop));
     const float step = CellSlab::step * size;
     const float low = static_cast<float>(slab.low()) * step - slack;
     const float high = static_cast<float>(slab.high() + 1) * step + slack;
@@ -240,6 +260,20 @@ class GridTraversal {
   void shorten(double t) noexcept { end_ = std::min(end_, path_.beyond(t)); }
 
  private:
+  /// Goes to the first cell.
+  [[gnu::always_inline]] void begin(float enters) noexcept {
+    using namespace detail;
+    if (path_.status != ClippedPath::Status::clipped) return;
+    is_mirrored_ = path_.is_mirrored();
+    at_end_ = false;
+    Float4 position = path_.start;
+    if (enters > 0) [[unlikely]] {
+      position = min(position + enters * path_.rate, frame_.float_stop * (1 - 0x1p-24F));
+    }
+    enter(to_int(position));
+    if (!word_.is_empty()) begin_steps();
+  }
+
   /// The tau at which the path enters and leaves the box of the list.
   struct TausOfBox {
     detail::Float4 enters, leaves;  ///< On each axis. The fourth lane has the tau where the walk begins or ends.
@@ -253,7 +287,7 @@ class GridTraversal {
     const Int4 first = (bits >> (Int4{0, 10, 20, 0} + (is_mirrored_ & 5)) & last_part) ^ turn;
     const Int4 last = (bits >> (Int4{5, 15, 25, 5} - (is_mirrored_ & 5)) & last_part) ^ turn;
     const float part = static_cast<float>(size_) * (1.0F / CellBox::parts);
-    const Float4 padding = GridFrame::padding_share * grid_.frame().float_stop;
+    const Float4 padding = GridFrame::padding_share * frame_.float_stop;
     const Float4 corner = planes_ - static_cast<float>(size_) - path_.start;
     // These do not depend on the box, so they are ready when the box is loaded.
     const Float4 tau_of_part = part * path_.inverse_rate;
@@ -296,7 +330,7 @@ class GridTraversal {
     // The position is not beyond the plane, but for roundings. So it fits an integer.
     const Int4 position = to_int(path_.start + tau * path_.rate);
     const Int4 finest = crossing == tau ? to_int(plane) : max(position, to_int(planes_) - size_);  // L2, (i) and (iii)
-    at_end_ = !(tau[0] < end_) || any_lane(finest >= to_int(grid_.frame().float_stop));
+    at_end_ = !(tau[0] < end_) || any_lane(finest >= to_int(frame_.float_stop));
     if (at_end_) return;
     enter(finest);
     begin_steps();
@@ -305,23 +339,23 @@ class GridTraversal {
   /// Computes what `step` needs. Steps end at the first outer plane that is crossed (L2).
   [[gnu::always_inline]] void begin_steps() noexcept {
     using namespace detail;
-    step_size_ = static_cast<std::int32_t>(grid_.frame().division);
+    step_size_ = static_cast<std::int32_t>(frame_.division);
     crossing_ = (planes_ - path_.start) * path_.inverse_rate;
     next_crossing_ = (planes_ + static_cast<float>(step_size_) - path_.start) * path_.inverse_rate;
-    const Float4 leaves = (grid_.frame().float_stop - path_.start) * path_.inverse_rate;
+    const Float4 leaves = (frame_.float_stop - path_.start) * path_.inverse_rate;
     end_ = std::min(end_, min_lane(without_fourth(leaves))[0]);
   }
 
   /// Makes the undivided cell that holds this finest cell the current one.
   [[gnu::always_inline]] void enter(detail::Int4 finest) noexcept {
-    size_ = static_cast<std::int32_t>(grid_.frame().division);
+    size_ = static_cast<std::int32_t>(frame_.division);
     top_ = order().index(finest >> static_cast<std::int32_t>(2 * grid_.levels()));
     planes_ = detail::to_float((finest & -size_) + size_);
     look();
     if (word_.is_divided()) descend(finest);
   }
-  [[nodiscard]] const GridFrame::TopOrder& order() const noexcept { return grid_.frame().top_orders[path_.octant]; }
-  [[gnu::always_inline]] void look() noexcept { word_ = grid_.top()[static_cast<std::size_t>(top_)]; }
+  [[nodiscard]] const GridFrame::TopOrder& order() const noexcept { return frame_.top_orders[path_.octant]; }
+  [[gnu::always_inline]] void look() noexcept { word_ = grid_.all_top().data()[top_]; }
   /// Goes from a divided cell to the undivided cell in it that holds this finest cell.
   [[gnu::always_inline]] void descend(detail::Int4 finest) noexcept {
     const auto [word, size] = undivided(grid_, word_, finest, is_mirrored_);
@@ -341,7 +375,7 @@ class GridTraversal {
     std::uint32_t shift = 2 * grid.levels();
     do {
       shift -= 2;
-      std::uint32_t cell = word.number() * Grid::brick_size;
+      std::uint32_t cell = word.brick() * Grid::brick_size;
       for (std::uint32_t axis = 0; axis < 3; ++axis) {
         cell += (static_cast<std::uint32_t>((finest[axis] >> shift) ^ is_mirrored[axis]) & (Grid::brick_edge - 1))
                 << 2 * axis;
@@ -352,6 +386,7 @@ class GridTraversal {
   }
 
   const Grid& grid_;
+  const GridFrame& frame_;
   const ClippedPath& path_;
   detail::Float4 planes_ = {0, 0, 0, 0};         ///< The far planes of the cell.
   detail::Float4 crossing_ = {0, 0, 0, 0};       ///< The tau at which the path crosses the far planes of a top cell.

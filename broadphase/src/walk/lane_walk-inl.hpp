@@ -61,6 +61,7 @@ struct alignas(max_lanes * sizeof(float)) WalkingPaths {
   std::array<LaneFloats, 3> inverse_rate;       ///< 1 / rate, or `ClippedPath::max_inverse` where the rate is 0.
   std::array<LaneFloats, 3> finest;             ///< The finest cell that the walk is in.
   std::array<LaneFloats, 3> pitch;              ///< The pitch of the `GridFrame::TopOrder` of the octant.
+  std::array<LaneFloats, 3> stop;               ///< The resolution of the frame that the path walks through.
   LaneFloats first_cell;                        ///< The index of mirrored top cell (0, 0, 0).
   LaneFloats enters;                            ///< The t where tau is 0. It is set only by `LaneWalk::clip`.
   LaneFloats end;                               ///< Nothing counts beyond this tau.
@@ -72,7 +73,8 @@ struct alignas(max_lanes * sizeof(float)) WalkingPaths {
   /// Does the same for a path that `ClippedPath` has clipped.
   void shorten(std::size_t lane, double t, const WalkParameter& tau) { end[lane] = std::min(end[lane], tau.beyond(t)); }
 
-  /// Copies other paths into some lanes. If bit i of `lanes` is set, lane i becomes lane `from_lane[i]` of `from`.
+  /// Copies other paths into some lanes. If bit i of `lanes` is set, lane i becomes lane `from_lane[i]` of `from`. It
+  /// does not copy `stop`, because paths are clipped to the outermost frame, and so are the lanes that they take.
   HWY_INLINE void copy(std::uint32_t lanes, const WalkingPaths& from, const LaneIndices& from_lane) {
     const auto indices = hn::Load(IntTag(), from_lane.data());
     const auto copy_all = [&](auto d, auto& to, const auto& of) {
@@ -91,6 +93,25 @@ struct alignas(max_lanes * sizeof(float)) WalkingPaths {
     copy_all(d, enters, from.enters);
     copy_all(d, end, from.end);
     copy_all(BitsTag(), octant, from.octant);
+  }
+};
+
+/// What a lane of `WalkingPaths` holds, except for what the frame and the octant tell.
+struct WalkingPath {
+  std::array<float, 3> start, rate, inverse_rate, finest;
+  float enters, end;
+  std::uint32_t octant;
+
+  WalkingPath() = default;
+  /// Copies a lane.
+  WalkingPath(const WalkingPaths& paths, std::size_t lane)
+      : enters(paths.enters[lane]), end(paths.end[lane]), octant(paths.octant[lane]) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      start[axis] = paths.start[axis][lane];
+      rate[axis] = paths.rate[axis][lane];
+      inverse_rate[axis] = paths.inverse_rate[axis][lane];
+      finest[axis] = paths.finest[axis][lane];
+    }
   }
 };
 
@@ -196,20 +217,47 @@ class LaneWalk {
             static_cast<std::uint32_t>(bits_of(d, hn::AndNot(is_plain, taken)))};
   }
 
-  /// Puts a path that `ClippedPath` has clipped into one lane. It does not set `enters`, because the tau of such a path
-  /// need not be t - `enters`.
-  void put(std::size_t lane, const ClippedPath& path, WalkingPaths& paths) const {
-    const GridFrame::TopOrder& order = frame_.top_orders[path.octant];
+  /// Sets `stop` of all lanes to that of the outermost frame.
+  HWY_INLINE void set_stops(WalkingPaths& paths) const {
+    const FloatTag d;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      hn::Store(hn::Set(d, frame_.float_stop[axis]), d, paths.stop[axis].data());
+    }
+  }
+  /// Sets `stop` of one lane to that of a frame.
+  static void set_stop(std::size_t lane, const GridFrame& frame, WalkingPaths& paths) {
+    for (std::size_t axis = 0; axis < 3; ++axis) paths.stop[axis][lane] = frame.float_stop[axis];
+  }
+
+  /// Puts a path that walks through a frame into one lane. It does not set `stop`.
+  static void put(std::size_t lane, const GridFrame& frame, const WalkingPath& path, WalkingPaths& paths) {
+    const GridFrame::TopOrder& order = frame.top_orders[path.octant];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       paths.start[axis][lane] = path.start[axis];
       paths.rate[axis][lane] = path.rate[axis];
       paths.inverse_rate[axis][lane] = path.inverse_rate[axis];
-      paths.finest[axis][lane] = std::floor(path.start[axis]);
+      paths.finest[axis][lane] = path.finest[axis];
       paths.pitch[axis][lane] = static_cast<float>(order.pitch[axis]);
     }
     paths.first_cell[lane] = static_cast<float>(order.first);
+    paths.enters[lane] = path.enters;
     paths.end[lane] = path.end;
     paths.octant[lane] = path.octant;
+  }
+  /// Puts a path that `ClippedPath` has clipped to a frame into one lane. `enters` becomes the float nearest to the t
+  /// where tau is 0, if tau is t less some number.
+  static void put(std::size_t lane, const GridFrame& frame, const ClippedPath& path, WalkingPaths& paths) {
+    WalkingPath begins;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      begins.start[axis] = path.start[axis];
+      begins.rate[axis] = path.rate[axis];
+      begins.inverse_rate[axis] = path.inverse_rate[axis];
+      begins.finest[axis] = std::floor(path.start[axis]);
+    }
+    begins.enters = static_cast<float>(path.tau.origin[2]);
+    begins.end = path.end;
+    begins.octant = path.octant;
+    put(lane, frame, begins, paths);
   }
 
   /// Cuts a path into pieces of equal length, one for each lane. The first one begins at tau `enters`. A piece may
@@ -318,7 +366,7 @@ class LaneWalk {
       index = hn::MulAdd(top, hn::Load(d, paths.pitch[axis].data()), index);
     }
     // Idle lanes are in the grid too: where they ended, or in cell (0, 0, 0).
-    const auto* top = reinterpret_cast<const std::uint32_t*>(grid_.top().data());
+    const auto* top = reinterpret_cast<const std::uint32_t*>(grid_.all_top().data());
     cells.word = hn::GatherIndex(du, top, to_ints(index));
     cells.size = hn::Set(d, static_cast<float>(frame_.division));
     if constexpr (has_levels) {
@@ -328,7 +376,7 @@ class LaneWalk {
         const auto divided =
             hn::And(walks, hn::Eq(hn::And(cells.word, hn::Set(du, CellWord::divided_bits)), hn::Zero(du)));
         if (hn::AllFalse(du, divided)) break;
-        Words cell = hn::ShiftLeft<6>(hn::ShiftRight<5>(cells.word));
+        Words cell = hn::ShiftLeft<6>(hn::ShiftRight<CellWord::brick_shift>(cells.word));
         for (int axis = 0; axis < 3; ++axis) {
           const Words position = hn::BitCast(du, hn::ShiftRightSame(finest[axis], static_cast<int>(2 * level)));
           const Words flips = hn::Sub(hn::Zero(du), hn::And(hn::ShiftRightSame(octant, axis), hn::Set(du, 1U)));
@@ -364,7 +412,7 @@ class LaneWalk {
     const auto has_list = mask_of(du, in_lists);
     static_assert(sizeof(CellList) == 2 * sizeof(std::uint32_t));  // The box is the first half.
     const auto* lists = reinterpret_cast<const std::uint32_t*>(grid_.lists().data());
-    const Words list = hn::IfThenElseZero(has_list, hn::ShiftRight<5>(cells.word));
+    const Words list = hn::IfThenElseZero(has_list, hn::ShiftRight<CellWord::list_shift>(cells.word));
     const Words box = hn::GatherIndex(du, lists, hn::BitCast(di, hn::ShiftLeft<1>(list)));
     const Words octant = hn::Load(du, paths.octant.data());
     const Words last_part = hn::Set(du, CellBox::parts - 1);
@@ -381,7 +429,7 @@ class LaneWalk {
       const auto side = [&](Words sides, Floats from) {
         return hn::MulAdd(hn::ConvertTo(d, hn::BitCast(di, sides)), part, from);
       };
-      const Floats padding = hn::Set(d, GridFrame::padding_share * frame_.float_stop[k]);
+      const Floats padding = hn::Mul(hn::Set(d, GridFrame::padding_share), hn::Load(d, paths.stop[k].data()));
       const Floats start = hn::Load(d, paths.start[k].data());
       const Floats inverse = hn::Load(d, paths.inverse_rate[k].data());
       const Floats near = side(first, hn::Sub(cells.low[k], padding));
@@ -420,7 +468,7 @@ class LaneWalk {
           hn::Floor(hn::MulAdd(tau, hn::Load(d, paths.rate[axis].data()), hn::Load(d, paths.start[axis].data())));
       const Floats current = hn::Load(d, paths.finest[axis].data());
       finest[axis] = hn::IfThenElse(hn::Eq(crossing[axis], tau), plane[axis], hn::Max(position, current));
-      inside = hn::And(inside, hn::Lt(finest[axis], hn::Set(d, frame_.float_stop[axis])));
+      inside = hn::And(inside, hn::Lt(finest[axis], hn::Load(d, paths.stop[axis].data())));
     }
     inside = hn::And(inside, walks);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -455,7 +503,8 @@ class LaneWalk {
       const Floats rate = hn::Load(d, paths.rate[k].data());
       at_entry = hn::MulAdd(hn::MulAdd(enters, rate, to_start), normal, at_entry);
       at_exit = hn::MulAdd(hn::MulAdd(leaves, rate, to_start), normal, at_exit);
-      slack = hn::MulAdd(hn::Abs(component), hn::Set(d, GridFrame::padding_share * frame_.float_stop[k]), slack);
+      const Floats padding = hn::Mul(hn::Set(d, GridFrame::padding_share), hn::Load(d, paths.stop[k].data()));
+      slack = hn::MulAdd(hn::Abs(component), padding, slack);
     }
     const Floats step = hn::Mul(cells.size, hn::Set(d, CellSlab::step));
     const Floats first = hn::ConvertTo(d, hn::ShiftRight<24>(hn::ShiftLeft<8>(slab)));
@@ -484,6 +533,7 @@ class LaneWalk {
     }
     hn::Store(hn::Set(d, static_cast<float>(order.first)), d, paths.first_cell.data());
     hn::Store(hn::Set(BitsTag(), path.octant), BitsTag(), paths.octant.data());
+    set_stops(paths);
   }
 
   const Grid& grid_;

@@ -335,7 +335,8 @@ class BlockKernel : BlockDeterminants<Scalar> {
 /// Returns the verdicts on the triangles of one vector, which begins with triangle `from`.
 template <typename Kernel, typename Scalar>
 HWY_NOINLINE Verdicts classify(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
-                               const TriangleList<Scalar>& list, const ListBounds<Scalar>& bounds, std::size_t from) {
+                               const TriangleList<Scalar>& list, const typename Kernel::Bounds& bounds,
+                               std::size_t from) {
   return Kernel(path, list, from).classify(range, bounds);
 }
 
@@ -343,8 +344,8 @@ HWY_NOINLINE Verdicts classify(const KernelPath<Scalar>& path, const RangeWeight
 /// single one is not.
 template <typename Kernel, typename Scalar>
 HWY_NOINLINE Verdicts classify(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
-                               const TriangleList<Scalar>& list, const ListBounds<Scalar>& bounds, std::size_t from,
-                               Scalar limit, FirstLanes<Scalar>& first) {
+                               const TriangleList<Scalar>& list, const typename Kernel::Bounds& bounds,
+                               std::size_t from, Scalar limit, FirstLanes<Scalar>& first) {
   const Kernel kernel(path, list, from);
   const Verdicts verdicts = kernel.classify(range, bounds);
   if (verdicts.possible != 0) first = kernel.first_of(bounds, verdicts.certain, limit);

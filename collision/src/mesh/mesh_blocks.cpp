@@ -45,18 +45,21 @@ template <typename Fit>
 bool is_smooth(const Grid& grid, const Fit& fit) {
   constexpr std::size_t samples = 32;
   constexpr std::size_t few = 8;
-  const std::size_t tops = grid.top().size();
+  const std::span<const CellWord> tops = grid.all_top();
   std::size_t thin = 0;
   std::size_t thick = 0;
   for (std::size_t sample = 0; sample < samples && 4 * thick <= samples; ++sample) {
     // The sample is the first list at or after some cell.
-    std::size_t top = tops * sample / samples;
-    const std::size_t end = tops * (sample + 1) / samples;
-    const auto is_list = [](CellWord word) { return !word.is_empty() && !word.is_divided(); };
-    while (top < end && !is_list(grid.top()[top])) ++top;
+    std::size_t top = tops.size() * sample / samples;
+    const std::size_t end = tops.size() * (sample + 1) / samples;
+    const auto is_list = [](CellWord word) { return !word.is_empty() && !word.is_divided() && !word.has_inner_grid(); };
+    while (top < end && !is_list(tops[top])) ++top;
     if (top == end) continue;
-    detail::visit_list_cells(grid, top, top + 1, [&](const detail::ListCell& cell) {
-      (is_thin(fit(cell), grid.box(cell.word)) ? thin : thick) += 1;
+    const GridFrame& frame = grid.frame_of_top(top);
+    if (!frame.has_floats) continue;
+    const std::size_t cell = top - frame.first_top;
+    detail::visit_list_cells(grid, frame, cell, cell + 1, [&](const detail::ListCell& cell_of_list) {
+      (is_thin(fit(frame, cell_of_list), grid.box(cell_of_list.word)) ? thin : thick) += 1;
     });
   }
   return 3 * thick <= thin && thin + thick > few;
@@ -147,8 +150,12 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
   };
   const auto fill = [&](CellWord word) {
     const std::span<const std::uint32_t> ids = grid.triangles(word);
-    Scalar* edge_size = blocks_.data() + offset(word.number(), grid.first_entry(word));
+    Scalar* edge_size = blocks_.data() + offset(word.list(), grid.first_entry(word));
     Scalar* list = edge_size + 1;
+    if (ids.empty()) {  // All triangles of the cell are in its inner grid.
+      *edge_size = 0;
+      return;
+    }
     Four longest = Four::Zero();
     if (ids.size() >= 4) {
       for (std::size_t i = 0; i + 4 < ids.size(); i += 4) fill_four(ids.data() + i, list + i, ids.size(), longest);
@@ -169,7 +176,7 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
   slabs_.clear();
   if (grid.lists().empty()) return;
   if constexpr (std::is_same_v<Scalar, float>) {
-    if (wanted == Slabs::where_smooth && grid.frame().has_floats && try_fill_with_slabs(grid, executor, fill)) return;
+    if (wanted == Slabs::where_smooth && try_fill_with_slabs(grid, executor, fill)) return;
   }
   fill_all(grid, executor, fill);
 }
@@ -178,31 +185,32 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
 template <typename Scalar>
 template <typename Fill>
 bool MeshBlocks<Scalar>::try_fill_with_slabs(const Grid& grid, const Executor* executor, const Fill& fill) {
-  const detail::SlabFitter fitter(grid.frame());
-  const auto fit = [&](const detail::ListCell& cell) {
+  const auto fit = [&](const detail::SlabFitter& fitter, const detail::ListCell& cell) {
     const std::size_t first_entry = grid.first_entry(cell.word);
-    return fitter.fit(cell, corners(block(cell.word.number(), first_entry)), grid.entry_count(cell.word));
+    return fitter.fit(cell, corners(block(cell.word.list(), first_entry)), grid.entry_count(cell.word));
   };
-  const auto fill_and_fit = [&](const detail::ListCell& cell) {
+  const auto fill_and_fit = [&](const GridFrame& frame, const detail::ListCell& cell) {
     fill(cell.word);
-    return fit(cell);
+    return fit(detail::SlabFitter(frame), cell);
   };
   if (!is_smooth(grid, fill_and_fit)) return false;
-  slabs_.resize(grid.lists().size() - 1);
-  const auto keep_fitted = [&](const detail::ListCell& cell) { slabs_[cell.word.number()] = fit(cell); };
-  if (executor == nullptr) {
-    // Each slab is fitted right after its list is filled, while the triangles are in the cache.
-    detail::visit_list_cells(grid, 0, grid.top().size(), [&](const detail::ListCell& cell) {
-      fill(cell.word);
-      keep_fitted(cell);
+  // The slab of a cell with an inner grid holds the whole cell.
+  slabs_.assign(grid.lists().size() - 1, CellSlab());
+  // With an executor, all lists are filled first: a fit may read beyond the end of its list, where another task may
+  // still write. Without, each slab is fitted right after its list is filled, while the triangles are in the cache.
+  if (executor != nullptr) fill_all(grid, executor, fill);
+  const auto fit_frame = [&](const GridFrame& frame) {
+    const detail::SlabFitter fitter(frame);
+    const std::size_t tops = std::size_t{frame.cells[0]} * frame.cells[1] * frame.cells[2];
+    detail::in_parts(executor, tops, top_cells_in_a_part, [&](std::size_t first, std::size_t last) {
+      detail::visit_list_cells(grid, frame, first, last, [&](const detail::ListCell& cell) {
+        if (executor == nullptr) fill(cell.word);
+        if (frame.has_floats && !cell.word.has_inner_grid()) slabs_[cell.word.list()] = fit(fitter, cell);
+      });
     });
-    return true;
-  }
-  // All lists are filled first: a fit may read beyond the end of its list, where another task may still write.
-  fill_all(grid, executor, fill);
-  detail::in_parts(executor, grid.top().size(), top_cells_in_a_part, [&](std::size_t first, std::size_t last) {
-    detail::visit_list_cells(grid, first, last, keep_fitted);
-  });
+  };
+  fit_frame(grid.frame());
+  for (const GridFrame& frame : grid.inner_frames()) fit_frame(frame);
   return true;
 }
 

@@ -66,7 +66,7 @@ class MeshBlocks {
   [[nodiscard]] bool has_slabs() const noexcept { return !slabs_.empty(); }
   /// Returns the slabs of the grid's lists, by list number, or null if there are none.
   [[nodiscard]] const CellSlab* slabs() const noexcept { return has_slabs() ? slabs_.data() : nullptr; }
-  [[nodiscard]] CellSlab slab(CellWord word) const noexcept { return slabs_[word.number()]; }
+  [[nodiscard]] CellSlab slab(CellWord word) const noexcept { return slabs_[word.list()]; }
 
  private:
   static std::size_t offset(std::size_t list, std::size_t first_entry) noexcept {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -47,7 +48,9 @@ class Batch {
         paths_(paths),
         queue_(walk_, queries, paths, alone),
         finish_(finish),
-        visitors_(for_all_slots(query_, std::make_index_sequence<slots>())) {}
+        visitors_(for_all_slots(query_, std::make_index_sequence<slots>())) {
+    for (WalkingPaths& walks : walks_) walk_.set_stops(walks);
+  }
 
   /// Answers all paths.
   HWY_INLINE void run() {
@@ -69,6 +72,7 @@ class Batch {
   static constexpr std::size_t idle_share = 4;
 
   using Jobs = ListJobs<Scalar, Visitor>;
+  struct None {};
   static constexpr bool is_float = std::is_same_v<Scalar, float>;
 
   /// Makes a visitor for each slot.
@@ -109,6 +113,7 @@ class Batch {
       for (std::size_t i = 0; i < used; ++i) {
         still |= slots_of(i, walk_.advance(cells_[i], lanes_of(i, walking_), walks_[i]));
       }
+      if (has_inner_grids_) still = change_grids(still);
       end_paths(walked & ~still);
     }
   }
@@ -146,6 +151,7 @@ class Batch {
   /// Gives the lists of these paths' cells to their visitors. Returns the paths that are done.
   HWY_INLINE std::uint64_t visit_lists(std::uint64_t arriving) {
     std::uint64_t done = 0;
+    in_inner_ = 0;
     for (std::size_t from = 0; arriving != 0; from += Jobs::max_at_once) {
       const std::uint64_t longer = from == 0 ? list_jobs<true>(arriving, 0) : list_jobs<false>(arriving, from);
       for (std::size_t first_job = 0; first_job < jobs_.count(); first_job += Jobs::max_jobs) {
@@ -158,6 +164,92 @@ class Batch {
     return done;
   }
 
+  /// Lets paths enter the inner grids of their cells, and lets those that have left an inner grid go on around it.
+  /// `still` has the slots that walk on. Returns those that walk on now.
+  HWY_NOINLINE std::uint64_t change_grids(std::uint64_t still) {
+    for (std::uint64_t entering = in_inner_ & walking_; entering != 0; entering &= entering - 1) {
+      const auto slot = static_cast<std::size_t>(std::countr_zero(entering));
+      const std::uint64_t bit = std::uint64_t{1} << slot;
+      still = enter_inner(slot, (still & bit) != 0) ? still | bit : still & ~bit;
+    }
+    in_inner_ = 0;
+    for (std::uint64_t leaving = has_outer_ & walking_ & ~still; leaving != 0; leaving &= leaving - 1) {
+      const auto slot = static_cast<std::size_t>(std::countr_zero(leaving));
+      if (Visitor::wants_order || !visitors_[slot].is_done()) still |= leave_inner(slot);
+    }
+    return still;
+  }
+
+  /// Lets the path of a slot enter the inner grid of its cell. Before, it has left the cell, and `walks_on` tells
+  /// whether there is more to walk. Returns whether there is something to walk now.
+  HWY_INLINE bool enter_inner(std::size_t slot, bool walks_on) {
+    const std::uint64_t bit = std::uint64_t{1} << slot;
+    const CellWord word(words_[slot]);
+    const GridFrame& frame = query_.grid.inner_frame(word);
+    const auto& range = queries_.range(index_[slot]);
+    const Path<Scalar> path = paths_[index_[slot]];
+    ClippedPath clipped(frame, path, range.first, range.last);
+    if (clipped.status == ClippedPath::Status::miss) return walks_on;
+    const bool is_plain = !is_float || clipped.is_clipped_in_float ||
+                          (clipped.tau.unit == std::array<double, 3>{1, 1, 1} && clipped.tau.origin[0] == 0 &&
+                           clipped.tau.origin[1] == 0);
+    const bool can_return = !walks_on || ((in_inner_frame_ & bit) == 0 && free_outer_ != 0);
+    if (clipped.status == ClippedPath::Status::too_far || !is_plain || !can_return) {
+      visited_ |= bit;
+      const auto& query = queries_.query(index_[slot]);
+      walk_inner(query, path, range, KernelInput<Scalar>(path, range, query.grid.frame()), word, visitors_[slot]);
+      if constexpr (Visitor::wants_order) {
+        shorten(slot, visitors_[slot].limit());
+        return walks_on;
+      }
+      return walks_on && !visitors_[slot].is_done();
+    }
+    if constexpr (Visitor::wants_order) {
+      clipped.end = std::min(clipped.end, clipped.beyond(visitors_[slot].limit()));
+    }
+    if (clipped.stays_in_empty_space(query_.grid, frame)) {
+      ++query_.statistics.cells;
+      return walks_on;
+    }
+    WalkingPaths& lanes = walks_[slot / max_lanes];
+    const std::size_t lane = slot % max_lanes;
+    if (walks_on) {
+      const int place = std::countr_zero(free_outer_);
+      free_outer_ &= free_outer_ - 1;
+      outer_of_[slot] = static_cast<std::uint8_t>(place);
+      OuterWalk& outer = outer_[static_cast<std::size_t>(place)];
+      outer.path = WalkingPath(lanes, lane);
+      outer.reach = jobs_.path(slot).reach;
+      if constexpr (!is_float) outer.tau = taus_[slot];
+      has_outer_ |= bit;
+    }
+    LaneWalk::put(lane, frame, clipped, lanes);
+    LaneWalk::set_stop(lane, frame, lanes);
+    if constexpr (is_float) {
+      enters_rest_[slot] = static_cast<float>(clipped.tau.origin[2] - double{lanes.enters[lane]});
+    } else {
+      taus_[slot] = clipped.tau;
+    }
+    jobs_.path(slot).reach = KernelPath<Scalar>(path, frame).reach;
+    in_inner_frame_ |= bit;
+    return true;
+  }
+
+  /// Lets the path of a slot go on around the inner grid that it has left. Returns the bit of the slot.
+  HWY_INLINE std::uint64_t leave_inner(std::size_t slot) {
+    const std::uint64_t bit = std::uint64_t{1} << slot;
+    WalkingPaths& lanes = walks_[slot / max_lanes];
+    const OuterWalk& outer = outer_[outer_of_[slot]];
+    LaneWalk::put(slot % max_lanes, query_.grid.frame(), outer.path, lanes);
+    LaneWalk::set_stop(slot % max_lanes, query_.grid.frame(), lanes);
+    jobs_.path(slot).reach = outer.reach;
+    if constexpr (!is_float) taus_[slot] = outer.tau;
+    free_outer(bit);
+    in_inner_frame_ &= ~bit;
+    if constexpr (Visitor::wants_order) shorten(slot, visitors_[slot].limit());
+    return bit;
+  }
+
   /// Makes jobs from the lists of these slots. The jobs begin with triangle `from` of each list. Returns the slots
   /// whose lists have more triangles than the jobs. If `loads_lists`, it loads the lists first. A separate loop for
   /// this would cost one more branch that cannot be predicted.
@@ -167,7 +259,11 @@ class Batch {
     std::size_t count = 0;
     for (; of_slots != 0; of_slots &= of_slots - 1) {
       const auto slot = static_cast<std::size_t>(std::countr_zero(of_slots));
-      if constexpr (loads_lists) jobs_.load_list(slot, query_, CellWord(words_[slot]), queries_.weights_in(slot));
+      if constexpr (loads_lists) {
+        const CellWord word(words_[slot]);
+        jobs_.load_list(slot, query_, word, queries_.weights_in(slot));
+        in_inner_ |= std::uint64_t{word.has_inner_grid()} << slot;
+      }
       longer |= std::uint64_t{jobs_.add(slot, from, count)} << slot;
     }
     jobs_.set_count(count);
@@ -196,7 +292,15 @@ class Batch {
   HWY_INLINE void shorten(std::size_t slot, double t) {
     WalkingPaths& lanes = walks_[slot / max_lanes];
     if constexpr (is_float) {
-      lanes.shorten(slot % max_lanes, t);
+      if ((in_inner_frame_ >> slot & 1) != 0) {
+        const std::size_t lane = slot % max_lanes;
+        const double enters = double{lanes.enters[lane]} + double{enters_rest_[slot]};
+        // Both floats together are off by less than 2^-48 of themselves.
+        const float end = ClippedPath::beyond(t, enters - std::fabs(enters) * 0x1p-48);
+        lanes.end[lane] = std::min(lanes.end[lane], end);
+      } else {
+        lanes.shorten(slot % max_lanes, t);
+      }
     } else {
       lanes.shorten(slot % max_lanes, t, taus_[slot]);
     }
@@ -211,7 +315,28 @@ class Batch {
       visitors_[slot].reset();
     }
     visited_ &= ~ended;
+    free_outer(ended);
+    for (std::uint64_t inner = ended & in_inner_frame_; inner != 0; inner &= inner - 1) {
+      const auto slot = static_cast<std::size_t>(std::countr_zero(inner));
+      LaneWalk::set_stop(slot % max_lanes, query_.grid.frame(), walks_[slot / max_lanes]);
+    }
+    in_inner_frame_ &= ~ended;
   }
+
+  /// Forgets the outer walks of some slots.
+  void free_outer(std::uint64_t of_slots) {
+    for (std::uint64_t freed = has_outer_ & of_slots; freed != 0; freed &= freed - 1) {
+      free_outer_ |= 1U << outer_of_[static_cast<std::size_t>(std::countr_zero(freed))];
+    }
+    has_outer_ &= ~of_slots;
+  }
+
+  /// A walk through the outermost grid that goes on when the path has left an inner grid.
+  struct OuterWalk {
+    WalkingPath path;  ///< The walk.
+    Scalar reach;      ///< The reach of the path in the kernel.
+    [[no_unique_address]] std::conditional_t<is_float, None, WalkParameter> tau;  ///< The parameter of the walk.
+  };
 
   std::array<WalkingPaths, vectors> walks_ = {};  ///< The walking paths.
   std::array<LaneWalk::Cells, vectors> cells_;    ///< The cells that they are in.
@@ -219,10 +344,21 @@ class Batch {
   Queries& queries_;                              ///< The queries of its paths.
   LaneWalk walk_;
   const PathSpan<Scalar>& paths_;
-  PathQueue<Scalar, Queries, Alone> queue_;               ///< The paths that wait for a lane.
-  Jobs jobs_;                                             ///< The lists that paths have come to.
-  Finish& finish_;                                        ///< Is called when a path ends.
-  std::uint64_t walking_ = 0;                             ///< The slots that hold a path.
+  PathQueue<Scalar, Queries, Alone> queue_;  ///< The paths that wait for a lane.
+  Jobs jobs_;                                ///< The lists that paths have come to.
+  Finish& finish_;                           ///< Is called when a path ends.
+  std::uint64_t walking_ = 0;                ///< The slots that hold a path.
+  const bool has_inner_grids_ = !query_.grid.inner_frames().empty();
+  std::uint64_t in_inner_ = 0;        ///< The slots whose cell has an inner grid.
+  std::uint64_t in_inner_frame_ = 0;  ///< The slots that walk through an inner grid.
+  std::uint64_t has_outer_ = 0;       ///< The slots with an outer walk.
+  /// The maximum number of outer walks. A path for which there is no place walks through the inner grid alone.
+  static constexpr std::size_t max_outer = 12;
+  std::array<OuterWalk, max_outer> outer_;            ///< The outer walks.
+  std::array<std::uint8_t, slots> outer_of_;          ///< The index of the outer walk of each slot that has one.
+  std::uint32_t free_outer_ = (1U << max_outer) - 1;  ///< The indices that no slot has.
+  /// In an inner grid, tau is t - `enters` - this. The float nearest to the t of the entry would not be enough.
+  std::array<float, is_float ? slots : 0> enters_rest_;
   std::uint64_t visited_ = 0;                             ///< The slots whose visitor was given a triangle.
   std::array<std::size_t, slots> index_ = {};             ///< The index of the path of each slot.
   std::array<Visitor, slots> visitors_;                   ///< The visitor of each slot.

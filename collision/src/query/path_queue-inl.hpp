@@ -31,7 +31,9 @@ template <typename Scalar, typename Queries, typename Alone>
 class PathQueue {
  public:
   PathQueue(const LaneWalk& walk, const Queries& queries, const PathSpan<Scalar>& paths, const Alone& alone)
-      : walk_(walk), queries_(queries), paths_(paths), alone_(alone) {}
+      : walk_(walk), queries_(queries), paths_(paths), alone_(alone) {
+    walk_.set_stops(clipped_);
+  }
 
   /// Puts waiting paths into idle lanes, and returns the lanes that it filled. For each of them it calls
   /// `enter(lane, index)`, which returns where its KernelPath goes. For paths of doubles, the call also has the
@@ -119,7 +121,7 @@ class PathQueue {
       if (clipped.status == ClippedPath::Status::too_far) result.apart |= std::uint32_t{1} << lane;
       if (clipped.status != ClippedPath::Status::clipped) continue;
       result.inside |= std::uint32_t{1} << lane;
-      walk_.put(lane, clipped, clipped_);
+      LaneWalk::put(lane, grid.frame(), clipped, clipped_);
       kernel_paths_[lane] = KernelPath<Scalar>(path, grid.frame());
       taus_[lane] = clipped.tau;
     }

@@ -21,6 +21,7 @@
 #if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
 #include "walk/lane_walk-inl.hpp"
 #endif
+#include "grid/list_cells.hpp"
 #include "narrowphase.hpp"
 #include "query/query.hpp"
 #include "walk/grid_traversal.hpp"
@@ -32,7 +33,7 @@ namespace surehit::detail::HWY_NAMESPACE {
 template <typename Scalar>
 HWY_INLINE TriangleList<Scalar> list_of(const Query<Scalar>& query, CellWord word) {
   const std::size_t first = query.grid.first_entry(word);
-  const Scalar* block = query.mesh.block(word.number(), first);
+  const Scalar* block = query.mesh.block(word.list(), first);
   return {MeshBlocks<Scalar>::corners(block), query.grid.entry_count(word), first,
           MeshBlocks<Scalar>::edge_size(block)};
 }
@@ -109,6 +110,21 @@ HWY_INLINE bool is_long(float min_cells, const Grid& grid, const ClippedPath& cl
   return way >= min_cells * static_cast<float>(grid.frame().division) && way < 0x1p20F;
 }
 
+template <typename Scalar, typename Visitor>
+void walk_inner(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
+                const KernelInput<Scalar>& input, CellWord word, Visitor& visitor);
+
+/// Gives the visitor the triangles that the path may meet in a cell with a list. Returns true if the path is shorter
+/// now, or if the visitor is done.
+template <typename Scalar, typename Visitor>
+HWY_INLINE bool visit_cell(const Query<Scalar>& query, const PathRange<Scalar>& range, const Path<Scalar>& path,
+                           const KernelInput<Scalar>& input, CellWord word, Visitor& visitor) {
+  const bool shorter = visit_list(query, range, path, input, list_of(query, word), visitor);
+  if (!word.has_inner_grid() || visitor.is_done()) return shorter;
+  walk_inner(query, path, range, input, word, visitor);
+  return true;
+}
+
 #if HWY_TARGET != HWY_SCALAR
 // The next functions walk one path in many lanes, for a visitor that is done with any hit. All lanes load their cells
 // at the same time, so the path waits less. For a first hit, most of what the later lanes find would not be needed.
@@ -126,7 +142,7 @@ HWY_INLINE void visit_cells(const Query<float>& query, const PathRange<float>& r
   hn::Store(cells.word, BitsTag(), words.data());
   for (; arriving != 0 && !visitor.is_done(); arriving &= arriving - 1) {
     const CellWord word(words[static_cast<std::size_t>(std::countr_zero(arriving))]);
-    visit_list(query, range, path, input, list_of(query, word), visitor);
+    visit_cell(query, range, path, input, word, visitor);
   }
 }
 
@@ -203,8 +219,50 @@ HWY_NOINLINE void visit_all(const Query<Scalar>& query, const Path<Scalar>& path
   }
 }
 
-/// Walks the path cell by cell from tau `enters` on, until the visitor is done. Gives the visitor the triangles that
-/// the path may meet. `When` is `AtOnce` or `OnDemand`.
+/// Walks the path cell by cell through a frame from tau `enters` on, until the visitor is done. Gives the visitor the
+/// triangles that the path may meet. `When` is `AtOnce` or `OnDemand`.
+template <typename When, typename Scalar, typename Visitor>
+HWY_INLINE void walk_frame(const GridFrame& frame, float enters, const Query<Scalar>& query, const Path<Scalar>& path,
+                           const PathRange<Scalar>& range, const ClippedPath& clipped, When& when, Visitor& visitor) {
+  GridTraversal traversal(query.grid, frame, clipped, enters);
+  if constexpr (Visitor::wants_order) {
+    if (&frame != &query.grid.frame()) traversal.shorten(visitor.limit());
+  }
+  for (; !traversal.at_end(); traversal.advance()) {
+    ++query.statistics.cells;
+    if (traversal.word().is_empty() || !traversal.meets_box()) continue;
+    if (query.mesh.has_slabs() && !traversal.meets(query.mesh.slab(traversal.word()))) continue;
+    const KernelInput<Scalar>& input = when.get(path, range, frame);
+    const bool shorter = visit_cell(query, range, path, input, traversal.word(), visitor);
+    if constexpr (Visitor::wants_order) {
+      if (shorter) traversal.shorten(visitor.limit());
+    } else if (visitor.is_done()) {
+      return;
+    }
+  }
+}
+
+/// Walks the path through the inner grid of a cell, until the visitor is done. A path that is too far away to be
+/// clipped meets all lists of the inner grid.
+template <typename Scalar, typename Visitor>
+HWY_NOINLINE void walk_inner(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
+                             const KernelInput<Scalar>& input, CellWord word, Visitor& visitor) {
+  const GridFrame& frame = query.grid.inner_frame(word);
+  const ClippedPath clipped(frame, path, range.first, range.last);
+  if (clipped.status == ClippedPath::Status::miss) return;
+  if (clipped.status == ClippedPath::Status::too_far) {
+    const std::size_t tops = std::size_t{frame.cells[0]} * frame.cells[1] * frame.cells[2];
+    visit_list_cells(query.grid, frame, 0, tops, [&](const ListCell& cell) {
+      if (!visitor.is_done()) visit_cell(query, range, path, input, cell.word, visitor);
+    });
+    return;
+  }
+  OnDemand<Scalar> when(path, range, frame);
+  walk_frame(frame, 0, query, path, range, clipped, when, visitor);
+}
+
+/// Walks the path through the outermost grid from tau `enters` on, until the visitor is done. `When` is `AtOnce` or
+/// `OnDemand`.
 template <template <typename> class When, typename Scalar, typename Visitor>
 HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<Scalar>& path,
                           const PathRange<Scalar>& range, const ClippedPath& clipped, Visitor& visitor) {
@@ -214,18 +272,7 @@ HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<S
   }
 #endif
   When<Scalar> when(path, range, query.grid.frame());
-  for (GridTraversal traversal(query.grid, clipped, enters); !traversal.at_end(); traversal.advance()) {
-    ++query.statistics.cells;
-    if (traversal.word().is_empty() || !traversal.meets_box()) continue;
-    if (query.mesh.has_slabs() && !traversal.meets(query.mesh.slab(traversal.word()))) continue;
-    const KernelInput<Scalar>& input = when.get(path, range, query.grid.frame());
-    const bool shorter = visit_list(query, range, path, input, list_of(query, traversal.word()), visitor);
-    if constexpr (Visitor::wants_order) {
-      if (shorter) traversal.shorten(visitor.limit());
-    } else if (visitor.is_done()) {
-      return;
-    }
-  }
+  walk_frame(query.grid.frame(), enters, query, path, range, clipped, when, visitor);
 }
 
 /// Gives the visitor the triangles that the path may meet, until the visitor is done. A long path of floats walks only
@@ -244,7 +291,7 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
   }
   constexpr float few_cells = 4;
   const bool is_far = is_long(few_cells, query.grid, clipped, 0);
-  if (!is_far && clipped.stays_in_empty_space(query.grid)) {
+  if (!is_far && clipped.stays_in_empty_space(query.grid, query.grid.frame())) {
     ++query.statistics.cells;
     return;
   }

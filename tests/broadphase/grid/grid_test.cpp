@@ -98,7 +98,7 @@ class GridTest : public testing::Test {
       const auto ids = grid.triangles(leaf.word);
       ASSERT_FALSE(ids.empty());
       EXPECT_EQ(std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()), ids.end());
-      EXPECT_TRUE(numbers.insert(leaf.word.number()).second);
+      EXPECT_TRUE(numbers.insert(leaf.word.list()).second);
       entries += ids.size();
     }
     EXPECT_EQ(entries, grid.entry_count());

@@ -163,8 +163,8 @@ class GridWalk : public testing::Test {
   std::size_t expect_listed(const Path<Scalar>& path, const Range& range, const Walk& walk) const {
     std::set<std::uint32_t> listed;
     for (const std::size_t leaf : walk.met) {
-      const CellWord word = (*leaves_)[leaf].word;
-      listed.insert(grid_.triangles(word).begin(), grid_.triangles(word).end());
+      const std::vector<std::uint32_t> ids = triangles_in(grid_, (*leaves_)[leaf].word);
+      listed.insert(ids.begin(), ids.end());
     }
     std::size_t met = 0;
     for (std::uint32_t id = 0; id < mesh_.triangles.size(); ++id) {
@@ -185,7 +185,7 @@ class GridWalk : public testing::Test {
     const std::size_t met = expect_listed(path, range, walk(path, range));
     met_ += met;
     const ClippedPath clipped(grid_, path, range.first, range.last);
-    if (clipped.status == ClippedPath::Status::clipped && clipped.stays_in_empty_space(grid_)) {
+    if (clipped.status == ClippedPath::Status::clipped && clipped.stays_in_empty_space(grid_, grid_.frame())) {
       ++stayed_;
       EXPECT_EQ(met, 0U) << hex_text(path) << " from " << range.first << " to " << range.last
                          << " does not stay in empty space";

@@ -29,7 +29,7 @@ class KernelList {
     blocks_ = MeshBlocks<Scalar>(mesh.view(), grid_);
     const CellWord word = grid_.top()[0];
     const std::size_t first = grid_.first_entry(word);
-    const Scalar* block = blocks_.block(word.number(), first);
+    const Scalar* block = blocks_.block(word.list(), first);
     list_ = {blocks_.corners(block), grid_.entry_count(word), blocks_.edge_size(block)};
   }
   explicit KernelList(const Triangle<Scalar>& triangle) : KernelList(std::span(&triangle, 1)) {}

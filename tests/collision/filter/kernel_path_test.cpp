@@ -50,7 +50,7 @@ class KernelPathOf : public testing::Test {
       for (GridTraversal traversal(grid, clipped); !traversal.at_end(); traversal.advance()) {
         if (traversal.word().is_empty()) continue;
         const CellWord word = traversal.word();
-        const Scalar* block = blocks.block(word.number(), grid.first_entry(word));
+        const Scalar* block = blocks.block(word.list(), grid.first_entry(word));
         const double bound = double{kernel_path.reach} + double{blocks.edge_size(block)};
         for (const std::uint32_t id : grid.triangles(word)) {
           const Eigen::Vector3d s = path.start.template cast<double>() - blocks.triangle(id).a.template cast<double>();

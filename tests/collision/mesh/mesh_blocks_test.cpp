@@ -30,7 +30,7 @@ class MeshBlocksTest : public testing::Test {
     for (const LeafCell& leaf : LeafCells(grid)) {
       if (leaf.word.is_empty()) continue;
       const auto ids = grid.triangles(leaf.word);
-      const Scalar* block = blocks.block(leaf.word.number(), grid.first_entry(leaf.word));
+      const Scalar* block = blocks.block(leaf.word.list(), grid.first_entry(leaf.word));
       Scalar edge_size = 0;
       for (std::size_t i = 0; i < ids.size(); ++i) {
         const Triangle<Scalar> copied = MeshBlocks<Scalar>::triangle(blocks.corners(block), ids.size(), i);
@@ -210,7 +210,7 @@ TYPED_TEST(MeshBlocksTest, says_that_coordinates_are_too_large_for_the_kernel) {
     mesh.add({{0, 0, 0}, {1, 0, 0}, {0, -far, 0}});
     const Grid grid = this->grid_of(mesh, {.resolution = {1, 1, 1}});
     const MeshBlocks<TypeParam> blocks(mesh.view(), grid);
-    const TypeParam* block = blocks.block(grid.top()[0].number(), grid.first_entry(grid.top()[0]));
+    const TypeParam* block = blocks.block(grid.top()[0].list(), grid.first_entry(grid.top()[0]));
     EXPECT_EQ(blocks.edge_size(block), too_large ? std::numeric_limits<TypeParam>::infinity() : far);
   }
 }

@@ -1,0 +1,202 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "grid_comparison.hpp"
+#include "support/brute_force.hpp"
+#include "support/case_count.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/pair_families.hpp"
+#include "support/pair_text.hpp"
+#include "support/path_drawer.hpp"
+#include "support/same_bits.hpp"
+#include "support/scalars.hpp"
+#include "surehit/collider.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// Props in levels. All queries must answer as asking every triangle does, to the bit.
+template <typename Scalar>
+class InnerGridComparison : public testing::Test {
+ protected:
+  static constexpr std::size_t prop_triangles = 150;
+
+  static std::vector<GridOptions> grids() {
+    return {{.crowded = 30}, {.resolution = {2, 3, 1}, .crowded = 12}, {.resolution = {1, 1, 1}, .crowded = 20}};
+  }
+
+  GeneratedMesh<Scalar> prop(Scalar ratio, const Vector3<Scalar>& offset) {
+    return placed<Scalar>(scattered_triangles<Scalar>(prop_triangles, Scalar{0.4F}, random_), 1 / ratio, offset);
+  }
+  GeneratedMesh<Scalar> level(Scalar size) {
+    return placed<Scalar>(rough_ground<Scalar>(6, Scalar{0.3F}, random_), size, {0, 0, 0});
+  }
+
+  /// Draws a path about the prop: through it, from inside, to a vertex, along a face of its box, or from far away.
+  static Path<Scalar> draw(PathDrawer<Scalar>& of_mesh, PathDrawer<Scalar>& of_prop, const Box<Scalar>& box) {
+    Random& random = of_prop.random();
+    const auto inside = [&] { return of_prop.point_around_mesh(); };
+    switch (random.below(6)) {
+      case 0:
+        return of_prop.draw();
+      case 1:
+        return of_mesh.any_kind({inside(), of_mesh.point_around_mesh()});
+      case 2:
+        return of_mesh.any_kind({of_mesh.point_around_mesh(), inside()});
+      case 3:
+        return of_prop.draw_axis_parallel();
+      case 4: {
+        Segment<Scalar> along{inside(), inside()};
+        const auto axis = static_cast<Eigen::Index>(random.below(3));
+        along.start[axis] = along.end[axis] = random.one_in(2) ? box.low[axis] : box.high[axis];
+        return of_prop.any_kind(along);
+      }
+      default:
+        return of_mesh.draw();
+    }
+  }
+
+  void compare(const GeneratedMesh<Scalar>& level, const GeneratedMesh<Scalar>& prop, std::size_t paths) {
+    const GeneratedMesh<Scalar> mesh = joined(level, prop);
+    GridComparison<Scalar> comparison(mesh.view(), {}, grids());
+    PathDrawer<Scalar> of_mesh(mesh.view(), 1);
+    PathDrawer<Scalar> of_prop(prop.view(), 2);
+    const Box<Scalar> box = box_of(prop.view());
+    std::vector<Segment<Scalar>> segments;
+    std::vector<Ray<Scalar>> rays;
+    for (std::size_t i = 0; i < case_count(paths); ++i) {
+      const Path<Scalar> path = draw(of_mesh, of_prop, box);
+      const auto hits = comparison.expect_same(path);
+      const Scalar t = hits.empty() ? of_mesh.random().template unit<Scalar>() : hits.front().t;
+      comparison.expect_same(path, draw_options(of_mesh.random(), t));
+      if (path.kind == PathKind::segment) segments.push_back({path.start, path.toward});
+      rays.push_back(
+          {path.start, path.kind == PathKind::segment ? Vector3<Scalar>(path.toward - path.start) : path.toward});
+    }
+    EXPECT_GT(comparison.hit_count(), 0U);
+    for (const Collider<Scalar>& collider : comparison.colliders()) {
+      expect_batch<Segment<Scalar>>(collider, segments);
+      expect_batch<Ray<Scalar>>(collider, rays);
+    }
+  }
+
+  /// A batch answers as single calls do.
+  template <typename AnyPath>
+  static void expect_batch(const Collider<Scalar>& collider, const std::vector<AnyPath>& paths) {
+    std::vector<Hit<Scalar>> hits(paths.size());
+    std::vector<std::uint8_t> blocked(paths.size());
+    collider.first_hits(paths, hits);
+    collider.any_hits(paths, blocked);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const auto single = collider.first_hit(paths[i]);
+      EXPECT_TRUE(same_bits(hits[i], single.value_or(Hit<Scalar>{}))) << hex_text(Path<Scalar>(paths[i]));
+      EXPECT_EQ(blocked[i], single ? 1 : 0) << hex_text(Path<Scalar>(paths[i]));
+    }
+  }
+
+  Random random_{77};
+};
+TYPED_TEST_SUITE(InnerGridComparison, Scalars, ScalarNames);
+
+TYPED_TEST(InnerGridComparison, of_props_of_all_sizes) {
+  for (const double ratio : {10., 1e3, 1e6}) {
+    SCOPED_TRACE(ratio);
+    const auto size = static_cast<TypeParam>(ratio);
+    this->compare(this->level(1), this->prop(size, {TypeParam{0.31F}, TypeParam{0.27F}, 0}), 120);
+    this->compare(this->level(size), this->prop(1, {0, 0, 0}), 120);
+  }
+}
+
+TYPED_TEST(InnerGridComparison, of_a_prop_in_a_level_of_almost_any_size) {
+  this->compare(this->level(TypeParam{1e15F}), this->prop(TypeParam{1e15F}, {0, 0, 0}), 200);
+  this->compare(this->level(TypeParam{1e30F}), this->prop(1, {0, 0, 0}), 200);
+}
+
+TYPED_TEST(InnerGridComparison, of_a_prop_that_many_cells_share) {
+  auto prop = this->prop(20, {0, 0, 0});
+  for (int i = 0; i < 4; ++i) prop = joined(prop, this->prop(20, {0, 0, 0}));
+  this->compare(this->level(1), prop, 120);
+}
+
+TYPED_TEST(InnerGridComparison, of_props_in_props) {
+  auto prop = this->prop(1e3F, {0, 0, 0});
+  for (const TypeParam ratio : {1e6F, 1e9F, 1e12F, 1e15F, 1e18F}) prop = joined(prop, this->prop(ratio, {0, 0, 0}));
+  this->compare(this->level(1), prop, 200);
+}
+
+TYPED_TEST(InnerGridComparison, of_cubes_on_whole_numbers) {
+  const auto level = placed<TypeParam>(lattice_cube<TypeParam>(6), 1024, {-3072, -3072, -3072});
+  this->compare(level, lattice_cube<TypeParam>(5), 150);
+}
+
+TYPED_TEST(InnerGridComparison, of_smooth_props) {
+  const auto bowl = placed<TypeParam>(smooth_bowl<TypeParam>(14), TypeParam{0x1p-10F}, {0.25F, 0.25F, 0});
+  this->compare(smooth_bowl<TypeParam>(14), bowl, 120);
+}
+
+TYPED_TEST(InnerGridComparison, of_a_stray_triangle) {
+  const auto ground = rough_ground<TypeParam>(10, TypeParam{0.3F}, this->random_);
+  for (const double distance : {10., 1e3, 1e5, 1e9, 1e30}) {
+    SCOPED_TRACE(distance);
+    const auto far = static_cast<TypeParam>(distance);
+    GeneratedMesh<TypeParam> stray;
+    stray.add({{far, far, far}, {far * TypeParam{1.5F}, far, far}, {far, far * TypeParam{1.5F}, far}});
+    this->compare(stray, ground, 80);
+  }
+}
+
+TYPED_TEST(InnerGridComparison, of_a_prop_that_moves_through_the_level) {
+  const auto level = this->level(1);
+  const auto prop = this->prop(1e3F, {0, 0, 0});
+  Collider<TypeParam> moving(joined(level, prop).view(), BuildOptions{this->grids().front(), {}});
+  for (int step = 0; step < 6; ++step) {
+    const TypeParam at = TypeParam{0.9F} - static_cast<TypeParam>(step) * TypeParam{0.37F};
+    const auto moved = placed<TypeParam>(prop, 1, {at, at / 3, at / 5});
+    const auto mesh = joined(level, moved);
+    moving.rebuild(mesh.vertices);
+    const Collider<TypeParam> fresh(mesh.view());
+    PathDrawer<TypeParam> of_mesh(mesh.view(), 1);
+    PathDrawer<TypeParam> of_prop(moved.view(), 2);
+    const Box<TypeParam> box = box_of(moved.view());
+    for (std::size_t i = 0; i < case_count(200); ++i) {
+      const Path<TypeParam> path = this->draw(of_mesh, of_prop, box);
+      const auto expected = brute_force_hits(mesh.view(), path, {}, {});
+      const auto hit = moving.first_hit(path);
+      EXPECT_TRUE(same_bits(hit.value_or(Hit<TypeParam>{}), expected.empty() ? Hit<TypeParam>{} : expected.front()))
+          << hex_text(path);
+      EXPECT_TRUE(same_bits(hit.value_or(Hit<TypeParam>{}), fresh.first_hit(path).value_or(Hit<TypeParam>{})));
+    }
+  }
+}
+
+/// Neither a stray triangle nor a large level around it makes a path ask more triangles.
+TYPED_TEST(InnerGridComparison, costs_little_more_than_the_prop_alone) {
+  const auto ground = rough_ground<TypeParam>(60, TypeParam{0.3F}, this->random_);
+  const Collider<TypeParam> alone(ground.view());
+  for (const double distance : {10., 1e3, 1e5, 1e9, 1e30}) {
+    SCOPED_TRACE(distance);
+    const auto far = static_cast<TypeParam>(distance);
+    auto mesh = ground;
+    mesh.add({{far, far, far}, {far * TypeParam{1.5F}, far, far}, {far, far * TypeParam{1.5F}, far}});
+    const Collider<TypeParam> collider(mesh.view());
+    PathDrawer<TypeParam> drawer(ground.view(), 1);
+    QueryStatistics with_stray;
+    QueryStatistics without;
+    for (std::size_t i = 0; i < case_count(2000); ++i) {
+      const Path<TypeParam> path = drawer.draw();
+      static_cast<void>(collider.first_hit(path, {}, &with_stray));
+      static_cast<void>(alone.first_hit(path, {}, &without));
+    }
+    EXPECT_LE(static_cast<double>(with_stray.candidates), 1.5 * static_cast<double>(without.candidates));
+    // The cells of the outermost grid are those that the stray triangle alone costs.
+    EXPECT_LE(static_cast<double>(with_stray.cells),
+              1.5 * static_cast<double>(without.cells) + 8 * static_cast<double>(without.paths));
+  }
+}
+
+}  // namespace
+}  // namespace surehit::test
