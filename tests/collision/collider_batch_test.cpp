@@ -16,7 +16,7 @@ namespace {
 template <typename Scalar>
 class ColliderBatch : public testing::Test {
  protected:
-  Collider<Scalar> stack{stack_of_triangles<Scalar>(5).view()};
+  Collider<Scalar> stack{stack_of_triangles<Scalar>(5).view(), BuildOptions{.grid = {.resolution = {2, 2, 3}}}};
 
   /// Hits and misses in turn, each hit at another triangle.
   static std::vector<Segment<Scalar>> segments(std::size_t count) {

@@ -284,7 +284,9 @@ TYPED_TEST(ColliderQueries, path_from_too_far_away_to_be_clipped_meets_every_tri
   QueryStatistics statistics;
   const TypeParam far{0x1p100};
   const Line<TypeParam> line{{0, 0, far}, {0, 0, 1}};
-  EXPECT_EQ(this->stack.first_hit(line, {}, &statistics)->triangle, 0u);
+  const Collider<TypeParam> collider(stack_of_triangles<TypeParam>(5).view(),
+                                     BuildOptions{.grid = {.resolution = {1, 1, 2}}});
+  EXPECT_EQ(collider.first_hit(line, {}, &statistics)->triangle, 0u);
   EXPECT_EQ(statistics.unclipped, 1u);
   EXPECT_EQ(statistics.candidates, 5u);
 }

@@ -107,6 +107,30 @@ TYPED_TEST(BruteForceComparison, spots_crowded_with_small_triangles) {
   this->compare(uneven, 250);
 }
 
+/// So few triangles are asked without a walk, and a path that misses their box asks none.
+TYPED_TEST(BruteForceComparison, a_few_triangles) {
+  for (const std::size_t count : {1U, 12U, 32U}) {
+    const auto mesh = scattered_triangles<TypeParam>(count, TypeParam{0.4F}, this->random_);
+    const std::vector<GridOptions> grids = {{}};
+    GridComparison<TypeParam> comparison(mesh.view(), {}, grids);
+    PathDrawer<TypeParam> drawer(mesh.view(), 3);
+    for (std::size_t i = 0; i < case_count(400); ++i) {
+      const Path<TypeParam> path = drawer.random().one_in(4) ? drawer.draw_axis_parallel() : drawer.draw();
+      const auto hits = comparison.expect_same(path);
+      comparison.expect_same(path, draw_options(drawer.random(), hits.empty() ? TypeParam{1} : hits.front().t));
+      comparison.expect_same(drawer.draw_from_afar(TypeParam{1e6F}));
+    }
+    EXPECT_GT(comparison.hit_count(), 0U);
+    EXPECT_EQ(comparison.colliders().front().grid_summary().cells, 1U);
+    QueryStatistics beside;
+    const Segment<TypeParam> segment{{2, 2, 2}, {3, 3, 3}};
+    EXPECT_FALSE(comparison.colliders().front().first_hit(segment, {}, &beside));
+    EXPECT_EQ(beside.candidates, 0U);
+  }
+  const auto more = scattered_triangles<TypeParam>(33, TypeParam{0.4F}, this->random_);
+  EXPECT_GT(Collider<TypeParam>(more.view()).grid_summary().cells, 1U);
+}
+
 TYPED_TEST(BruteForceComparison, long_paths_from_far_outside) {
   const auto mesh = rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_);
   for (const TypeParam distance :

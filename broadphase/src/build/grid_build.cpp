@@ -116,7 +116,9 @@ std::array<double, 3> wished_resolution(const GridFrame& frame, const Listed& li
   const double usual_edge = *std::max_element(width.begin(), width.end()) /  // The edge on an axis that is divided.
                             *std::max_element(usual.begin(), usual.end());
   const double share = mean > 0 ? std::min(1.0, usual_edge / (wide_cell * mean)) : 1;
-  std::array<double, 3> wished = cubic_resolution(width, std::max(1.0, share * options.cells_per_triangle * count));
+  double cells = std::max(1.0, share * options.cells_per_triangle * count);
+  if (listed.count() <= Grid::max_unwalked && cells <= Grid::max_unwalked) cells = 1;
+  std::array<double, 3> wished = cubic_resolution(width, cells);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (options.resolution[axis] != 0) wished[axis] = options.resolution[axis];
     wished[axis] = std::clamp(std::floor(wished[axis]), 1.0, max_cells_on_an_axis);
@@ -494,6 +496,7 @@ void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
     frame_.coarsen(brick_edge);
     for (GridFrame& frame : inner_frames_) frame.coarsen(brick_edge);
   }
+  is_one_list_ = top_count_ == 1 && lists_.size() == 2 && entries_.size() <= max_unwalked;
   cover_ = GridCover(*this);
 }
 

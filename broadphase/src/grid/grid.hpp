@@ -38,6 +38,7 @@ class Grid {
     return {cell % brick_edge, cell / brick_edge % brick_edge, cell / (brick_edge * brick_edge)};
   }
   static constexpr std::uint32_t max_levels = 2;
+  static constexpr std::uint32_t max_unwalked = 32;
   static constexpr std::uint32_t max_depth = 4;  ///< The maximum number of inner grids that lie in each other.
 
   /// A grid without cells.
@@ -74,6 +75,9 @@ class Grid {
   /// Returns the number of top cells of the outermost grid on each axis.
   [[nodiscard]] const std::array<std::uint32_t, 3>& resolution() const noexcept { return frame_.cells; }
   [[nodiscard]] bool is_empty() const noexcept { return entries_.empty(); }
+  /// Returns true if there is one cell, which lists at most `max_unwalked` triangles. A path can ask them all in the
+  /// time of a walk.
+  [[nodiscard]] bool is_one_list() const noexcept { return is_one_list_; }
   /// Returns the number of levels of bricks below the top cells. It is 0 if no cell is divided.
   [[nodiscard]] std::uint32_t levels() const noexcept { return levels_; }
   /// Returns the number of top cells and of cells in bricks.
@@ -124,6 +128,7 @@ class Grid {
   std::vector<GridFrame> inner_frames_;
   GridCover cover_;
   std::uint32_t levels_ = 0;
+  bool is_one_list_ = false;
   std::size_t top_count_ = 0;
   detail::UnsetVector<CellWord> top_;  ///< Longer by `top_slack` than all top cells.
   std::vector<CellWord> bricks_;

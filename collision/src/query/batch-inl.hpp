@@ -380,7 +380,10 @@ HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[
 #if HWY_TARGET != HWY_SCALAR
   // The lanes clip paths of floats in float. Paths of doubles are clipped one by one.
   const bool can_clip = std::is_same_v<Scalar, double> || grid.frame().has_floats;
-  if (can_clip && !queries.admits_nothing()) {
+  // A few paths fill too few lanes. The last paths of a large batch are asked as the others.
+  constexpr std::size_t min_paths = 12;
+  const bool are_few = paths.size() < min_paths && queries.of_batch().path == 0;
+  if (can_clip && !queries.admits_nothing() && !are_few && !grid.is_one_list()) {
     Batch<Scalar, Visitor, Queries, Finish, Alone>(queries, paths, finish, alone).run();
     return;
   }

@@ -43,6 +43,7 @@ template <typename Scalar>
 struct KernelInput {
   KernelInput(const Path<Scalar>& any_path, const PathRange<Scalar>& range, const GridFrame& frame)
       : path(any_path, frame), weights(range) {}
+  KernelInput(const KernelPath<Scalar>& any_path, const PathRange<Scalar>& range) : path(any_path), weights(range) {}
   KernelPath<Scalar> path;       ///< The path.
   RangeWeights<Scalar> weights;  ///< The weights of its range.
 };
@@ -275,6 +276,42 @@ HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<S
   walk_frame(query.grid.frame(), enters, query, path, range, clipped, when, visitor);
 }
 
+/// Returns true if the path misses the mesh's box. All comparisons are exact.
+template <typename Scalar>
+HWY_INLINE bool misses_box(const GridFrame& frame, const Path<Scalar>& path) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<Eigen::Index>(axis);
+    const double start = path.start[at];
+    const double toward = path.toward[at];
+    const double rest = path.has_end() ? start : 0;
+    // A line comes from either side.
+    const bool moves = toward != rest && !path.has_start();
+    if (start < frame.low[axis] && !(toward > rest || moves)) return true;
+    if (start > frame.high[axis] && !(toward < rest || moves)) return true;
+    if (path.has_end() && (std::max(start, toward) < frame.low[axis] || std::min(start, toward) > frame.high[axis])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Gives the visitor all triangles of a grid of one list, if the path comes to their box.
+template <typename Scalar, typename Visitor>
+HWY_INLINE void visit_only_list(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
+                                Visitor& visitor) {
+  const GridFrame& frame = query.grid.frame();
+  if (!is_finite(path) || misses_box(frame, path)) return;
+  ++query.statistics.cells;
+  Scalar reach = 0;  // The first bound of P1. The path need not come to the cell of the list.
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double start = path.start[static_cast<Eigen::Index>(axis)];
+    const double way = std::max(std::fabs(start - frame.low[axis]), std::fabs(start - frame.high[axis]));
+    reach = std::max(reach, static_cast<Scalar>(way));
+  }
+  const KernelInput<Scalar> input(KernelPath<Scalar>(path, reach), range);
+  visit_list(query, range, path, input, list_of(query, query.grid.top()[0]), visitor);
+}
+
 /// Gives the visitor the triangles that the path may meet, until the visitor is done. A long path of floats walks only
 /// through the grid's cover, if this is useful. Paths of doubles have one walk for all lengths, because two would take
 /// too much stack.
@@ -283,6 +320,10 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
                      Visitor& visitor) {
   ++query.statistics.paths;
   if (range.is_empty()) return;
+  if (query.grid.is_one_list()) {
+    visit_only_list(query, path, range, visitor);
+    return;
+  }
   ClippedPath clipped(query.grid, path, range.first, range.last);
   if (clipped.status == ClippedPath::Status::miss) return;
   if (clipped.status == ClippedPath::Status::too_far) {
