@@ -71,6 +71,11 @@ struct ClippedPath {
   ClippedPath(const Grid& grid, const Path<Scalar>& path, double first_t, double last_t) noexcept;
   ClippedPath() = default;
 
+  /// Returns true if tau is t less the last origin.
+  [[nodiscard]] bool is_unscaled() const noexcept {
+    const std::array<double, 3> one = {1, 1, 1};
+    return is_clipped_in_float || (tau.unit == one && tau.origin[0] == 0 && tau.origin[1] == 0);
+  }
   /// Returns true if the path meets nothing, because it ends in the cube of empty cells in which it begins (L6). Most
   /// short paths do. The path must be clipped. If it begins in a cell with a list, the word of its last cell is
   /// prefetched.

@@ -67,9 +67,12 @@ struct alignas(max_lanes * sizeof(float)) WalkingPaths {
   LaneFloats end;                               ///< Nothing counts beyond this tau.
   std::array<std::uint32_t, max_lanes> octant;  ///< Bit k is set if the path is mirrored on axis k.
 
-  /// Ends the walk of a lane at parameter t, because the caller does not need what the path meets beyond it. The path
-  /// must be clipped by `LaneWalk::clip`.
-  void shorten(std::size_t lane, double t) { end[lane] = std::min(end[lane], ClippedPath::beyond(t, enters[lane])); }
+  /// Ends the walk of a lane at parameter t, because the caller does not need what the path meets beyond it. Tau must
+  /// be t - `enters` - `rest`. Both floats together are off by less than 2^-48 of their sum.
+  void shorten(std::size_t lane, double t, float rest) {
+    const double sum = double{enters[lane]} + double{rest};
+    end[lane] = std::min(end[lane], ClippedPath::beyond(t, sum - std::fabs(sum) * 0x1p-48));
+  }
   /// Does the same for a path that `ClippedPath` has clipped.
   void shorten(std::size_t lane, double t, const WalkParameter& tau) { end[lane] = std::min(end[lane], tau.beyond(t)); }
 
@@ -243,6 +246,11 @@ class LaneWalk {
     paths.enters[lane] = path.enters;
     paths.end[lane] = path.end;
     paths.octant[lane] = path.octant;
+  }
+  /// Returns what the float `enters` leaves out of the t where tau is 0. The path must not be scaled.
+  static float rest_of_enters(const ClippedPath& path) {
+    const double enters = path.tau.origin[2];
+    return static_cast<float>(enters - double{static_cast<float>(enters)});
   }
   /// Puts a path that `ClippedPath` has clipped to a frame into one lane. `enters` becomes the float nearest to the t
   /// where tau is 0, if tau is t less some number.

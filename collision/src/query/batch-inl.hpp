@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -72,7 +71,6 @@ class Batch {
   static constexpr std::size_t idle_share = 4;
 
   using Jobs = ListJobs<Scalar, Visitor>;
-  struct None {};
   static constexpr bool is_float = std::is_same_v<Scalar, float>;
 
   /// Makes a visitor for each slot.
@@ -135,14 +133,18 @@ class Batch {
     const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << lanes) - 1);
     const std::uint32_t idle = all & ~lanes_of(vector, walking_);
     if (static_cast<std::size_t>(std::popcount(idle)) * idle_share < lanes) return;
-    const auto enter = [&](std::size_t lane, std::size_t index, const auto&... tau) -> KernelPath<Scalar>& {
+    const auto enter = [&](std::size_t lane, std::size_t index, const auto& parameter) -> KernelPath<Scalar>& {
       const std::size_t slot = vector * max_lanes + lane;
       index_[slot] = index;
       if constexpr (!Queries::is_shared) {
         queries_.set_weights(slot, index);
         visitors_[slot].begin(queries_.query(index));
       }
-      if constexpr (!is_float) taus_[slot] = (tau, ...);
+      if constexpr (is_float) {
+        enters_rest_[slot] = parameter;
+      } else {
+        taus_[slot] = parameter;
+      }
       return jobs_.path(slot);
     };
     walking_ |= slots_of(vector, queue_.template fill<has_levels>(idle, walks_[vector], enter));
@@ -190,11 +192,8 @@ class Batch {
     const Path<Scalar> path = paths_[index_[slot]];
     ClippedPath clipped(frame, path, range.first, range.last);
     if (clipped.status == ClippedPath::Status::miss) return walks_on;
-    const bool is_plain = !is_float || clipped.is_clipped_in_float ||
-                          (clipped.tau.unit == std::array<double, 3>{1, 1, 1} && clipped.tau.origin[0] == 0 &&
-                           clipped.tau.origin[1] == 0);
     const bool can_return = !walks_on || ((in_inner_frame_ & bit) == 0 && free_outer_ != 0);
-    if (clipped.status == ClippedPath::Status::too_far || !is_plain || !can_return) {
+    if (clipped.status == ClippedPath::Status::too_far || (is_float && !clipped.is_unscaled()) || !can_return) {
       visited_ |= bit;
       const auto& query = queries_.query(index_[slot]);
       walk_inner(query, path, range, KernelInput<Scalar>(path, range, query.grid.frame()), word, visitors_[slot]);
@@ -220,13 +219,17 @@ class Batch {
       OuterWalk& outer = outer_[static_cast<std::size_t>(place)];
       outer.path = WalkingPath(lanes, lane);
       outer.reach = jobs_.path(slot).reach;
-      if constexpr (!is_float) outer.tau = taus_[slot];
+      if constexpr (is_float) {
+        outer.parameter = enters_rest_[slot];
+      } else {
+        outer.parameter = taus_[slot];
+      }
       has_outer_ |= bit;
     }
     LaneWalk::put(lane, frame, clipped, lanes);
     LaneWalk::set_stop(lane, frame, lanes);
     if constexpr (is_float) {
-      enters_rest_[slot] = static_cast<float>(clipped.tau.origin[2] - double{lanes.enters[lane]});
+      enters_rest_[slot] = LaneWalk::rest_of_enters(clipped);
     } else {
       taus_[slot] = clipped.tau;
     }
@@ -243,7 +246,11 @@ class Batch {
     LaneWalk::put(slot % max_lanes, query_.grid.frame(), outer.path, lanes);
     LaneWalk::set_stop(slot % max_lanes, query_.grid.frame(), lanes);
     jobs_.path(slot).reach = outer.reach;
-    if constexpr (!is_float) taus_[slot] = outer.tau;
+    if constexpr (is_float) {
+      enters_rest_[slot] = outer.parameter;
+    } else {
+      taus_[slot] = outer.parameter;
+    }
     free_outer(bit);
     in_inner_frame_ &= ~bit;
     if constexpr (Visitor::wants_order) shorten(slot, visitors_[slot].limit());
@@ -292,15 +299,7 @@ class Batch {
   HWY_INLINE void shorten(std::size_t slot, double t) {
     WalkingPaths& lanes = walks_[slot / max_lanes];
     if constexpr (is_float) {
-      if ((in_inner_frame_ >> slot & 1) != 0) {
-        const std::size_t lane = slot % max_lanes;
-        const double enters = double{lanes.enters[lane]} + double{enters_rest_[slot]};
-        // Both floats together are off by less than 2^-48 of themselves.
-        const float end = ClippedPath::beyond(t, enters - std::fabs(enters) * 0x1p-48);
-        lanes.end[lane] = std::min(lanes.end[lane], end);
-      } else {
-        lanes.shorten(slot % max_lanes, t);
-      }
+      lanes.shorten(slot % max_lanes, t, enters_rest_[slot]);
     } else {
       lanes.shorten(slot % max_lanes, t, taus_[slot]);
     }
@@ -333,9 +332,9 @@ class Batch {
 
   /// A walk through the outermost grid that goes on when the path has left an inner grid.
   struct OuterWalk {
-    WalkingPath path;  ///< The walk.
-    Scalar reach;      ///< The reach of the path in the kernel.
-    [[no_unique_address]] std::conditional_t<is_float, None, WalkParameter> tau;  ///< The parameter of the walk.
+    WalkingPath path;                                              ///< The walk.
+    Scalar reach;                                                  ///< The reach of the path in the kernel.
+    std::conditional_t<is_float, float, WalkParameter> parameter;  ///< The parameter of the walk.
   };
 
   std::array<WalkingPaths, vectors> walks_ = {};  ///< The walking paths.
@@ -357,7 +356,7 @@ class Batch {
   std::array<OuterWalk, max_outer> outer_;            ///< The outer walks.
   std::array<std::uint8_t, slots> outer_of_;          ///< The index of the outer walk of each slot that has one.
   std::uint32_t free_outer_ = (1U << max_outer) - 1;  ///< The indices that no slot has.
-  /// In an inner grid, tau is t - `enters` - this. The float nearest to the t of the entry would not be enough.
+  /// What `WalkingPaths::enters` leaves out of the t where tau is 0.
   std::array<float, is_float ? slots : 0> enters_rest_;
   std::uint64_t visited_ = 0;                             ///< The slots whose visitor was given a triangle.
   std::array<std::size_t, slots> index_ = {};             ///< The index of the path of each slot.

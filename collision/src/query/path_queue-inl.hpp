@@ -36,8 +36,8 @@ class PathQueue {
   }
 
   /// Puts waiting paths into idle lanes, and returns the lanes that it filled. For each of them it calls
-  /// `enter(lane, index)`, which returns where its KernelPath goes. For paths of doubles, the call also has the
-  /// `WalkParameter` of the path.
+  /// `enter(lane, index, parameter)`, which returns where its KernelPath goes. The parameter is that of the walk: for
+  /// paths of doubles a `WalkParameter`, for paths of floats what `WalkingPaths::enters` leaves out.
   template <bool has_levels, typename Enter>
   HWY_INLINE std::uint32_t fill(std::uint32_t idle, WalkingPaths& lanes, const Enter& enter) {
     std::uint32_t all_filled = 0;
@@ -50,7 +50,7 @@ class PathQueue {
         const auto to = static_cast<std::size_t>(std::countr_zero(idle));
         from_lane[to] = static_cast<std::int32_t>(from);
         if constexpr (is_float) {
-          kernel_paths_.copy(from, enter(to, first_ + from));
+          kernel_paths_.copy(from, enter(to, first_ + from, enters_rest_[from]));
         } else {
           enter(to, first_ + from, taus_[from]) = kernel_paths_[from];
         }
@@ -91,22 +91,49 @@ class PathQueue {
   /// Clips `count` paths, one in each lane. The first of them is path `first_`.
   HWY_INLINE LaneWalk::Clipped clip(std::size_t count) {
     if constexpr (is_float) {
-      std::array<float, path_size * max_lanes> copies;  // `LaneWalk::clip` reads all lanes.
       const bool can_read_all = is_packed_ && count == hn::Lanes(FloatTag());
-      const float* const numbers = can_read_all ? paths_.packed(first_) : copy_paths(count, copies);
-      const auto ends = queries_.ends(first_, count);
-      return walk_.clip(numbers, paths_.kind() == PathKind::segment, ends.first, ends.last, count, clipped_,
-                        kernel_paths_);
+      return can_read_all ? clip_numbers(paths_.packed(first_), count) : clip_copies(count);
     } else {
       return clip_one_by_one(count);
     }
   }
 
-  /// Copies `count` paths side by side. The other lanes become zero.
-  HWY_NOINLINE const float* copy_paths(std::size_t count, std::array<float, path_size * max_lanes>& copies) const {
-    copies.fill(0);
+  /// Copies paths of floats side by side, and clips the copies. The other lanes become zero, because `LaneWalk::clip`
+  /// reads all of them.
+  HWY_NOINLINE LaneWalk::Clipped clip_copies(std::size_t count) {
+    std::array<float, path_size* max_lanes> copies = {};
     for (std::size_t i = 0; i < count; ++i) paths_.copy(first_ + i, &copies[path_size * i]);
-    return copies.data();
+    return clip_numbers(copies.data(), count);
+  }
+
+  /// Clips paths of floats that lie side by side.
+  HWY_INLINE LaneWalk::Clipped clip_numbers(const float* numbers, std::size_t count) {
+    const auto ends = queries_.ends(first_, count);
+    enters_rest_ = {};
+    const LaneWalk::Clipped clipped =
+        walk_.clip(numbers, paths_.kind() == PathKind::segment, ends.first, ends.last, count, clipped_, kernel_paths_);
+    return clipped.apart == 0 ? clipped : clip_apart(clipped);
+  }
+
+  /// Clips the paths of floats that the lanes could not clip, one by one in double. Those that must be scaled, or that
+  /// are too far away, stay apart.
+  HWY_NOINLINE LaneWalk::Clipped clip_apart(LaneWalk::Clipped result) {
+    const GridFrame& frame = queries_.of_batch().grid.frame();
+    for (std::uint32_t lanes = result.apart; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      const std::uint32_t bit = std::uint32_t{1} << lane;
+      const auto range = queries_.range(first_ + lane);
+      if (range.is_empty()) continue;
+      const Path<Scalar> path = paths_[first_ + lane];
+      const ClippedPath clipped(frame, path, range.first, range.last);
+      if (clipped.status == ClippedPath::Status::miss) result.apart &= ~bit;
+      if (clipped.status != ClippedPath::Status::clipped || !clipped.is_unscaled()) continue;
+      result.apart &= ~bit;
+      result.inside |= bit;
+      LaneWalk::put(lane, frame, clipped, clipped_);
+      enters_rest_[lane] = LaneWalk::rest_of_enters(clipped);
+    }
+    return result;
   }
 
   /// Clips paths of doubles, one by one in double. They walk in float, like all paths.
@@ -153,6 +180,8 @@ class PathQueue {
   WalkingPaths clipped_ = {};  ///< The last paths that were clipped, one in each lane.
   /// The same paths for the kernel.
   std::conditional_t<is_float, KernelLanes, std::array<KernelPath<Scalar>, max_lanes>> kernel_paths_ = {};
+  /// What `WalkingPaths::enters` leaves out of the t where tau is 0, for paths of floats.
+  LaneFloats enters_rest_ = {};
   /// The parameters of their walks, for paths of doubles.
   [[no_unique_address]] std::conditional_t<is_float, None, std::array<WalkParameter, max_lanes>> taus_;
   const LaneWalk& walk_;
