@@ -121,6 +121,15 @@ TYPED_TEST(BruteForceComparison, a_few_triangles) {
       comparison.expect_same(drawer.draw_from_afar(TypeParam{1e6F}));
     }
     EXPECT_GT(comparison.hit_count(), 0U);
+    // Lines that begin beyond the mesh, and lead away from it.
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const TypeParam side : {TypeParam{3}, TypeParam{-3}}) {
+        const Triangle<TypeParam> triangle = mesh.view().triangle(0);
+        const Vector3<TypeParam> away = side * Vector3<TypeParam>::Unit(axis);
+        const Vector3<TypeParam> inside = (triangle.a + triangle.b + triangle.c) / 3;
+        comparison.expect_same(Line<TypeParam>{inside + away, away});
+      }
+    }
     EXPECT_EQ(comparison.colliders().front().grid_summary().cells, 1U);
     QueryStatistics beside;
     const Segment<TypeParam> segment{{2, 2, 2}, {3, 3, 3}};

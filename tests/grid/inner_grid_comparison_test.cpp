@@ -40,7 +40,7 @@ class InnerGridComparison : public testing::Test {
   static Path<Scalar> draw(PathDrawer<Scalar>& of_mesh, PathDrawer<Scalar>& of_prop, const Box<Scalar>& box) {
     Random& random = of_prop.random();
     const auto inside = [&] { return of_prop.point_around_mesh(); };
-    switch (random.below(6)) {
+    switch (random.below(7)) {
       case 0:
         return of_prop.draw();
       case 1:
@@ -54,6 +54,11 @@ class InnerGridComparison : public testing::Test {
         const auto axis = static_cast<Eigen::Index>(random.below(3));
         along.start[axis] = along.end[axis] = random.one_in(2) ? box.low[axis] : box.high[axis];
         return of_prop.any_kind(along);
+      }
+      case 5: {  // From the prop to an edge of the level, or as far beyond.
+        const Vector3<Scalar> start = inside();
+        const Vector3<Scalar> end = of_mesh.point_on_mesh();
+        return of_mesh.any_kind({start, random.one_in(2) ? end : Vector3<Scalar>(start + 2 * (end - start))});
       }
       default:
         return of_mesh.draw();

@@ -63,6 +63,20 @@ TEST(CompactInt, computes_as_integers_of_any_size) {
   }
 }
 
+/// Where the products are equal, every carry counts.
+TEST(CompactInt, compares_equal_products_of_other_factors) {
+  Random random(6);
+  for (std::size_t i = case_count(20'000); i > 0; --i) {
+    const auto a = draw<126>(random);
+    const auto b = draw<126>(random);
+    ASSERT_EQ(compare_products(a + a, b, a, b + b), 0);
+    const auto c = draw<60>(random);
+    const auto d = draw<60>(random);
+    const auto e = draw<60>(random);
+    ASSERT_EQ(compare_products(c * d, e, c, d * e), 0);
+  }
+}
+
 TEST(CompactInt, holds_shifted_significands) {
   EXPECT_EQ(value_of(CompactInt<127>::shifted(3, 100, true)), -(mpz_class(3) << 100));
   EXPECT_EQ(value_of(CompactInt<127>::power_of_two(126)), mpz_class(1) << 126);
