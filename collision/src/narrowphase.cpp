@@ -1,13 +1,17 @@
 #include "narrowphase.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include "exact/exact_contact.hpp"
 #include "filter/bounded_contact.hpp"
+#include "misses_box.hpp"
 #include "support/rounding_flags.hpp"
+#include "walk/direction.hpp"
 
 namespace surehit::detail {
 namespace {
@@ -29,24 +33,17 @@ bool try_round(const BoundedContact& bounded, Hit<Scalar>& hit) {
          try_round(min_v, max_v, hit.v);
 }
 
-/// Returns true if the path is certain to miss the triangle's box, or to enter it after parameter `limit`. Comparisons
-/// of coordinates are exact. A parameter has three roundings, each by 2^-53 of itself.
+/// Returns true if the path is certain to enter the box after parameter `limit`. The parameter of each entry has three
+/// roundings, each by 2^-53 of itself. The smallest normal number covers underflow.
 template <typename Scalar>
-bool misses_box(const Path<Scalar>& path, const Triangle<Scalar>& triangle, double limit) {
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const auto [low, high] = std::minmax({triangle.a[axis], triangle.b[axis], triangle.c[axis]});
-    const Scalar start = path.start[axis];
-    const Scalar toward = path.toward[axis];
-    const Scalar rest = path.has_end() ? start : Scalar{0};
-    const bool rises = toward > rest;
-    const bool falls = toward < rest;
-    // A line may come from either side.
-    if (start < low && !(rises || (falls && !path.has_start()))) return true;
-    if (start > high && !(falls || (rises && !path.has_start()))) return true;
-    if (path.has_end() && (std::max(start, toward) < low || std::min(start, toward) > high)) return true;
-    if (!(rises || falls)) continue;
-    const double gap = double{rises ? low : high} - double{start};
-    const double way = path.has_end() ? double{toward} - double{start} : double{toward};
+bool enters_after(const Path<Scalar>& path, const std::array<Scalar, 3>& low, const std::array<Scalar, 3>& high,
+                  double limit) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double start = path.start[static_cast<Eigen::Index>(axis)];
+    const double toward = path.toward[static_cast<Eigen::Index>(axis)];
+    const double way = direction_of(path.kind, start, toward);
+    if (way == 0) continue;
+    const double gap = double{way > 0 ? low[axis] : high[axis]} - start;
     if (!std::isfinite(gap) || !std::isfinite(way)) continue;
     const double enters = gap / way;
     if (enters - std::fabs(enters) * 0x1p-50 - std::numeric_limits<double>::min() > limit) return true;
@@ -73,7 +70,13 @@ template bool share_axis_plane(const Triangle<double>&, const Triangle<double>&)
 
 template <typename Scalar>
 bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact& found, double limit) const {
-  if (misses_box(path_, triangle, limit)) return false;
+  std::array<Scalar, 3> low;
+  std::array<Scalar, 3> high;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<Eigen::Index>(axis);
+    std::tie(low[axis], high[axis]) = std::minmax({triangle.a[at], triangle.b[at], triangle.c[at]});
+  }
+  if (misses_box(path_, low, high) || enters_after(path_, low, high, limit)) return false;
   const BoundedContact bounded = double_contact(path_, triangle, range_);
   if (bounded.verdict == Verdict::miss) return false;
   found = bounded.contact;

@@ -10,17 +10,18 @@
 
 namespace surehit::benchmark {
 
+/// Where paths begin and end. "The box" is that of the mesh, and lengths are shares of its diagonal.
 enum class PathSet {
-  long_paths,      ///< both ends anywhere in the box, inflated by 1.2 about its centre
-  short_paths,     ///< 1% of the diagonal long, from anywhere in the box
-  near_paths,      ///< as long, from within 0.5% of the diagonal of the surface
-  sight_paths,     ///< from the eye to points a bit above the floor
-  edge_paths,      ///< from anywhere in the inflated box at a vertex or a point of an edge, and as far beyond
-  detail_paths,    ///< as near ones, but all triangles count alike, however small
-  edge_end_paths,  ///< from anywhere in the inflated box to exactly a vertex or the middle of an edge
-  in_plane_paths,  ///< between points of a triangle's plane, along an edge, to a vertex, or almost in the plane
-  cell_paths,      ///< between centres of cubes, at most 12 cubes apart on each axis
-  far_paths,       ///< from 10 to 1,000 diagonals away, at the mesh or past it
+  long_paths,      ///< Both ends are anywhere in the box, inflated by 1.2 about its centre.
+  short_paths,     ///< They are 1% long, and begin anywhere in the box.
+  near_paths,      ///< They are as long, and begin within 0.5% of the surface.
+  sight_paths,     ///< They go from the eye to points a bit above the floor.
+  edge_paths,      ///< They are aimed at a vertex or a point of an edge, and go as far beyond.
+  detail_paths,    ///< They are like near ones, but all triangles count alike, however small.
+  edge_end_paths,  ///< They end exactly at a vertex or the middle of an edge.
+  in_plane_paths,  ///< They lie in a triangle's plane, along an edge, or almost in the plane.
+  cell_paths,      ///< They go from centre to centre of cubes, at most 12 cubes apart on each axis.
+  far_paths,       ///< They begin 10 to 1,000 diagonals away, and are aimed at the mesh or past it.
 };
 
 inline constexpr std::array all_path_sets = {

@@ -165,6 +165,17 @@ TYPED_TEST(ColliderMesh, copy_is_its_own) {
   EXPECT_EQ(copy.first_hit(this->downwards, {.mask = 2})->triangle, 1u);
 }
 
+TYPED_TEST(ColliderMesh, is_copied_by_an_assignment_too) {
+  const Collider<TypeParam> original(stack_of_triangles<TypeParam>(3).view());
+  Collider<TypeParam> copy(stack_of_triangles<TypeParam>(1).view());
+  copy = original;
+  EXPECT_EQ(copy.triangle_count(), 3u);
+  const Collider<TypeParam>& itself = copy;
+  copy = itself;
+  EXPECT_EQ(copy.triangle_count(), 3u);
+  EXPECT_EQ(copy.first_hit(this->downwards)->triangle, original.first_hit(this->downwards)->triangle);
+}
+
 TYPED_TEST(ColliderMesh, moves_along_with_its_collider) {
   static_assert(std::is_nothrow_move_constructible_v<Collider<TypeParam>>);
   const std::vector<std::uint32_t> masks = {1, 2, 4};

@@ -137,6 +137,8 @@ TYPED_TEST(PublicSurface, refuses_arrays_that_are_not_whole) {
   EXPECT_EQ(reason(this->points_, TriangleIndexView::strided(this->triangles_[0].data(), 2, 3)),
             Reason::triangle_stride_too_small);
   EXPECT_EQ(reason(VertexView<TypeParam>::strided(nullptr, 4, 0), this->triangles_), Reason::missing_array);
+  const std::uint32_t* const no_indices = nullptr;
+  EXPECT_EQ(reason(this->points_, TriangleIndexView::strided(no_indices, 2, 0)), Reason::missing_array);
   EXPECT_TRUE(collider.try_build({strided(0), this->triangles_}));
   EXPECT_FALSE(collider.try_rebuild(seven));
   EXPECT_EQ(collider.try_rebuild(seven).error().reason, Reason::incomplete_vertex);

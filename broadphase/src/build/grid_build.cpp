@@ -35,6 +35,9 @@ constexpr double max_cells = 0x1p24;
 constexpr std::size_t max_inner_grids = std::size_t{1} << 19;
 /// The triangles of all inner grids are at most this many times those of the mesh.
 constexpr std::size_t max_inner_share = 4;
+/// 32 bits number all entries. Each inner grid has at least one entry for each of its triangles, so this many are kept
+/// for inner grids.
+constexpr std::size_t entries_for_inner_grids = std::size_t{1} << 30;
 /// The maximum number of top cells on an axis.
 constexpr double max_cells_on_an_axis = 0x1p11;
 /// Cells are cubes unless the triangles' mean box is longer on one axis than on another by more than this factor. A
@@ -151,8 +154,7 @@ class GridBuild {
         depth_(depth) {
     scratch.boxes_.resize(listed.count());
     const std::size_t free = depth == 0 ? free_entries : 0;
-    const std::size_t budget = std::min<std::size_t>(std::max(free, entries_per_triangle * listed.count()),
-                                                     std::numeric_limits<std::uint32_t>::max());
+    const std::size_t budget = std::min(std::max(free, entries_per_triangle * listed.count()), entries_left());
     // Each inner grid has at least one cell.
     const double cells_left = std::max(1.0, max_cells - max_inner_grids - static_cast<double>(grid.top_.size()));
     std::array<double, 3> wished =
@@ -247,6 +249,12 @@ class GridBuild {
     return true;
   }
 
+  /// Returns the number of entries that may still be added, besides those that are kept for inner grids.
+  [[nodiscard]] std::size_t entries_left() const {
+    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max() - entries_for_inner_grids;
+    return most - std::min(most, grid_.entries_.size());
+  }
+
   /// Makes the words, bricks, lists and entries.
   void emit_all() {
     const auto& cells = frame_.cells;
@@ -267,7 +275,7 @@ class GridBuild {
       grid_.entries_.reserve(entries);
       grid_.lists_.reserve(lists);
     }
-    spare_entries_ = std::numeric_limits<std::uint32_t>::max() - listed.size() - grid_.entries_.size();
+    spare_entries_ = entries_left() - std::min(entries_left(), listed.size());
     words.assign(top_count, 0);
     std::size_t cell = 0;
     for (std::uint32_t z = 0; z < cells[2]; ++z) {
@@ -442,7 +450,8 @@ class GridBuild {
 
 std::size_t GridScratch::memory_bytes() const noexcept {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector.front()); };
-  std::size_t sum = bytes(points_) + bytes(boxes_) + bytes(words_) + bytes(distances_);
+  std::size_t sum = bytes(points_) + bytes(boxes_) + bytes(words_) + bytes(distances_) + bytes(pending_) +
+                    bytes(inner_ids_) + bytes(current_ids_);
   const auto add = [&](const detail::CellEntries& entries) { sum += bytes(entries.cells) + bytes(entries.triangles); };
   for (const detail::CellLists& lists : lists_) {
     add(lists.entries);
@@ -475,17 +484,16 @@ void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
   levels_ = 0;
   scratch.pending_.clear();
   scratch.inner_ids_.clear();
-  scratch.max_inner_ids_ = max_inner_share * mesh.triangle_count();
+  scratch.max_inner_ids_ = std::min(max_inner_share * mesh.triangle_count(), entries_for_inner_grids);
   detail::ListedTriangles<Scalar> triangles(mesh, box, scratch.points_);
   GridBuild<detail::ListedTriangles<Scalar>>(*this, frame_, scratch, triangles, options, 0, executor);
   top_count_ = top_.size();
   const GridOptions inner_options{.cells_per_triangle = options.cells_per_triangle, .crowded = options.crowded};
   for (std::size_t i = 0; i < scratch.pending_.size(); ++i) {  // The build of an inner grid may add more of them.
     const detail::PendingGrid pending = scratch.pending_[i];
-    const std::vector<std::uint32_t> ids(
-        scratch.inner_ids_.begin() + static_cast<std::ptrdiff_t>(pending.first),
-        scratch.inner_ids_.begin() + static_cast<std::ptrdiff_t>(pending.first + pending.count));
-    detail::InnerTriangles<Scalar> some(mesh, ids);
+    const auto first = scratch.inner_ids_.begin() + static_cast<std::ptrdiff_t>(pending.first);
+    scratch.current_ids_.assign(first, first + static_cast<std::ptrdiff_t>(pending.count));
+    detail::InnerTriangles<Scalar> some(mesh, scratch.current_ids_);
     GridBuild<detail::InnerTriangles<Scalar>>(*this, inner_frames_.emplace_back(), scratch, some, inner_options,
                                               pending.depth, nullptr);
   }

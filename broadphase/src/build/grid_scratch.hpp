@@ -73,6 +73,7 @@ class GridScratch {
   detail::UnsetVector<std::uint8_t> distances_;  ///< The distances through empty cells.
   std::vector<detail::PendingGrid> pending_;     ///< All inner grids, in the order in which they are built.
   std::vector<std::uint32_t> inner_ids_;         ///< The ids of the triangles of all inner grids.
+  std::vector<std::uint32_t> current_ids_;       ///< Those of the inner grid that is built.
   std::size_t max_inner_ids_ = 0;                ///< The maximum number of `inner_ids_`.
 };
 

@@ -22,6 +22,7 @@
 #include "walk/lane_walk-inl.hpp"
 #endif
 #include "grid/list_cells.hpp"
+#include "misses_box.hpp"
 #include "narrowphase.hpp"
 #include "query/query.hpp"
 #include "walk/grid_traversal.hpp"
@@ -276,31 +277,12 @@ HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<S
   walk_frame(query.grid.frame(), enters, query, path, range, clipped, when, visitor);
 }
 
-/// Returns true if the path misses the mesh's box. All comparisons are exact.
-template <typename Scalar>
-HWY_INLINE bool misses_box(const GridFrame& frame, const Path<Scalar>& path) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto at = static_cast<Eigen::Index>(axis);
-    const double start = path.start[at];
-    const double toward = path.toward[at];
-    const double rest = path.has_end() ? start : 0;
-    // A line comes from either side.
-    const bool moves = toward != rest && !path.has_start();
-    if (start < frame.low[axis] && !(toward > rest || moves)) return true;
-    if (start > frame.high[axis] && !(toward < rest || moves)) return true;
-    if (path.has_end() && (std::max(start, toward) < frame.low[axis] || std::min(start, toward) > frame.high[axis])) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Gives the visitor all triangles of a grid of one list, if the path comes to their box.
 template <typename Scalar, typename Visitor>
 HWY_INLINE void visit_only_list(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
                                 Visitor& visitor) {
   const GridFrame& frame = query.grid.frame();
-  if (!is_finite(path) || misses_box(frame, path)) return;
+  if (!is_finite(path) || misses_box(path, frame.low, frame.high)) return;
   ++query.statistics.cells;
   Scalar reach = 0;  // The first bound of P1. The path need not come to the cell of the list.
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <algorithm>
+
+#include "surehit/path.hpp"
+
+namespace surehit::detail {
+
+/// Returns true if the path misses the box from `low` to `high`. These have three floats or doubles each. All
+/// comparisons are exact. The path may be of any kind and have any length.
+template <typename Scalar, typename Corner>
+[[gnu::always_inline]] [[nodiscard]] inline bool misses_box(const Path<Scalar>& path, const Corner& low,
+                                                            const Corner& high) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Scalar start = path.start[static_cast<Eigen::Index>(axis)];
+    const Scalar toward = path.toward[static_cast<Eigen::Index>(axis)];
+    if (path.has_end()) {
+      if (std::max(start, toward) < low[axis] || std::min(start, toward) > high[axis]) return true;
+      continue;
+    }
+    // A line comes from either side, unless it does not move.
+    const bool comes_from_both = !path.has_start() && toward != 0;
+    if (start < low[axis] && !(toward > 0 || comes_from_both)) return true;
+    if (start > high[axis] && !(toward < 0 || comes_from_both)) return true;
+  }
+  return false;
+}
+
+}  // namespace surehit::detail
