@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "collider_state.hpp"
 #include "grid_comparison.hpp"
 #include "support/brute_force.hpp"
 #include "support/case_count.hpp"
@@ -136,6 +137,27 @@ TYPED_TEST(InnerGridComparison, of_props_in_props) {
 TYPED_TEST(InnerGridComparison, of_cubes_on_whole_numbers) {
   const auto level = placed<TypeParam>(lattice_cube<TypeParam>(6), 1024, {-3072, -3072, -3072});
   this->compare(level, lattice_cube<TypeParam>(5), 150);
+}
+
+/// Rays from a prop to edges of a few small triangles that are far away, in a list of the outermost grid. The kernel's
+/// bounds must be those of the way, not of the prop.
+TYPED_TEST(InnerGridComparison, of_far_edges_beyond_a_prop) {
+  const auto few = placed<TypeParam>(scattered_triangles<TypeParam>(20, TypeParam{0.5F}, this->random_),
+                                     TypeParam{0.1F}, {1000, 700, 300});
+  const auto prop = this->prop(1, {2, 2, 2});
+  const auto mesh = joined(few, prop);
+  const Collider<TypeParam> collider(mesh.view(), BuildOptions{.grid = {.crowded = 30}});
+  ASSERT_EQ(detail::ColliderState<TypeParam>::of(collider).grid.inner_frames().size(), 1U);
+  PathDrawer<TypeParam> of_few(few.view(), 1);
+  PathDrawer<TypeParam> of_prop(prop.view(), 2);
+  std::vector<Ray<TypeParam>> rays;
+  for (std::size_t i = 0; i < case_count(12'000); ++i) {
+    const Vector3<TypeParam> start = of_prop.point_around_mesh();
+    rays.push_back({start, of_few.point_on_mesh() - start});
+    if (rays.size() < 12) continue;  // There is room for so many outer walks.
+    this->template expect_batch<Ray<TypeParam>>(collider, rays);
+    rays.clear();
+  }
 }
 
 /// On a smooth level, whose lists have slabs. The slab of a cell with a prop must hold the prop too.

@@ -4,6 +4,7 @@
 
 #include "build/cell_lister.hpp"
 #include "build/empty_space.hpp"
+#include "build/grid_resolution.hpp"
 #include "build/grid_scratch.hpp"
 #include "build/listed_triangles.hpp"
 #include "build/triangle_overlap.hpp"
@@ -25,10 +26,6 @@ constexpr std::size_t usual_entries = 4;
 constexpr std::size_t min_entries = 2;
 /// The number of triangles in a task of an executor.
 constexpr std::size_t triangles_in_a_part = std::size_t{1} << 13;
-/// The maximum number of top cells a triangle.
-constexpr double cells_per_triangle_limit = 8;
-/// A mesh of any size may have so many top cells.
-constexpr double free_cells = 0x1p20;
 /// The maximum number of top cells. Cells are counted in float, which is exact up to here.
 constexpr double max_cells = 0x1p24;
 /// The maximum number of inner grids.
@@ -38,102 +35,6 @@ constexpr std::size_t max_inner_share = 4;
 /// 32 bits number all entries. Each inner grid has at least one entry for each of its triangles, so this many are kept
 /// for inner grids.
 constexpr std::size_t entries_for_inner_grids = std::size_t{1} << 30;
-/// The maximum number of top cells on an axis.
-constexpr double max_cells_on_an_axis = 0x1p11;
-/// Cells are cubes unless the triangles' mean box is longer on one axis than on another by more than this factor. A
-/// lower factor would follow the error of the sample.
-constexpr double min_stretch = 1.5;
-/// The maximum factor between an edge of a cell and the mean of its edges.
-constexpr double max_stretch = 2;
-/// The minimum width of a cell, counted in the triangles' mean boxes. Below it, the number of cells is lowered in
-/// proportion. More cells would be faster to walk, but fewer save memory.
-constexpr double wide_cell = 2.55;
-/// The number of triangles in the sample for their mean box.
-constexpr std::size_t samples = 256;
-
-/// Returns the mean edges of the boxes in the scaled frame. The sample is spread over all that is listed. It has no
-/// period, because a mesh may have one.
-template <typename Listed>
-std::array<double, 3> mean_extent(const GridFrame& frame, const Listed& listed) {
-  const std::size_t listed_count = listed.count();
-  const std::size_t count = std::min(listed_count, samples);
-  constexpr std::uint32_t golden_ratio = 0x9e3779b9;
-  std::array<double, 3> mean = {0, 0, 0};
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t fraction = static_cast<std::uint32_t>(k) * golden_ratio;
-    const std::size_t i =
-        listed_count == count ? k : static_cast<std::size_t>(std::uint64_t{fraction} * listed_count >> 32);
-    const std::array<double, 3> extent = listed.extent(frame, i);
-    for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += extent[axis] / static_cast<double>(count);
-  }
-  return mean;
-}
-
-/// Returns a resolution of cubic cells, at most `cells` of them. An axis that is thinner than a cell has one cell.
-std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, double cells) {
-  std::array<double, 3> resolution = {1, 1, 1};
-  std::array<bool, 3> divided = {true, true, true};
-  for (int pass = 0; pass < 3; ++pass) {
-    double volume = 1;
-    int dimensions = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!divided[axis]) continue;
-      volume *= width[axis];
-      ++dimensions;
-    }
-    if (dimensions == 0) break;
-    const double size = std::pow(volume / cells, 1.0 / dimensions);
-    bool is_final = true;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!divided[axis]) continue;
-      resolution[axis] = width[axis] / size;
-      if (!(resolution[axis] >= 1)) {  // NaN if all widths are 0.
-        resolution[axis] = 1;
-        divided[axis] = false;
-        is_final = false;
-      }
-    }
-    if (is_final) break;
-  }
-  return resolution;
-}
-
-/// Returns the resolution that the options wish for. Cells have the shape of the triangles' mean box: of all cells of
-/// the same volume, triangles cross these least often. This holds because the sum of extent / edge over the axes has
-/// its minimum where all quotients are equal. If cells are narrow for the triangles, each triangle is in many lists.
-/// Then there are fewer cells.
-template <typename Listed>
-std::array<double, 3> wished_resolution(const GridFrame& frame, const Listed& listed, const GridOptions& options,
-                                        double cells_left) {
-  const std::array<double, 3> extent = mean_extent(frame, listed);
-  const auto [shortest, longest] = std::minmax({extent[0], extent[1], extent[2]});
-  const double mean = (extent[0] + extent[1] + extent[2]) / 3;
-  const bool are_stretched = mean > 0 && longest > min_stretch * shortest;
-  std::array<double, 3> width = detail::scaled_extent(frame, listed.box().low, listed.box().high);
-  for (std::size_t axis = 0; axis < 3; ++axis) {  // Stretched so that cells are cubes.
-    if (are_stretched) width[axis] /= std::clamp(extent[axis] / mean, 1 / max_stretch, max_stretch);
-  }
-  const auto count = static_cast<double>(listed.count());
-  const double usual_cells = std::max(1.0, GridOptions().cells_per_triangle * count);
-  const std::array<double, 3> usual = cubic_resolution(width, usual_cells);
-  const double usual_edge = *std::max_element(width.begin(), width.end()) /  // The edge on an axis that is divided.
-                            *std::max_element(usual.begin(), usual.end());
-  const double share = mean > 0 ? std::min(1.0, usual_edge / (wide_cell * mean)) : 1;
-  double cells = std::max(1.0, share * options.cells_per_triangle * count);
-  if (listed.count() <= Grid::max_unwalked && cells <= Grid::max_unwalked) cells = 1;
-  std::array<double, 3> wished = cubic_resolution(width, cells);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (options.resolution[axis] != 0) wished[axis] = options.resolution[axis];
-    wished[axis] = std::clamp(std::floor(wished[axis]), 1.0, max_cells_on_an_axis);
-  }
-  const double limit = std::min(std::max(free_cells, cells_per_triangle_limit * count), cells_left);
-  while (wished[0] * wished[1] * wished[2] > limit) {
-    double& finest = *std::max_element(wished.begin(), wished.end());
-    finest = std::floor(finest / 2);
-  }
-  return wished;
-}
-
 }  // namespace
 
 /// Builds a grid: the outermost one, or an inner one. `Listed` is what it lists, which has boxes and an overlap test,
@@ -158,7 +59,7 @@ class GridBuild {
     // Each inner grid has at least one cell.
     const double cells_left = std::max(1.0, max_cells - max_inner_grids - static_cast<double>(grid.top_.size()));
     std::array<double, 3> wished =
-        wished_resolution(GridFrame::around(listed.box(), {1, 1, 1}, division), listed, options, cells_left);
+        detail::wished_resolution(GridFrame::around(listed.box(), {1, 1, 1}, division), listed, options, cells_left);
     for (;;) {
       frame_ = GridFrame::around(listed.box(), wished, division);
       listed.compute_points(frame_, executor);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "exact/wide_int.hpp"
@@ -93,26 +92,8 @@ int compare_products(const CompactInt<A>& a, const CompactInt<B>& b, const Compa
   return (x.low > y.low) - (x.low < y.low);
 }
 
-template <int A, int B>
-[[nodiscard]] CompactInt<A + B> operator*(const CompactInt<A>& a, const CompactInt<B>& b) {
-  CompactInt<A + B> result;
-  result.set_product(a, b);
-  return result;
-}
-
-template <int A, int B>
-[[nodiscard]] CompactInt<std::max(A, B) + 1> operator+(const CompactInt<A>& a, const CompactInt<B>& b) {
-  CompactInt<std::max(A, B) + 1> result = a;
-  result.add(b);
-  return result;
-}
-
-template <int A, int B>
-[[nodiscard]] CompactInt<std::max(A, B) + 1> operator-(const CompactInt<A>& a, const CompactInt<B>& b) {
-  CompactInt<std::max(A, B) + 1> result = a;
-  result.add(b, true);
-  return result;
-}
+template <>
+inline constexpr bool is_exact_int<CompactInt> = true;
 
 /// Returns the number as a wide integer.
 template <int B>

@@ -267,23 +267,32 @@ int compare_products(const WideInt<A>& a, const WideInt<B>& b, const WideInt<C>&
   return order;
 }
 
-template <int A, int B>
-[[nodiscard]] WideInt<A + B> operator*(const WideInt<A>& a, const WideInt<B>& b) {
-  WideInt<A + B> result;
+/// True for the exact integers, whose bound is part of the type.
+template <template <int> class Int>
+constexpr bool is_exact_int = false;
+template <>
+inline constexpr bool is_exact_int<WideInt> = true;
+
+template <template <int> class Int, int A, int B>
+requires is_exact_int<Int>
+[[nodiscard]] Int<A + B> operator*(const Int<A>& a, const Int<B>& b) {
+  Int<A + B> result;
   result.set_product(a, b);
   return result;
 }
 
-template <int A, int B>
-[[nodiscard]] WideInt<std::max(A, B) + 1> operator+(const WideInt<A>& a, const WideInt<B>& b) {
-  WideInt<std::max(A, B) + 1> result = a;
+template <template <int> class Int, int A, int B>
+requires is_exact_int<Int>
+[[nodiscard]] Int<std::max(A, B) + 1> operator+(const Int<A>& a, const Int<B>& b) {
+  Int<std::max(A, B) + 1> result = a;
   result.add(b);
   return result;
 }
 
-template <int A, int B>
-[[nodiscard]] WideInt<std::max(A, B) + 1> operator-(const WideInt<A>& a, const WideInt<B>& b) {
-  WideInt<std::max(A, B) + 1> result = a;
+template <template <int> class Int, int A, int B>
+requires is_exact_int<Int>
+[[nodiscard]] Int<std::max(A, B) + 1> operator-(const Int<A>& a, const Int<B>& b) {
+  Int<std::max(A, B) + 1> result = a;
   result.add(b, true);
   return result;
 }
