@@ -50,15 +50,9 @@ class BatchRounding {
     static_assert(sizeof(Triangle<float>) == 9 * sizeof(float));
     // Each copy has four numbers: three coordinates, and the number after them. There is none after the last vector of
     // the path, and none after the last corner. So those copies begin one number earlier.
-    if (is_packed_) {
-      copy(0, paths_.packed(index), 0);
-      copy(1, paths_.packed(index), 2);
-    } else {
-      std::array<float, 6> numbers;
-      paths_.copy(index, numbers.data());
-      copy(0, numbers.data(), 0);
-      copy(1, numbers.data(), 2);
-    }
+    const float* const path = is_packed_ ? paths_.packed(index) : copy_path(index);
+    copy(0, path, 0);
+    copy(1, path, 2);
     copy(2, &first.triangle(), 0);
     copy(3, &first.triangle(), 3);
     copy(4, &first.triangle(), 5);
@@ -115,6 +109,12 @@ class BatchRounding {
     std::memcpy(four.data(), static_cast<const char*>(numbers) + from * sizeof(float), sizeof four);
   }
 
+  /// Copies the numbers of a path that does not lie in six floats in a row.
+  HWY_NOINLINE const float* copy_path(std::size_t index) {
+    paths_.copy(index, path_.data());
+    return path_.data();
+  }
+
   /// Lets the narrowphase decide and round hit i.
   HWY_NOINLINE void round_alone(std::size_t i) {
     const Path<float> path = paths_[index_[i]];
@@ -132,6 +132,7 @@ class BatchRounding {
   const bool is_packed_ = paths_.is_packed();  ///< True if paths can be read in place.
   std::span<Hit<float>> hits_;                 ///< The answers.
   std::size_t count_ = 0;                      ///< The number of hits to round.
+  std::array<float, 6> path_;                  ///< The path that `copy_path` has copied.
   /// The start of each path, its end or direction, and the three corners of the triangle. Each has one number more, as
   /// `add` copies it. Lanes after the last hit have any finite numbers.
   alignas(max_hits * sizeof(float)) std::array<std::array<std::array<float, 4>, max_hits>, 5> vectors_ = {};
