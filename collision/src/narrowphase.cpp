@@ -9,6 +9,7 @@
 
 #include "exact/exact_contact.hpp"
 #include "filter/bounded_contact.hpp"
+#include "filter/plane_contact.hpp"
 #include "misses_box.hpp"
 #include "support/rounding_flags.hpp"
 #include "walk/direction.hpp"
@@ -69,7 +70,8 @@ template bool share_axis_plane(const Triangle<float>&, const Triangle<float>&);
 template bool share_axis_plane(const Triangle<double>&, const Triangle<double>&);
 
 template <typename Scalar>
-bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact& found, double limit) const {
+bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact& found, double limit,
+                                       Closeness closeness) const {
   std::array<Scalar, 3> low;
   std::array<Scalar, 3> high;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -77,7 +79,9 @@ bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact
     std::tie(low[axis], high[axis]) = std::minmax({triangle.a[at], triangle.b[at], triangle.c[at]});
   }
   if (misses_box(path_, low, high) || enters_after(path_, low, high, limit)) return false;
-  const BoundedContact bounded = double_contact(path_, triangle, range_);
+  BoundedContact bounded;
+  if (closeness == Closeness::unknown) bounded = double_contact(path_, triangle, range_);
+  if (bounded.verdict == Verdict::undecided) bounded = plane_contact(path_, triangle, range_);
   if (bounded.verdict == Verdict::miss) return false;
   found = bounded.contact;
   if (bounded.verdict == Verdict::undecided && !find_exactly(triangle, found)) return false;
@@ -113,11 +117,13 @@ template <typename Scalar>
 bool Narrowphase<Scalar>::comes_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const {
   if (x.contact.t_upper < y.contact.t_lower) return true;
   if (y.contact.t_upper < x.contact.t_lower) return false;
+  // Where a path starts in two triangles, both t are the begin of the range.
+  if (x.contact.at_start && y.contact.at_start) return x.id < y.id;
   // In levels, most ties are floors that lie on floors. If neither contact is edge-on, the path crosses the plane, so
   // both t are equal.
   if (x.contact.side != Side::edge_on && y.contact.side != Side::edge_on) {
-    // Where a path ends in two triangles, both t are 1. Where it starts in two, both are 0.
-    const bool share_end = (x.contact.at_end && y.contact.at_end) || (x.contact.at_start && y.contact.at_start);
+    // Where a path ends in two triangles, both t are 1.
+    const bool share_end = x.contact.at_end && y.contact.at_end;
     if (share_end || share_axis_plane(x.triangle, y.triangle)) return x.id < y.id;
   }
   return exactly_before(x, y);
@@ -145,13 +151,19 @@ Hit<Scalar> Narrowphase<Scalar>::hit(const Candidate<Scalar>& candidate) const {
   Hit<Scalar> hit;
   hit.triangle = candidate.id;
   hit.side = candidate.contact.side;
-  if (!try_round(double_contact(path_, candidate.triangle, range_), hit)) round_exactly(candidate, hit);
+  const bool crosses = hit.side != Side::edge_on;
+  if (!try_round(crosses ? double_contact(path_, candidate.triangle, range_)
+                         : plane_contact(path_, candidate.triangle, range_),
+                 hit)) {
+    round_exactly(candidate, hit);
+  }
   return hit;
 }
 
 template <typename Scalar>
 [[gnu::noinline]] void Narrowphase<Scalar>::round_exactly(const Candidate<Scalar>& candidate, Hit<Scalar>& hit) const {
-  if (try_round(bounded_contact(path_, candidate.triangle, range_), hit)) return;
+  const bool crosses = candidate.contact.side != Side::edge_on;
+  if (crosses && try_round(bounded_contact(path_, candidate.triangle, range_), hit)) return;
   ++statistics_.exact_roundings;
   exact_rounding(path_, candidate.triangle, range_, hit);
 }

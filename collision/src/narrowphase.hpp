@@ -27,8 +27,15 @@ struct Candidate {
   Contact contact;            ///< The contact. It is set if the path meets the triangle.
 };
 
+/// What is known of a path and a triangle before the narrowphase.
+enum class Closeness : std::uint8_t {
+  unknown,  ///< Nothing is known.
+  close,    ///< The determinants in double have not decided the pair.
+};
+
 /// Decides one path against triangles that may be hit. The kernel has not called them misses. The first stage works in
-/// double. Running error bounds decide what it leaves undecided. Exact integers decide the rest.
+/// double. For paths in the plane of a wall it needs two coordinates alone. Running error bounds decide what it leaves
+/// undecided. Exact integers decide the rest.
 template <typename Scalar>
 class Narrowphase {
  public:
@@ -37,10 +44,11 @@ class Narrowphase {
       : path_(path), options_(options), range_(range), statistics_(statistics) {}
 
   /// Returns true, with the contact in `found`, if the path meets the triangle and the options on contacts admit it.
-  /// Otherwise `found` has no meaning. A contact after parameter `limit` may count as none. Masks, filters and the
-  /// ignored triangle are for the caller.
+  /// Otherwise `found` has no meaning. A close pair begins with the second stage. A contact after parameter `limit` may
+  /// count as none. Masks, filters and the ignored triangle are for the caller.
   [[nodiscard]] bool find_contact(const Triangle<Scalar>& triangle, Contact& found,
-                                  double limit = std::numeric_limits<double>::infinity()) const;
+                                  double limit = std::numeric_limits<double>::infinity(),
+                                  Closeness closeness = Closeness::unknown) const;
 
   /// Returns true if x comes before y: by the exact t, then by the id.
   [[nodiscard]] bool comes_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const;

@@ -27,6 +27,9 @@ struct PathRange {
     if (!(options.max_t >= last)) last = options.max_t;
   }
 
+  /// Makes the range of these parameters.
+  PathRange(Scalar any_first, Scalar any_last) : first(any_first), last(any_last) {}
+
   /// Returns true if the range has no finite t. An exact t is always finite.
   [[nodiscard]] bool is_empty() const { return !(first <= last && first < infinity && last > -infinity); }
 

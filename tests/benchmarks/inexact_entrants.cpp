@@ -80,10 +80,6 @@ class Unfiltered : BlockDeterminants<float> {
     const float t = height / det;
     return {hits, t, t};
   }
-
-  /// Nothing is left open.
-  template <typename... Any>
-  HWY_INLINE static void classify_each(const Any&...) {}
 };
 
 /// The shipped kernel with its bounds of a list, but that lanes which these leave undecided are misses and t is as
@@ -108,8 +104,6 @@ class WithoutExactStage : public BlockKernel<float> {
                                                                  std::uint64_t hits) {
     return Unfiltered::first_of_one({}, height, det, hits);
   }
-  template <typename... Any>
-  HWY_INLINE static void classify_each(const Any&...) {}
 };
 
 /// Keeps the hit of least t as computed; of equal ones the first that it is given.

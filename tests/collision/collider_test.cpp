@@ -227,9 +227,9 @@ TYPED_TEST(ColliderQueries, statistics_count_what_a_query_did) {
   EXPECT_EQ(statistics.exact_decisions, 0u);
   EXPECT_EQ(statistics.unclipped, 0u);
 
-  QueryStatistics in_plane;
-  static_cast<void>(
-      this->stack.first_hit(Segment<TypeParam>{{-1, this->quarter, 2}, {1, this->quarter, 2}}, {}, &in_plane));
+  QueryStatistics in_plane;  // The path meets one corner alone.
+  const TypeParam half{0.5F};
+  static_cast<void>(this->stack.first_hit(Segment<TypeParam>{{half, -half, 2}, {1 + half, half, 2}}, {}, &in_plane));
   EXPECT_GE(in_plane.undecided, 1u);
   EXPECT_GE(in_plane.exact_decisions, 1u);
   EXPECT_EQ(in_plane.exact_roundings, 1u);

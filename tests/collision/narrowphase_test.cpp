@@ -139,12 +139,35 @@ TYPED_TEST(NarrowphaseOf, contact_at_the_limit_counts) {
   expect_hit(Ray<TypeParam>{{0, 0, -3}, {0, 0, 1}}, 3);
 }
 
-TYPED_TEST(NarrowphaseOf, contact_in_the_plane_takes_exact_arithmetic) {
-  this->path_ = Segment<TypeParam>{{-1, TypeParam{0.25}, 0}, {2, TypeParam{0.25}, 0}};
-  const auto candidate = this->candidate_of(unit_triangle<TypeParam>(), 0);
+TYPED_TEST(NarrowphaseOf, contact_in_a_tilted_plane_takes_exact_arithmetic) {
+  const TypeParam quarter{0.25};
+  this->path_ = Segment<TypeParam>{{-1, quarter, 1 + quarter}, {2, quarter, quarter - 2}};
+  const auto candidate = this->candidate_of({{0, 0, 0}, {0, 1, 1}, {1, 0, -1}}, 0);
   static_cast<void>(this->narrowphase_.hit(candidate));
   EXPECT_EQ(this->statistics_.exact_decisions, 1u);
   EXPECT_EQ(this->statistics_.exact_roundings, 1u);
+}
+
+TYPED_TEST(NarrowphaseOf, contact_in_the_plane_of_a_wall_takes_no_exact_decision) {
+  this->path_ = Segment<TypeParam>{{-1, TypeParam{0.25}, 0}, {2, TypeParam{0.25}, 0}};
+  const auto candidate = this->candidate_of(unit_triangle<TypeParam>(), 0);
+  EXPECT_TRUE(same_bits(this->narrowphase_.hit(candidate),
+                        rounded_hit<TypeParam>(*exact_contact<TypeParam>(this->path_, unit_triangle<TypeParam>()))));
+  EXPECT_EQ(this->statistics_.exact_decisions, 0u);
+  if constexpr (std::is_same_v<TypeParam, float>) {
+    EXPECT_EQ(this->statistics_.exact_roundings, 0u);
+  }
+}
+
+/// Where a path starts in two triangles, both t are 0, even if it lies in the plane of one of them.
+TYPED_TEST(NarrowphaseOf, order_of_a_start_in_a_plane_takes_no_exact_arithmetic) {
+  this->path_ = Segment<TypeParam>{{0, 0, 0}, {1, 1, 0}};
+  const auto in_plane = this->candidate_of(unit_triangle<TypeParam>(), 4);
+  const auto crossed = this->candidate_of({{0, 0, 0}, {0, 1, 1}, {1, 0, -1}}, 9);
+  const auto decisions = this->statistics_.exact_orders;
+  EXPECT_TRUE(this->narrowphase_.comes_before(in_plane, crossed));
+  EXPECT_FALSE(this->narrowphase_.comes_before(crossed, in_plane));
+  EXPECT_EQ(this->statistics_.exact_orders, decisions);
 }
 
 /// Where a path ends in two triangles, both t are 1.

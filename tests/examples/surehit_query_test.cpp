@@ -173,10 +173,11 @@ TEST_F(SurehitQuery, warns_of_a_mesh_once) {
 
 TEST_F(SurehitQuery, says_what_its_queries_did) {
   write_squares();
-  // Three through both squares, one beside them, and four in the plane of one, which only exact arithmetic decides.
+  // Three through both squares, one beside them, and four in the plane of one. These meet a corner alone, which only
+  // exact arithmetic decides.
   std::string paths = "9 9 9  8 8 8\n";
   for (int i = 0; i < 3; ++i) paths += "0.5 0.25 -1  0.5 0.25 3\n";
-  for (int i = 0; i < 4; ++i) paths += "0.25 -1 1  0.75 2 1\n";
+  for (int i = 0; i < 4; ++i) paths += "0.5 -0.5 1  1.5 0.5 1\n";
   write("paths", paths);
   for (const std::string question : {"first", "any", "all"}) {
     const Outcome silent = run(question + " squares.obj paths");

@@ -16,8 +16,7 @@ struct QueryStatistics {
   /// The number of candidates: the lengths of all lists that paths met. A triangle counts once for each list. An
   /// unclipped path has all triangles as candidates.
   std::uint64_t candidates = 0;
-  /// The number of candidates that the kernel's bounds could not call a miss or a hit. Single queries use bounds for a
-  /// whole list. A batch for first hits also uses bounds for each triangle.
+  /// The number of candidates that the kernel's bounds for the whole list could not call a miss or a hit.
   std::uint64_t undecided = 0;
   /// The number of times that exact arithmetic had to decide whether a path meets a triangle.
   std::uint64_t exact_decisions = 0;

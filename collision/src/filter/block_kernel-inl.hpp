@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "filter/kernel_path.hpp"
 #include "support/lane_bits-inl.hpp"
@@ -60,40 +61,33 @@ HWY_INLINE hn::TFromD<D> min_of_lanes(D d, hn::Vec<D> v) {
 #endif
 }
 
-/// The terms that each determinant sums: its six products, or their absolute values for an error bound (K6).
-enum class Products : std::uint8_t { as_they_are, by_size };
-
 /// The determinants of Möller and Trumbore (1997) in working precision. Each lane of a vector has its own triangle of
-/// the list. The first lane has triangle `from`.
-template <typename Scalar, Products products = Products::as_they_are>
+/// the list. The first lane has triangle `from`. The list's coordinates may be floats where the arithmetic is in
+/// double.
+template <typename Scalar, typename Coordinate = Scalar>
 class BlockDeterminants {
  public:
-  HWY_INLINE BlockDeterminants(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list, std::size_t from)
+  HWY_INLINE BlockDeterminants(const KernelPath<Scalar>& path, const TriangleList<Coordinate>& list, std::size_t from)
       : left_(list.count - from) {
-    constexpr bool by_size = products == Products::by_size;
     const auto load = [&](std::size_t coordinate) {
-      return hn::LoadU(d_, list.corners + (coordinate * list.count + from));
+      const Coordinate* const first = list.corners + (coordinate * list.count + from);
+      if constexpr (std::is_same_v<Scalar, Coordinate>) {
+        return hn::LoadU(d_, first);
+      } else {
+        return hn::PromoteTo(d_, hn::LoadU(hn::Rebind<Coordinate, Tag>(), first));
+      }
     };
-    const auto factor = [&](V x) {
-      if constexpr (by_size) return hn::Abs(x);
-      return x;
-    };
-    const auto difference = [&](V x, V y) { return factor(hn::Sub(x, y)); };
-    const auto dot = [&](V x0, V y0, V x1, V y1, V x2, V y2) {
+    const auto dot = [](V x0, V y0, V x1, V y1, V x2, V y2) {
       return hn::MulAdd(x0, y0, hn::MulAdd(x1, y1, hn::Mul(x2, y2)));
     };
-    const auto cross = [&](V x1, V y2, V x2, V y1) {
-      const V second = hn::Mul(x2, y1);
-      if constexpr (by_size) return hn::MulAdd(x1, y2, second);
-      return hn::MulSub(x1, y2, second);
-    };
-    const V d0 = factor(all(path.d[0])), d1 = factor(all(path.d[1])), d2 = factor(all(path.d[2]));
+    const auto cross = [](V x1, V y2, V x2, V y1) { return hn::MulSub(x1, y2, hn::Mul(x2, y1)); };
+    const V d0 = all(path.d[0]), d1 = all(path.d[1]), d2 = all(path.d[2]);
     const V a0 = load(0), a1 = load(1), a2 = load(2);
-    const V e0 = difference(load(3), a0), e1 = difference(load(4), a1), e2 = difference(load(5), a2);
-    const V f0 = difference(load(6), a0), f1 = difference(load(7), a1), f2 = difference(load(8), a2);
-    const V s0 = difference(all(path.start[0]), a0);
-    const V s1 = difference(all(path.start[1]), a1);
-    const V s2 = difference(all(path.start[2]), a2);
+    const V e0 = hn::Sub(load(3), a0), e1 = hn::Sub(load(4), a1), e2 = hn::Sub(load(5), a2);
+    const V f0 = hn::Sub(load(6), a0), f1 = hn::Sub(load(7), a1), f2 = hn::Sub(load(8), a2);
+    const V s0 = hn::Sub(all(path.start[0]), a0);
+    const V s1 = hn::Sub(all(path.start[1]), a1);
+    const V s2 = hn::Sub(all(path.start[2]), a2);
     const V p0 = cross(d1, f2, d2, f1), p1 = cross(d2, f0, d0, f2), p2 = cross(d0, f1, d1, f0);
     const V q0 = cross(s1, e2, s2, e1), q1 = cross(s2, e0, s0, e2), q2 = cross(s0, e1, s1, e0);
     det_ = dot(e0, p0, e1, p1, e2, p2);
@@ -111,31 +105,6 @@ class BlockDeterminants {
   [[no_unique_address]] Tag d_;
   std::size_t left_;  ///< The number of triangles from `from` on. Lanes after them are ignored.
   V det_, height_, u_, v_;
-};
-
-/// The same bounds as in `ListBounds`, for each triangle by itself (K6).
-template <typename Scalar>
-class BlockBounds : BlockDeterminants<Scalar, Products::by_size> {
-  using Base = BlockDeterminants<Scalar, Products::by_size>;
-  using Base::all;
-  using typename Base::V;
-
- public:
-  HWY_INLINE BlockBounds(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list, std::size_t from,
-                         const RangeWeights<Scalar>& weights)
-      : Base(path, list, from) {
-    using Bound = KernelBound<Scalar>;
-    const V share = all(Bound::relative / 6);  // K6: this is 11 eps.
-    const V underflow = all(Bound::underflow);
-    side = hn::MulAdd(hn::Add(hn::Add(this->u_, this->v_), this->det_), share, underflow);
-    det = hn::MulAdd(this->det_, share, underflow);
-    height = hn::MulAdd(this->height_, share, det);
-    range = hn::MulAdd(this->height_, all(weights.t_bound / 6), hn::Mul(det, all(weights.det_size)));
-    min_side = hn::Neg(hn::Add(side, det));
-    min_end = hn::Neg(hn::Add(range, det));
-  }
-
-  V side, range, det, height, min_side, min_end;
 };
 
 /// A filter made of the determinants and their error bounds. Its verdicts are certain, with fused operations or
@@ -164,9 +133,9 @@ class BlockBounds : BlockDeterminants<Scalar, Products::by_size> {
 /// K15. For any range, the pair is a miss if an end, times sigma, is below -(its bound) and |det| is above r.
 /// Proof. Then sigma is the sign of the exact det, and the exact end, times sigma, is negative.
 ///     At a hit the ends are (t - first) det and (last - t) det by K1. Times sigma, they are at least zero.
-template <typename Scalar>
-class BlockKernel : BlockDeterminants<Scalar> {
-  using Base = BlockDeterminants<Scalar>;
+template <typename Scalar, typename Coordinate = Scalar>
+class BlockKernel : BlockDeterminants<Scalar, Coordinate> {
+  using Base = BlockDeterminants<Scalar, Coordinate>;
   using Base::all;
   using Base::d_;
   using Base::det_;
@@ -181,21 +150,35 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// The bounds for all triangles of a list. They are scalars, which the kernel loads into all lanes.
   using Bounds = ListBounds<Scalar>;
   HWY_INLINE static Bounds bounds(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
-                                  const TriangleList<Scalar>& list) {
+                                  const TriangleList<Coordinate>& list) {
     return {path.d_size, path.reach + list.edge_size, list.edge_size, range};
   }
 
-  HWY_INLINE BlockKernel(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list, std::size_t from)
+  HWY_INLINE BlockKernel(const KernelPath<Scalar>& path, const TriangleList<Coordinate>& list, std::size_t from)
       : Base(path, list, from) {}
 
   /// Returns the certain misses and hits, by K12 to K15. A separate bound for each sign of det would need twice as many
   /// comparisons. Each comparison is true only for a certain verdict. If sizes might overflow, the bounds are infinite
   /// or NaN. Then all comparisons are false, and nothing is certain.
   [[nodiscard]] HWY_INLINE Verdicts classify(const RangeWeights<Scalar>& range, const Bounds& bounds) const {
-    const struct {
-      V side, range, det, min_side, min_end;
-    } in_all_lanes = {all(bounds.side), all(bounds.range), all(bounds.det), all(bounds.min_side), all(bounds.min_end)};
-    return classify_by(range, in_all_lanes);
+    const V sign = hn::And(det_, all(Scalar{-0.0}));
+    const V det = hn::Abs(det_), height = hn::Xor(height_, sign);
+    const V u = hn::Xor(u_, sign), v = hn::Xor(v_, sign), w = hn::Sub(hn::Sub(det, u), v);
+    const V side = hn::Min(hn::Min(u, v), w);
+    auto misses = hn::Lt(side, all(bounds.min_side));  // K13
+    V end;
+    if (range.is_whole) [[likely]] {
+      end = hn::Min(height, hn::Sub(det, height));
+      misses = hn::Or(misses, hn::Lt(end, all(bounds.min_end)));  // K14
+    } else {
+      const V first = hn::MulAdd(height, all(range.t_first), hn::Mul(det, all(range.det_first)));
+      const V last = hn::MulAdd(height, all(range.t_last), hn::Mul(det, all(range.det_last)));
+      end = hn::Min(first, last);
+      misses = hn::Or(misses, hn::And(hn::Lt(end, all(-bounds.range)), hn::Gt(det, all(bounds.det))));  // K15
+    }
+    const auto hits = hn::And(hn::Gt(side, all(bounds.side)), hn::Gt(end, all(bounds.range)));  // K12
+    const std::uint64_t possible = bits_of(d_, hn::AndNot(misses, hn::FirstN(d_, left_)));
+    return {possible, range.decides ? possible & bits_of(d_, hits) : 0};
   }
 
   /// The path crosses the triangles' planes at t = height / det.
@@ -208,7 +191,14 @@ class BlockKernel : BlockDeterminants<Scalar> {
   /// interval of t is that of K16.
   [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(const Bounds& bounds, const Crossing& crossing,
                                                               std::uint64_t certain, Scalar limit) {
-    return first_of(all(bounds.det), all(bounds.height), crossing, certain, limit);
+    const Tag d;
+    const V infinity = all(std::numeric_limits<Scalar>::infinity());
+    const Interval<Tag> t = interval_of_t(d, all(bounds.det), all(bounds.height), crossing.det, crossing.height);
+    const auto taken = mask_of(d, certain);
+    const V lower = hn::IfThenElse(taken, t.lower, infinity);
+    const Scalar t_upper = min_of_lanes(d, hn::IfThenElse(taken, t.upper, infinity));
+    const auto lanes = hn::And(taken, hn::Le(lower, all(std::min(t_upper, limit))));
+    return {bits_of(d, lanes), min_of_lanes(d, lower), t_upper};
   }
 
   /// The same for the only certain hit, with its crossing. It does not wait for other lanes. It has no limit, because
@@ -235,47 +225,7 @@ class BlockKernel : BlockDeterminants<Scalar> {
     return first_of_one(bounds, height[lane], det[lane], certain);
   }
 
-  /// Classifies the possible triangles again, each by its own products (K6). A list's bounds are too large if it has
-  /// one large triangle among small ones. They are also too large if an edge or the path is along an axis, because most
-  /// of the six products are small then. Fewer pairs need the narrowphase after this. It is not inlined, because few
-  /// lists need it.
-  HWY_NOINLINE static void classify_each(const KernelPath<Scalar>& path, const TriangleList<Scalar>& list,
-                                         std::size_t from, const RangeWeights<Scalar>& range, Scalar limit,
-                                         Verdicts& verdicts, FirstLanes<Scalar>& first) {
-    constexpr Scalar too_large = std::numeric_limits<Scalar>::infinity();
-    if (!(list.edge_size < too_large && path.d_size < too_large)) return;
-    const BlockKernel kernel(path, list, from);
-    const BlockBounds<Scalar> bounds(path, list, from, range);
-    const Verdicts each = kernel.classify_by(range, bounds);
-    verdicts.possible &= each.possible;
-    verdicts.certain = verdicts.possible & (verdicts.certain | each.certain);
-    first = first_of(bounds.det, bounds.height, kernel.crossing(), verdicts.certain, limit);
-  }
-
  private:
-  /// Classifies by `BlockBounds`, or by any limits with the same member names.
-  template <typename Limits>
-  [[nodiscard]] HWY_INLINE Verdicts classify_by(const RangeWeights<Scalar>& range, const Limits& limits) const {
-    const V sign = hn::And(det_, all(Scalar{-0.0}));
-    const V det = hn::Abs(det_), height = hn::Xor(height_, sign);
-    const V u = hn::Xor(u_, sign), v = hn::Xor(v_, sign), w = hn::Sub(hn::Sub(det, u), v);
-    const V side = hn::Min(hn::Min(u, v), w);
-    auto misses = hn::Lt(side, limits.min_side);  // K13
-    V end;
-    if (range.is_whole) [[likely]] {
-      end = hn::Min(height, hn::Sub(det, height));
-      misses = hn::Or(misses, hn::Lt(end, limits.min_end));  // K14
-    } else {
-      const V first = hn::MulAdd(height, all(range.t_first), hn::Mul(det, all(range.det_first)));
-      const V last = hn::MulAdd(height, all(range.t_last), hn::Mul(det, all(range.det_last)));
-      end = hn::Min(first, last);
-      misses = hn::Or(misses, hn::And(hn::Lt(end, hn::Neg(limits.range)), hn::Gt(det, limits.det)));  // K15
-    }
-    const auto hits = hn::And(hn::Gt(side, limits.side), hn::Gt(end, limits.range));  // K12
-    const std::uint64_t possible = bits_of(d_, hn::AndNot(misses, hn::FirstN(d_, left_)));
-    return {possible, range.decides ? possible & bits_of(d_, hits) : 0};
-  }
-
   template <class D>
   struct Interval {
     hn::Vec<D> lower, upper;
@@ -292,7 +242,7 @@ class BlockKernel : BlockDeterminants<Scalar> {
   ///     Then |det| - r_det > 2/3 |det|, which saves a second division.
   ///     Of the 66 eps in a bound, K2 uses 48 eps. The other 18 eps times the product of sizes are spare.
   ///     By K3, they are at least 3 eps |det| in r_det, and at least 3 eps |height| in r_height.
-  ///     Together, they are 6 eps |t|. For a triangle's own products, K6 has the same 3 eps of 11 eps.
+  ///     Together, they are 6 eps |t|.
   ///     The inverse, t, and the sum of t and the bound are rounded once each. So 3 eps |t| stay spare.
   ///
   /// K17. The factor 1.5 + 2^-17 and the term `min` cover the roundings and the underflow of the bound itself.
@@ -315,18 +265,6 @@ class BlockKernel : BlockDeterminants<Scalar> {
     const auto known = hn::And(hn::Ge(bound, hn::Zero(d)), hn::Lt(bound, infinity));
     return {hn::IfThenElse(known, hn::Sub(t, bound), hn::Neg(infinity)),
             hn::IfThenElse(known, hn::Add(t, bound), infinity)};
-  }
-
-  [[nodiscard]] HWY_INLINE static FirstLanes<Scalar> first_of(V det_bound, V height_bound, const Crossing& crossing,
-                                                              std::uint64_t certain, Scalar limit) {
-    const Tag d;
-    const V infinity = all(std::numeric_limits<Scalar>::infinity());
-    const Interval<Tag> t = interval_of_t(d, det_bound, height_bound, crossing.det, crossing.height);
-    const auto taken = mask_of(d, certain);
-    const V lower = hn::IfThenElse(taken, t.lower, infinity);
-    const Scalar t_upper = min_of_lanes(d, hn::IfThenElse(taken, t.upper, infinity));
-    const auto lanes = hn::And(taken, hn::Le(lower, all(std::min(t_upper, limit))));
-    return {bits_of(d, lanes), min_of_lanes(d, lower), t_upper};
   }
 };
 

@@ -64,11 +64,9 @@ namespace surehit::detail {
 //     K2 and K4 left out a few eps. The distance s may be too small by a factor 1 - 2^-21 (P1).
 //     All of this is below 2^-18 of the bound. The step from 60 to 66 is a tenth of it.
 //
-// K6. A triangle's own six products give a closer bound. Let M be the computed sum of their absolute values.
-//     Then 11 eps M may replace 66 eps times the product of sizes.
-// Proof. By K2, a determinant is off by 8 eps M. It is at most M, so the two roundings of K4 add 2 eps M.
-//     The sum is 10 eps M, and 11 leaves a tenth of it. A term of M passes through at most 8 roundings.
-//     A bound made from such sums adds 6 more. All of this is far below a tenth.
+// K6. In double, the bounds also hold for paths and lists of floats, though the edge size is a float.
+// Proof. All coordinates are doubles too. The edge size was rounded to float, which may make it smaller by 2^-24.
+//     It occurs twice at most in a term. So this is far below the tenth that K5 leaves.
 //
 // K7. Underflow changes W and the ends of the range by at most 12 eta (1 + l) (1 + |first|).
 //     Here l is the largest size, and `first` is either limit of the range.

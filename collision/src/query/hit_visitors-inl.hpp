@@ -15,9 +15,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "filter/block_kernel-inl.hpp"
+#include "filter/classify_in_double-inl.hpp"
+#include "filter/kernel_path.hpp"
 #include "narrowphase.hpp"
 #include "path_range.hpp"
 #include "query/query.hpp"
@@ -53,8 +56,31 @@ struct CandidateBlock {
   }
 };
 
-/// Gives the candidates of some lanes to the visitor one by one, with a narrowphase that can decide them. Returns true
-/// if the path is shorter now.
+/// Some lanes of a block that the visitor has not decided.
+struct OpenLanes {
+  std::uint64_t lanes;  ///< The mask of these lanes.
+  std::uint64_t close;  ///< Those that double cannot decide.
+};
+
+/// Classifies some lanes of a block of floats in double. The visitor takes what is certain now. Returns the lanes that
+/// are still to be decided. If the path is shorter now, `shorter` is true.
+template <typename AnyPath, typename Visitor>
+HWY_INLINE OpenLanes look_again(const CandidateBlock<float, AnyPath>& block, const Path<float>& path,
+                                std::uint64_t lanes, Visitor& visitor, bool& shorter) {
+  // Where the order matters, double also tells which of two hits is first.
+  const std::uint64_t again = Visitor::wants_order ? lanes : lanes & ~block.verdicts.certain;
+  double limit = std::numeric_limits<double>::infinity();
+  if constexpr (Visitor::wants_order) limit = visitor.limit();  // `t_upper` may be rounded down.
+  const auto in_double = KernelPath<double>::of_floats(path, block.query.grid.frame());
+  FirstLanes<float> first;
+  const Verdicts verdicts = classify_in_double(in_double, block.range, block.list, block.from, again, limit, first);
+  const CandidateBlock<float, AnyPath> now = {block.query, block.range, block.path, block.list,
+                                              block.from,  verdicts,    first};
+  return {(lanes & ~again) | visitor.take_certain(now, shorter), verdicts.possible & ~verdicts.certain};
+}
+
+/// Gives the candidates of some lanes to the visitor one by one, with a narrowphase that can decide them. Lanes of
+/// floats are classified in double before. Returns true if the path is shorter now.
 template <typename Scalar, typename AnyPath, typename Visitor>
 HWY_NOINLINE bool visit_one_by_one(const CandidateBlock<Scalar, AnyPath>& block, std::uint64_t lanes,
                                    Visitor& visitor) {
@@ -63,11 +89,14 @@ HWY_NOINLINE bool visit_one_by_one(const CandidateBlock<Scalar, AnyPath>& block,
     if (visitor.take_tie(block, lanes, shorter)) return shorter;
   }
   const Path<Scalar>& path = block.path;  // A Path that is made here lives as long as this reference.
+  OpenLanes open = {lanes, 0};
+  if constexpr (std::is_same_v<Scalar, float>) open = look_again(block, path, lanes, visitor, shorter);
   const typename Visitor::Narrowphase narrowphase(path, block.query.options, block.range, block.query.statistics);
-  for (; lanes != 0 && !visitor.is_done(); lanes &= lanes - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+  for (; open.lanes != 0 && !visitor.is_done(); open.lanes &= open.lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(open.lanes));
     Candidate<Scalar> candidate{block.query.grid.entries()[block.entry(lane)], block.triangle(lane), {}};
-    shorter |= visitor.take(block.query, narrowphase, candidate);
+    const Closeness closeness = (open.close >> lane & 1) != 0 ? Closeness::close : Closeness::unknown;
+    shorter |= visitor.take(block.query, narrowphase, candidate, closeness);
   }
   return shorter;
 }
@@ -150,16 +179,17 @@ class FirstHit {
   }
 
   /// Lets the narrowphase decide a candidate. Keeps it and returns true if it comes first.
-  HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate) {
+  HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate,
+                         Closeness closeness) {
     if (!query.takes_part(candidate.id) || (is_found() && grid_ == &query.grid && candidate.id == id())) return false;
-    if (!narrowphase.find_contact(candidate.triangle, candidate.contact, limit())) return false;
+    if (!narrowphase.find_contact(candidate.triangle, candidate.contact, limit(), closeness)) return false;
     if (is_found() && !narrowphase.comes_before(candidate, decide_best(narrowphase))) return false;
     if (query.filter != nullptr && !query.accepts(narrowphase.hit(candidate))) return false;
     state_ = State::decided;
     grid_ = &query.grid;
     best_ = candidate;
-    // Rounding to nearest moves these bounds by at most eps |t|. They are compared with the kernel's interval. It is
-    // wider than it needs to be by 3 eps |t| (K16).
+    // Rounding to nearest moves these bounds by at most eps |t|. They are compared with intervals of the kernel. In
+    // float, these are wider than they need to be by 3 eps |t| (K16). In double, they were rounded outwards to floats.
     t_lower_ = static_cast<Scalar>(best_.contact.t_lower);
     t_upper_ = static_cast<Scalar>(best_.contact.t_upper);
     return true;
@@ -260,9 +290,11 @@ class AnyHit {
     return is_done_ ? 0 : block.verdicts.possible;
   }
   /// Lets the narrowphase decide a candidate. Returns true if it is a hit that counts.
-  HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate) {
+  HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate,
+                         Closeness closeness) {
     if (!query.takes_part(candidate.id)) return false;
-    if (!narrowphase.find_contact(candidate.triangle, candidate.contact)) return false;
+    constexpr double no_limit = std::numeric_limits<double>::infinity();
+    if (!narrowphase.find_contact(candidate.triangle, candidate.contact, no_limit, closeness)) return false;
     return is_done_ = query.filter == nullptr || query.accepts(narrowphase.hit(candidate));
   }
   /// Returns true if there is a hit.
@@ -286,9 +318,13 @@ class AllHits {
     return block.verdicts.possible;
   }
   /// Lets the narrowphase decide a candidate, and keeps it if the path meets it. Returns false.
-  HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate) {
+  HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate,
+                         Closeness closeness) {
     if (!query.takes_part(candidate.id)) return false;
-    if (narrowphase.find_contact(candidate.triangle, candidate.contact)) found_.push_back(candidate);
+    constexpr double no_limit = std::numeric_limits<double>::infinity();
+    if (narrowphase.find_contact(candidate.triangle, candidate.contact, no_limit, closeness)) {
+      found_.push_back(candidate);
+    }
     return false;
   }
   /// Returns false, because there may always be more hits.

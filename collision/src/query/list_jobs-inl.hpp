@@ -102,7 +102,7 @@ class ListJobs {
       open += open_[open].verdicts.possible != 0 ? 1 : 0;
     }
     if constexpr (Visitor::wants_order) {
-      for (std::size_t i = 0; i < open; ++i) locate_first(i, queries, visitors);
+      for (std::size_t i = 0; i < open; ++i) locate_first(i, visitors);
     }
     return std::span(open_).first(open);
   }
@@ -120,8 +120,8 @@ class ListJobs {
   };
 
   /// Locates the certain hits of an open job that may be the first one.
-  template <typename Queries, typename Visitors>
-  HWY_INLINE void locate_first(std::size_t i, const Queries& queries, const Visitors& visitors) {
+  template <typename Visitors>
+  HWY_INLINE void locate_first(std::size_t i, const Visitors& visitors) {
     const hn::ScalableTag<Scalar> d;
     const auto& [height, det] = crossings_[i];
     auto& [slot, from, verdicts, first] = open_[i];
@@ -133,10 +133,6 @@ class ListJobs {
     const Scalar limit = visitors[slot].t_upper();
     first =
         Kernel::first_of(bounds_[slot], {hn::Load(d, height.data()), hn::Load(d, det.data())}, verdicts.certain, limit);
-    const bool is_clear = verdicts.certain == verdicts.possible && (first.lanes & (first.lanes - 1)) == 0;
-    if (!is_clear) [[unlikely]] {
-      Kernel::classify_each(kernel_path_[slot], lists_[slot], from, queries.weights_in(slot), limit, verdicts, first);
-    }
   }
 
   /// Fetches the beginning of a list into the cache. If the list is short, it also fetches what lies after it. More

@@ -217,7 +217,7 @@ HWY_NOINLINE void visit_all(const Query<Scalar>& query, const Path<Scalar>& path
   const typename Visitor::Narrowphase narrowphase(path, query.options, range, query.statistics);
   for (std::uint32_t id = 0; id < query.mesh.triangle_count() && !visitor.is_done(); ++id) {
     Candidate<Scalar> candidate{id, query.mesh.triangle(id), {}};
-    visitor.take(query, narrowphase, candidate);
+    visitor.take(query, narrowphase, candidate, Closeness::unknown);
   }
 }
 

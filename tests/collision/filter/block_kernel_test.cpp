@@ -36,14 +36,14 @@ void expect_never_wrong(const Path<Scalar>& path, const std::vector<Triangle<Sca
   for (const std::int64_t target : instruction_sets()) {
     const ForcedInstructionSet forced(target);
     const Verdict by_list = list.verdict(path, range, i);
-    const Verdict by_itself = list.verdict_of_its_own(path, range, i);
+    const Verdict in_double = list.verdict_in_double(path, range, i);
     if (by_list != Verdict::undecided) {
-      EXPECT_EQ(by_itself, by_list) << name_of_instruction_set(target) << ": " << hex_text(path)
+      EXPECT_EQ(in_double, by_list) << name_of_instruction_set(target) << ": " << hex_text(path)
                                     << hex_text(triangles[i]);
     }
-    if (by_itself == Verdict::undecided) continue;
+    if (in_double == Verdict::undecided) continue;
     if (!truth) truth = exact_contact(path, triangles[i], options).has_value();
-    EXPECT_EQ(by_itself == Verdict::hit, *truth)
+    EXPECT_EQ(in_double == Verdict::hit, *truth)
         << name_of_instruction_set(target) << ": " << hex_text(path) << hex_text(triangles[i]) << hex_text(options)
         << ", triangle " << i << " of " << triangles.size();
   }
@@ -101,13 +101,8 @@ class BlockKernel : public testing::Test {
                          const QueryOptions<Scalar>& options = {}) {
     return KernelList<Scalar>(triangle).verdict(path, PathRange<Scalar>(path, options), 0);
   }
-  static Verdict verdict_of_its_own(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
-                                    const QueryOptions<Scalar>& options = {}) {
-    return KernelList<Scalar>(triangle).verdict_of_its_own(path, PathRange<Scalar>(path, options), 0);
-  }
   static void expect_undecided(const Path<Scalar>& path, const Triangle<Scalar>& triangle) {
     EXPECT_EQ(verdict(path, triangle), Verdict::undecided);
-    EXPECT_EQ(verdict_of_its_own(path, triangle), Verdict::undecided);
   }
 
   /// Small multiples of powers of two around `exponent`. They often cancel exactly.
@@ -230,26 +225,39 @@ TYPED_TEST(BlockKernel, leaves_a_list_undecided_if_one_of_its_triangles_is_huge)
   on_every_instruction_set([&] {
     EXPECT_EQ(KernelList<TypeParam>(unit).verdict(path, PathRange<TypeParam>(path, {}), 0), Verdict::hit);
     EXPECT_EQ(KernelList<TypeParam>(triangles).verdict(path, PathRange<TypeParam>(path, {}), 0), Verdict::undecided);
-    EXPECT_EQ(KernelList<TypeParam>(triangles).verdict_of_its_own(path, PathRange<TypeParam>(path, {}), 0),
+    EXPECT_EQ(KernelList<TypeParam>(triangles).verdict_in_double(path, PathRange<TypeParam>(path, {}), 0),
               Verdict::undecided);
   });
 }
 
-TYPED_TEST(BlockKernel, decides_small_triangles_beside_a_large_one_by_their_own_sizes) {
-  using Scalar = TypeParam;
-  // So large that a small one is nowhere clear of its list's bound.
-  const Scalar large = std::ldexp(Scalar{1}, std::numeric_limits<Scalar>::digits / 2);
-  const std::vector<Triangle<Scalar>> triangles = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
-                                                   {{2, 0, 0}, {3, 0, 0}, {2, 1, 0}},
-                                                   {{-large, 0, -1}, {large, 0, -1}, {0, large, -1}}};
-  const KernelList<Scalar> list(triangles);
-  const Path<Scalar> path =
-      Segment<Scalar>{{Scalar(0.25), Scalar(0.25), 1}, {Scalar(0.25), Scalar(0.25), Scalar(-0.5)}};
-  const PathRange<Scalar> range(path, {});
+TEST(BlockKernelInDouble, decides_small_triangles_beside_a_large_one) {
+  // It is so large that a small one is nowhere clear of its list's bound in float.
+  const float large = std::ldexp(1.0F, std::numeric_limits<float>::digits / 2);
+  const std::vector<Trianglef> triangles = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                                            {{2, 0, 0}, {3, 0, 0}, {2, 1, 0}},
+                                            {{-large, 0, -1}, {large, 0, -1}, {0, large, -1}}};
+  const KernelList<float> list(triangles);
+  const Pathf path = Segmentf{{0.25F, 0.25F, 1}, {0.25F, 0.25F, -0.5F}};
+  const PathRange<float> range(path, {});
   on_every_instruction_set([&] {
     for (const std::size_t small : {0U, 1U}) EXPECT_EQ(list.verdict(path, range, small), Verdict::undecided);
-    EXPECT_EQ(list.verdict_of_its_own(path, range, 0), Verdict::hit);
-    EXPECT_EQ(list.verdict_of_its_own(path, range, 1), Verdict::miss);
+    EXPECT_EQ(list.verdict_in_double(path, range, 0), Verdict::hit);
+    EXPECT_EQ(list.verdict_in_double(path, range, 1), Verdict::miss);
+  });
+}
+
+TEST(BlockKernelInDouble, decides_a_path_from_far_away) {
+  const float far = 0x1p20F;
+  const Trianglef triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const KernelList<float> list(triangle);
+  on_every_instruction_set([&] {
+    for (const bool hits : {true, false}) {
+      const float x = hits ? 0x1p-20F : -0x1p-20F;
+      const Pathf path = Segmentf{{x, 0.25F, far}, {x, 0.25F, -far}};
+      const PathRange<float> range(path, {});
+      EXPECT_EQ(list.verdict(path, range, 0), Verdict::undecided);
+      EXPECT_EQ(list.verdict_in_double(path, range, 0), hits ? Verdict::hit : Verdict::miss);
+    }
   });
 }
 
@@ -324,50 +332,6 @@ TYPED_TEST(BlockKernel, is_certain_from_its_bounds_on) {
     EXPECT_EQ(down_from(6 - 928 * eps, {.max_t = 3}), Verdict::hit);
     EXPECT_EQ(down_from(6 + 920 * eps, {.max_t = 3}), Verdict::undecided);
     EXPECT_EQ(down_from(6 + 928 * eps, {.max_t = 3}), Verdict::miss);
-  });
-}
-
-/// Tests the same bounds for a triangle's own products.
-TYPED_TEST(BlockKernel, is_certain_from_the_bounds_of_its_products_on) {
-  const TypeParam eps = std::numeric_limits<TypeParam>::epsilon() / 2;
-  const TypeParam quarter{0.25};
-  const TypeParam half{0.5};
-  const Triangle<TypeParam> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  const auto down_at = [&](TypeParam x, TypeParam y) {
-    return this->verdict_of_its_own(Segment<TypeParam>{{x, y, 1}, {x, y, -1}}, triangle);
-  };
-  const auto down_from = [&](TypeParam z, const QueryOptions<TypeParam>& options) {
-    return this->verdict_of_its_own(Ray<TypeParam>{{quarter, quarter, z}, {0, 0, -2}}, triangle, options);
-  };
-  const auto along = [&](TypeParam from, TypeParam to) {
-    return this->verdict_of_its_own(Segment<TypeParam>{{quarter, quarter, from}, {quarter, quarter, to}}, triangle);
-  };
-  on_every_instruction_set([&] {
-    // The bound of a side is 11 eps times the sum of the sizes of U = 2 x, V = 2 y and det = 2. It is 27.5 eps where U
-    // is tested. It is 44 eps where W = 2 (1/2 - y) is tested. For a miss, det's bound of 22 eps is added.
-    EXPECT_EQ(down_at(TypeParam(13.5) * eps, quarter), Verdict::undecided);
-    EXPECT_EQ(down_at(14 * eps, quarter), Verdict::hit);
-    EXPECT_EQ(down_at(TypeParam(-24.5) * eps, quarter), Verdict::undecided);
-    EXPECT_EQ(down_at(-25 * eps, quarter), Verdict::miss);
-    EXPECT_EQ(down_at(half, half - 21 * eps), Verdict::undecided);
-    EXPECT_EQ(down_at(half, half - 23 * eps), Verdict::hit);
-    EXPECT_EQ(down_at(half, half + 32 * eps), Verdict::undecided);
-    EXPECT_EQ(down_at(half, half + 34 * eps), Verdict::miss);
-    // For a segment that begins at z, the bound is 11 eps of T = z and of twice det. This is 44 eps.
-    EXPECT_EQ(along(43 * eps, -2), Verdict::undecided);
-    EXPECT_EQ(along(45 * eps, -2), Verdict::hit);
-    EXPECT_EQ(along(-65 * eps, -2), Verdict::undecided);
-    EXPECT_EQ(along(-67 * eps, -2), Verdict::miss);
-    // For a ray, it is 11 eps of T = z, which is close to 0, and of twice det. This is 44 eps.
-    EXPECT_EQ(down_from(43 * eps, {}), Verdict::undecided);
-    EXPECT_EQ(down_from(45 * eps, {}), Verdict::hit);
-    EXPECT_EQ(down_from(-43 * eps, {}), Verdict::undecided);
-    EXPECT_EQ(down_from(-45 * eps, {}), Verdict::miss);
-    // The bound of 3 det - T is 11 eps of T = 6 and of 1 + 3 times det. This is 154 eps. 3 det - T is 6 - z.
-    EXPECT_EQ(down_from(6 - 152 * eps, {.max_t = 3}), Verdict::undecided);
-    EXPECT_EQ(down_from(6 - 160 * eps, {.max_t = 3}), Verdict::hit);
-    EXPECT_EQ(down_from(6 + 152 * eps, {.max_t = 3}), Verdict::undecided);
-    EXPECT_EQ(down_from(6 + 160 * eps, {.max_t = 3}), Verdict::miss);
   });
 }
 

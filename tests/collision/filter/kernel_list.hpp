@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "grid/grid.hpp"
@@ -42,11 +43,11 @@ class KernelList {
     const std::size_t from = vector_of(i);
     return verdict_of(verdicts_from(path, range, from), i - from);
   }
-  /// Once each triangle has been weighed by its own products.
-  [[nodiscard]] detail::Verdict verdict_of_its_own(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
-                                                   std::size_t i) const {
+  /// The same of the kernel in double.
+  [[nodiscard]] detail::Verdict verdict_in_double(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
+                                                  std::size_t i) const {
     const std::size_t from = vector_of(i);
-    return verdict_of(each_from(path, range, from, std::numeric_limits<Scalar>::infinity()).verdicts, i - from);
+    return verdict_of(in_double_from(path, range, from, std::numeric_limits<Scalar>::infinity()).verdicts, i - from);
   }
 
   [[nodiscard]] KernelVerdicts verdicts_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
@@ -66,9 +67,18 @@ class KernelList {
     return first_of_one(kernel_path(path), weights, list_, from, lane);
   }
 
-  [[nodiscard]] KernelEach<Scalar> each_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
-                                             std::size_t from, Scalar limit) const {
-    return classify_each(kernel_path(path), detail::RangeWeights<Scalar>(range), list_, from, limit);
+  /// For a list of doubles, this is what the kernel says anyway.
+  [[nodiscard]] KernelInDouble<Scalar> in_double_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
+                                                      std::size_t from, Scalar limit) const {
+    if constexpr (std::is_same_v<Scalar, float>) {
+      const std::size_t count = std::min(kernel_lanes<Scalar>(), list_.count - from);
+      const auto all = static_cast<std::uint64_t>((std::uint64_t{1} << count) - 1);
+      const auto in_double = detail::KernelPath<double>::of_floats(path, grid_.frame());
+      return classify_in_double(in_double, range, list_, from, all, limit);
+    } else {
+      const KernelVerdicts verdicts = verdicts_from(path, range, from);
+      return {verdicts, first_from(path, from, verdicts.certain, limit)};
+    }
   }
 
  private:

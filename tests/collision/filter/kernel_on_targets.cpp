@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 // Behind foreach_target.h.
 #include "filter/block_kernel-inl.hpp"
+#include "filter/classify_in_double-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
@@ -39,37 +40,32 @@ FirstLanes<Scalar> first_of_one_on(const KernelPath<Scalar>& path, const RangeWe
                               hn::ExtractLane(crossing.det, lane), std::uint64_t{1} << lane);
 }
 
-template <typename Scalar>
-test::KernelEach<Scalar> each_of(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,
-                                 const TriangleList<Scalar>& list, std::size_t from, Scalar limit) {
-  Verdicts verdicts = verdicts_of(path, range, list, from);
-  FirstLanes<Scalar> first = first_lanes_of(path, range, list, from, verdicts.certain, limit);
-  BlockKernel<Scalar>::classify_each(path, list, from, range, limit, verdicts, first);
+test::KernelInDouble<float> in_double(const KernelPath<double>& path, const PathRange<float>& range,
+                                      const test::KernelTriangles<float>& list, std::size_t from, std::uint64_t lanes,
+                                      double limit) {
+  FirstLanes<float> first;
+  const Verdicts verdicts = classify_in_double(path, range, list_of(list), from, lanes, limit, first);
   return {{verdicts.possible, verdicts.certain}, {first.lanes, first.t_lower, first.t_upper}};
 }
 
-#define SUREHIT_DEFINE(Scalar)                                                                                        \
-  test::KernelVerdicts verdicts_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,           \
-                                         const test::KernelTriangles<Scalar>& list, std::size_t from) {               \
-    const Verdicts verdicts = verdicts_of<Scalar>(path, range, list_of(list), from);                                  \
-    return {verdicts.possible, verdicts.certain};                                                                     \
-  }                                                                                                                   \
-  test::KernelFirst<Scalar> first_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,         \
-                                           const test::KernelTriangles<Scalar>& list, std::size_t from,               \
-                                           std::uint64_t certain, Scalar limit) {                                     \
-    const auto first = first_lanes_of(path, range, list_of(list), from, certain, limit);                              \
-    return {first.lanes, first.t_lower, first.t_upper};                                                               \
-  }                                                                                                                   \
-  test::KernelFirst<Scalar> first_of_one_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,  \
-                                                  const test::KernelTriangles<Scalar>& list, std::size_t from,        \
-                                                  std::size_t lane) {                                                 \
-    const auto first = first_of_one_on(path, range, list_of(list), from, lane);                                       \
-    return {first.lanes, first.t_lower, first.t_upper};                                                               \
-  }                                                                                                                   \
-  test::KernelEach<Scalar> each_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,           \
-                                         const test::KernelTriangles<Scalar>& list, std::size_t from, Scalar limit) { \
-    return each_of<Scalar>(path, range, list_of(list), from, limit);                                                  \
-  }                                                                                                                   \
+#define SUREHIT_DEFINE(Scalar)                                                                                       \
+  test::KernelVerdicts verdicts_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,          \
+                                         const test::KernelTriangles<Scalar>& list, std::size_t from) {              \
+    const Verdicts verdicts = verdicts_of<Scalar>(path, range, list_of(list), from);                                 \
+    return {verdicts.possible, verdicts.certain};                                                                    \
+  }                                                                                                                  \
+  test::KernelFirst<Scalar> first_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,        \
+                                           const test::KernelTriangles<Scalar>& list, std::size_t from,              \
+                                           std::uint64_t certain, Scalar limit) {                                    \
+    const auto first = first_lanes_of(path, range, list_of(list), from, certain, limit);                             \
+    return {first.lanes, first.t_lower, first.t_upper};                                                              \
+  }                                                                                                                  \
+  test::KernelFirst<Scalar> first_of_one_##Scalar(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range, \
+                                                  const test::KernelTriangles<Scalar>& list, std::size_t from,       \
+                                                  std::size_t lane) {                                                \
+    const auto first = first_of_one_on(path, range, list_of(list), from, lane);                                      \
+    return {first.lanes, first.t_lower, first.t_upper};                                                              \
+  }                                                                                                                  \
   std::size_t lanes_##Scalar() { return hn::Lanes(hn::ScalableTag<Scalar>()); }
 SUREHIT_DEFINE(float)
 SUREHIT_DEFINE(double)
@@ -85,7 +81,6 @@ namespace surehit::detail {
   HWY_EXPORT(verdicts_##Scalar);                                                                            \
   HWY_EXPORT(first_##Scalar);                                                                               \
   HWY_EXPORT(first_of_one_##Scalar);                                                                        \
-  HWY_EXPORT(each_##Scalar);                                                                                \
   HWY_EXPORT(lanes_##Scalar);                                                                               \
   auto chosen_verdicts(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                   \
                        const test::KernelTriangles<Scalar>& list, std::size_t from) {                       \
@@ -100,14 +95,16 @@ namespace surehit::detail {
                            const test::KernelTriangles<Scalar>& list, std::size_t from, std::size_t lane) { \
     return HWY_DYNAMIC_DISPATCH(first_of_one_##Scalar)(path, range, list, from, lane);                      \
   }                                                                                                         \
-  auto chosen_each(const KernelPath<Scalar>& path, const RangeWeights<Scalar>& range,                       \
-                   const test::KernelTriangles<Scalar>& list, std::size_t from, Scalar limit) {             \
-    return HWY_DYNAMIC_DISPATCH(each_##Scalar)(path, range, list, from, limit);                             \
-  }                                                                                                         \
   auto chosen_lanes(Scalar) { return HWY_DYNAMIC_DISPATCH(lanes_##Scalar)(); }
 SUREHIT_EXPORT(float)
 SUREHIT_EXPORT(double)
 #undef SUREHIT_EXPORT
+
+HWY_EXPORT(in_double);
+auto chosen_in_double(const KernelPath<double>& path, const PathRange<float>& range,
+                      const test::KernelTriangles<float>& list, std::size_t from, std::uint64_t lanes, double limit) {
+  return HWY_DYNAMIC_DISPATCH(in_double)(path, range, list, from, lanes, limit);
+}
 
 }  // namespace surehit::detail
 
@@ -132,10 +129,10 @@ KernelFirst<Scalar> first_of_one(const detail::KernelPath<Scalar>& path, const d
   return detail::chosen_first_of_one(path, range, list, from, lane);
 }
 
-template <typename Scalar>
-KernelEach<Scalar> classify_each(const detail::KernelPath<Scalar>& path, const detail::RangeWeights<Scalar>& range,
-                                 const KernelTriangles<Scalar>& list, std::size_t from, Scalar limit) {
-  return detail::chosen_each(path, range, list, from, limit);
+KernelInDouble<float> classify_in_double(const detail::KernelPath<double>& path, const detail::PathRange<float>& range,
+                                         const KernelTriangles<float>& list, std::size_t from, std::uint64_t lanes,
+                                         double limit) {
+  return detail::chosen_in_double(path, range, list, from, lanes, limit);
 }
 
 template <typename Scalar>
@@ -150,8 +147,6 @@ std::size_t kernel_lanes() {
                                         const KernelTriangles<Scalar>&, std::size_t, std::uint64_t, Scalar);        \
   template KernelFirst<Scalar> first_of_one(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&, \
                                             const KernelTriangles<Scalar>&, std::size_t, std::size_t);              \
-  template KernelEach<Scalar> classify_each(const detail::KernelPath<Scalar>&, const detail::RangeWeights<Scalar>&, \
-                                            const KernelTriangles<Scalar>&, std::size_t, Scalar);                   \
   template std::size_t kernel_lanes<Scalar>();
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

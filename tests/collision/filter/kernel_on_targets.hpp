@@ -47,16 +47,18 @@ template <typename Scalar>
                                                const detail::RangeWeights<Scalar>& range,
                                                const KernelTriangles<Scalar>& list, std::size_t from, std::size_t lane);
 
-/// What `classify` and `first_of` say, as `detail::BlockKernel::classify_each` corrects them there.
+/// What the kernel says of some lanes in double.
 template <typename Scalar>
-struct KernelEach {
+struct KernelInDouble {
   KernelVerdicts verdicts;
   KernelFirst<Scalar> first;
 };
-template <typename Scalar>
-[[nodiscard]] KernelEach<Scalar> classify_each(const detail::KernelPath<Scalar>& path,
-                                               const detail::RangeWeights<Scalar>& range,
-                                               const KernelTriangles<Scalar>& list, std::size_t from, Scalar limit);
+
+/// `detail::classify_in_double` there.
+[[nodiscard]] KernelInDouble<float> classify_in_double(const detail::KernelPath<double>& path,
+                                                       const detail::PathRange<float>& range,
+                                                       const KernelTriangles<float>& list, std::size_t from,
+                                                       std::uint64_t lanes, double limit);
 
 /// Triangles that they take at once.
 template <typename Scalar>

@@ -1,0 +1,162 @@
+#include "filter/plane_contact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "support/rounding_flags.hpp"
+#include "walk/direction.hpp"
+
+namespace surehit::detail {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// A difference of two points, without the axis of the plane.
+struct PlaneVector {
+  double x, y;
+};
+
+/// Returns the component of x × y on the axis of the plane.
+///
+/// F1. The computed value is off by at most 8 eps (|x.x y.y| + |x.y y.x|), where eps = 2^-53. This includes the
+///     roundings of the differences, and those of the bound. The smallest normal number covers underflow.
+/// Proof. Each product passes through four roundings: two differences, the product and the sum. This is 4 eps, up to
+///     terms in eps^2. The bound itself has three roundings, so 5 eps would be enough. Each product and the bound lose
+///     at most 2^-1075 by underflow.
+///
+/// F2. If each product has a factor that is zero, the value is an exact zero.
+/// Proof. A difference is computed as zero only if it is zero.
+Bounded cross(const PlaneVector& x, const PlaneVector& y) {
+  if ((x.x == 0 || y.y == 0) && (x.y == 0 || y.x == 0)) return exact(0);
+  const double first = x.x * y.y;
+  const double second = x.y * y.x;
+  return {first - second, (std::fabs(first) + std::fabs(second)) * 0x1p-50 + std::numeric_limits<double>::min()};
+}
+
+/// Returns the axis that is perpendicular to a plane with the triangle and the path, if there is one.
+template <typename Scalar>
+std::optional<Eigen::Index> axis_of_plane(const Path<Scalar>& path, const Triangle<Scalar>& triangle) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Scalar height = triangle.a[axis];
+    const bool stays = path.kind == PathKind::segment ? path.toward[axis] == height : path.toward[axis] == 0;
+    if (stays && path.start[axis] == height && triangle.b[axis] == height && triangle.c[axis] == height) return axis;
+  }
+  return std::nullopt;
+}
+
+/// The weight of a corner at the line's point at t, times the normal: s + t d. It is not negative in the triangle.
+struct PlaneWeight {
+  Bounded s, d;
+};
+
+/// The parameters at which no weight is negative: [first, last]. Each end has a lower and an upper bound.
+struct PlaneInterval {
+  double first_lower = -unlimited;
+  double first_upper = -unlimited;
+  double last_lower = unlimited;
+  double last_upper = unlimited;
+  std::size_t entry = 0;     ///< The index of the weight that is zero at `first`.
+  bool knows_entry = false;  ///< True if no other weight may be zero there.
+
+  /// Adds the condition s + t d >= 0, as weight `index`. Returns false if the signs are not certain.
+  bool add(const PlaneWeight& weight, std::size_t index) {
+    const std::optional<int> direction = weight.d.sign();
+    if (!direction) return false;
+    if (*direction == 0) {
+      const std::optional<int> side = weight.s.sign();
+      if (side && *side < 0) last_upper = -unlimited;  // No t satisfies it.
+      return side.has_value();
+    }
+    const auto [lower, upper] = BoundedQuotients(weight.d).of(-weight.s);
+    if (!std::isfinite(lower) || !std::isfinite(upper)) return false;
+    if (*direction > 0) {
+      if (lower > first_upper) entry = index;
+      knows_entry = lower > first_upper || (knows_entry && upper < first_lower);
+      first_lower = std::max(first_lower, lower);
+      first_upper = std::max(first_upper, upper);
+    } else {
+      last_lower = std::min(last_lower, lower);
+      last_upper = std::min(last_upper, upper);
+    }
+    return true;
+  }
+
+  /// Returns whether the interval contains t, if this is certain.
+  [[nodiscard]] std::optional<bool> contains(double t) const {
+    if (first_upper <= t && last_lower >= t) return true;
+    if (first_lower > t || last_upper < t) return false;
+    return std::nullopt;
+  }
+};
+
+/// Sets the quotients u and v.
+void set_quotients(BoundedContact& result, const Bounded& u, const Bounded& v, const Bounded& denominator) {
+  result.u_scaled = u;
+  result.v_scaled = v;
+  result.by_det = BoundedQuotients(denominator);
+}
+
+}  // namespace
+
+template <typename Scalar>
+BoundedContact plane_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                             const PathRange<Scalar>& range) {
+  const std::optional<Eigen::Index> axis = axis_of_plane(path, triangle);
+  if (!axis) return {};
+  const Eigen::Index x = (*axis + 1) % 3;
+  const Eigen::Index y = (*axis + 2) % 3;
+  const auto difference = [&](const Vector3<Scalar>& to, const Vector3<Scalar>& from) -> PlaneVector {
+    return {double{to[x]} - double{from[x]}, double{to[y]} - double{from[y]}};
+  };
+  const PlaneVector d = {direction_of(path.kind, double{path.start[x]}, double{path.toward[x]}),
+                         direction_of(path.kind, double{path.start[y]}, double{path.toward[y]})};
+  const Bounded normal = cross(difference(triangle.b, triangle.a), difference(triangle.c, triangle.a));
+  const std::optional<int> side = normal.sign();
+  if (!side || *side == 0 || (d.x == 0 && d.y == 0)) return {};
+  // The weights of b, c and a, each by the edge opposite the corner.
+  const std::array<const Vector3<Scalar>*, 4> corners = {&triangle.c, &triangle.a, &triangle.b, &triangle.c};
+  std::array<PlaneWeight, 3> weights;
+  PlaneInterval interval;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PlaneVector edge = difference(*corners[i + 1], *corners[i]);
+    weights[i] = {cross(edge, difference(path.start, *corners[i])), cross(edge, d)};
+    if (*side < 0) weights[i] = {-weights[i].s, -weights[i].d};
+    if (!interval.add(weights[i], i)) return {};
+  }
+  BoundedContact result;
+  result.u_scaled.radius = result.v_scaled.radius = unlimited;
+  const double first = range.first;
+  const double last = range.last;
+  if (interval.first_lower > std::min(interval.last_upper, last) || interval.last_upper < first) {
+    result.verdict = Verdict::miss;
+    return result;
+  }
+  const bool meets = interval.first_upper <= std::min(interval.last_lower, last) && interval.last_lower >= first;
+  const std::optional<bool> at_start = path.has_start() ? interval.contains(0) : false;
+  const std::optional<bool> at_end = path.has_end() ? interval.contains(1) : false;
+  if (!meets || !at_start || !at_end) return result;
+  result.verdict = Verdict::hit;
+  result.contact = {std::max(interval.first_lower, first), std::max(interval.first_upper, first), Side::edge_on,
+                    *at_start, *at_end};
+  if (interval.first_upper <= first) {
+    const auto weight_at_first = [&](const PlaneWeight& weight) { return weight.s + exact(first) * weight.d; };
+    set_quotients(result, weight_at_first(weights[0]), weight_at_first(weights[1]), *side < 0 ? -normal : normal);
+  } else if (interval.knows_entry && interval.first_lower >= first) {
+    // Here t is -s / d of this weight.
+    const auto [s, d] = weights[interval.entry];
+    const auto weight_at_entry = [&](std::size_t index) {
+      return index == interval.entry ? exact(0) : weights[index].s * d - s * weights[index].d;
+    };
+    set_quotients(result, weight_at_entry(0), weight_at_entry(1), (*side < 0 ? -normal : normal) * d);
+  }
+  return result;
+}
+
+template BoundedContact plane_contact(const Path<float>&, const Triangle<float>&, const PathRange<float>&);
+template BoundedContact plane_contact(const Path<double>&, const Triangle<double>&, const PathRange<double>&);
+
+}  // namespace surehit::detail

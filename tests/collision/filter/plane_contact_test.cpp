@@ -1,0 +1,171 @@
+#include "filter/plane_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "collision/contact_oracle.hpp"
+#include "collision/family_cases.hpp"
+#include "support/case_count.hpp"
+#include "support/neighbour.hpp"
+#include "support/pair_families.hpp"
+#include "support/pair_text.hpp"
+#include "support/scalars.hpp"
+
+namespace surehit::test {
+namespace {
+
+using detail::BoundedContact;
+using detail::PathRange;
+using detail::Verdict;
+
+/// Returns the pair, moved into the plane through the triangle's first corner that is perpendicular to the axis.
+template <typename Scalar>
+Pair<Scalar> flattened(Pair<Scalar> pair, Eigen::Index axis) {
+  const Scalar height = pair.triangle.a[axis];
+  for (auto* const point : {&pair.segment.start, &pair.segment.end, &pair.triangle.b, &pair.triangle.c}) {
+    (*point)[axis] = height;
+  }
+  return pair;
+}
+
+class PlaneContactOfFamily : public testing::TestWithParam<PairFamily> {
+ protected:
+  template <typename Scalar>
+  void check() {
+    Random random(61);
+    for (std::size_t i = case_count(3'000); i > 0 && !HasFailure(); --i) {
+      const auto drawn = draw_pair<Scalar>(GetParam(), random);
+      const auto [segment, triangle] = flattened(drawn, static_cast<Eigen::Index>(random.below(3)));
+      for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
+        const Path<Scalar> path = path_along(segment, kind);
+        expect_true(path, triangle, {});
+        QueryOptions<Scalar> options = draw_options(random, random.unit<Scalar>());
+        keep_limits_alone(options);
+        expect_true(path, triangle, options);
+      }
+    }
+  }
+
+ private:
+  template <typename Scalar>
+  static void expect_true(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                          const QueryOptions<Scalar>& options) {
+    const PathRange<Scalar> range(path, options);
+    if (range.is_empty()) return;
+    const BoundedContact bounded = detail::plane_contact(path, triangle, range);
+    if (bounded.verdict == Verdict::undecided) return;
+    SCOPED_TRACE(hex_text(path) + hex_text(triangle) + hex_text(options));
+    const auto truth = exact_contact(path, triangle, options);
+    ASSERT_EQ(bounded.verdict == Verdict::hit, truth.has_value());
+    if (!truth) return;
+    expect_contact_of(*truth, bounded.contact, path, triangle, options);
+    const auto expect_holds = [](const std::array<double, 2>& interval, const mpq_class& exact) {
+      if (!std::isfinite(interval[0]) || !std::isfinite(interval[1])) return;
+      EXPECT_LE(mpq_class(interval[0]), exact);
+      EXPECT_GE(mpq_class(interval[1]), exact);
+    };
+    expect_holds(bounded.by_det.of(bounded.u_scaled), truth->u);
+    expect_holds(bounded.by_det.of(bounded.v_scaled), truth->v);
+  }
+};
+
+TEST_P(PlaneContactOfFamily, is_never_wrong_for_float) { check<float>(); }
+TEST_P(PlaneContactOfFamily, is_never_wrong_for_double) { check<double>(); }
+
+INSTANTIATE_TEST_SUITE_P(Families, PlaneContactOfFamily, testing::ValuesIn(all_pair_families),
+                         [](const auto& family) { return name_of(family.param); });
+
+template <typename Scalar>
+class PlaneContact : public testing::Test {
+ protected:
+  static BoundedContact contact_of(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                   const QueryOptions<Scalar>& options = {}) {
+    return detail::plane_contact(path, triangle, PathRange<Scalar>(path, options));
+  }
+
+  const Triangle<Scalar> triangle_ = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+};
+TYPED_TEST_SUITE(PlaneContact, Scalars, ScalarNames);
+
+TYPED_TEST(PlaneContact, decides_nearly_all_random_pairs_in_a_plane) {
+  using Scalar = TypeParam;
+  Random random(62);
+  const auto point = [&]() -> Vector3<Scalar> {
+    return Vector3<Scalar>::NullaryExpr([&] { return random.symmetric<Scalar>(); });
+  };
+  const std::size_t pairs = case_count(10'000);
+  std::size_t undecided = 0;
+  std::size_t hits = 0;
+  std::size_t unknown = 0;  // The hits with weights that are not known.
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const auto axis = static_cast<Eigen::Index>(random.below(3));
+    const auto [segment, triangle] = flattened<Scalar>({{point(), point()}, {point(), point(), point()}}, axis);
+    const BoundedContact contact = this->contact_of(segment, triangle);
+    undecided += contact.verdict == Verdict::undecided;
+    if (contact.verdict != Verdict::hit) continue;
+    ++hits;
+    unknown += !std::isfinite(contact.by_det.of(contact.u_scaled)[0]);
+    EXPECT_LT(contact.contact.t_upper - contact.contact.t_lower, 1e-9);
+  }
+  EXPECT_LE(undecided, pairs / 1000);
+  EXPECT_LE(unknown, pairs / 1000);
+  EXPECT_GT(hits, pairs / 10);
+}
+
+TYPED_TEST(PlaneContact, of_a_start_inside_is_at_the_begin) {
+  const BoundedContact contact = this->contact_of(Segment<TypeParam>{{1, 1, 0}, {9, 3, 0}}, this->triangle_);
+  EXPECT_EQ(contact.verdict, Verdict::hit);
+  EXPECT_EQ(contact.contact.t_lower, 0);
+  EXPECT_EQ(contact.contact.t_upper, 0);
+  EXPECT_EQ(contact.contact.side, Side::edge_on);
+  EXPECT_TRUE(contact.contact.at_start && !contact.contact.at_end);
+}
+
+TYPED_TEST(PlaneContact, of_an_end_inside_knows_the_end) {
+  const BoundedContact contact = this->contact_of(Segment<TypeParam>{{9, 3, 0}, {1, 1, 0}}, this->triangle_);
+  EXPECT_EQ(contact.verdict, Verdict::hit);
+  EXPECT_TRUE(!contact.contact.at_start && contact.contact.at_end);
+}
+
+TYPED_TEST(PlaneContact, along_an_edge_on_an_axis_is_certain) {
+  const BoundedContact inside = this->contact_of(Segment<TypeParam>{{1, 0, 0}, {3, 0, 0}}, this->triangle_);
+  EXPECT_EQ(inside.verdict, Verdict::hit);
+  const BoundedContact beside = this->contact_of(Segment<TypeParam>{{-3, 0, 0}, {-1, 0, 0}}, this->triangle_);
+  EXPECT_EQ(beside.verdict, Verdict::miss);
+}
+
+TYPED_TEST(PlaneContact, leaves_a_path_through_a_corner_alone_undecided) {
+  const Segment<TypeParam> through_corner{{3, -1, 0}, {5, 1, 0}};
+  EXPECT_EQ(this->contact_of(through_corner, this->triangle_).verdict, Verdict::undecided);
+}
+
+TYPED_TEST(PlaneContact, leaves_other_planes_undecided) {
+  const Segment<TypeParam> in_plane{{-1, 1, 0}, {5, 1, 0}};
+  ASSERT_EQ(this->contact_of(in_plane, this->triangle_).verdict, Verdict::hit);
+  const TypeParam above = neighbour(TypeParam{0}, 1);
+  for (const std::size_t moved : {0U, 1U, 2U, 3U, 4U}) {
+    Segment<TypeParam> segment = in_plane;
+    Triangle<TypeParam> triangle = this->triangle_;
+    (moved == 0   ? segment.start
+     : moved == 1 ? segment.end
+     : moved == 2 ? triangle.a
+     : moved == 3 ? triangle.b
+                  : triangle.c)[2] = above;
+    EXPECT_EQ(this->contact_of(segment, triangle).verdict, Verdict::undecided) << moved;
+  }
+  const Ray<TypeParam> leaving{{-1, 1, 0}, {6, 0, above}};
+  EXPECT_EQ(this->contact_of(leaving, this->triangle_).verdict, Verdict::undecided);
+}
+
+TYPED_TEST(PlaneContact, leaves_segments_and_points_undecided) {
+  const Segment<TypeParam> in_plane{{-1, 1, 0}, {5, 1, 0}};
+  const Triangle<TypeParam> flat{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}};
+  EXPECT_EQ(this->contact_of(in_plane, flat).verdict, Verdict::undecided);
+  EXPECT_EQ(this->contact_of(Segment<TypeParam>{{1, 1, 0}, {1, 1, 0}}, this->triangle_).verdict, Verdict::undecided);
+}
+
+}  // namespace
+}  // namespace surehit::test
