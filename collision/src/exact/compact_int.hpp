@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "exact/wide_int.hpp"
 
@@ -8,12 +9,13 @@ namespace surehit::detail {
 
 __extension__ typedef __int128 Int128;
 
-/// An exact integer below 2^Bits in magnitude, in one number of the machine. It has the functions of `WideInt` that the
-/// exact stage needs. The bound is part of the type and grows with each operation.
+/// An exact integer below 2^Bits in magnitude, in one number of 64 or 128 bits. It has the functions of `WideInt` that
+/// the exact stage needs. The bound is part of the type and grows with each operation.
 template <int Bits>
 class CompactInt {
  public:
   static_assert(Bits <= 127);
+  using Value = std::conditional_t<(Bits < 64), std::int64_t, Int128>;
 
   CompactInt() = default;
   template <int OtherBits>
@@ -22,7 +24,7 @@ class CompactInt {
   /// Returns ±significand × 2^exponent. The exponent must not be negative.
   static CompactInt shifted(std::uint64_t significand, int exponent, bool negative) {
     CompactInt result;
-    result.value_ = static_cast<Int128>(Uint128{significand} << exponent);
+    result.value_ = static_cast<Value>(Uint128{significand} << exponent);
     if (negative) result.negate();
     return result;
   }
@@ -40,13 +42,13 @@ class CompactInt {
   template <int A, int B>
   void set_product(const CompactInt<A>& a, const CompactInt<B>& b) {
     static_assert(A + B <= Bits);
-    value_ = a.value_ * b.value_;
+    value_ = static_cast<Value>(Int128{a.value_} * b.value_);
   }
   /// Adds `other`, or subtracts it. The caller must know that the result is below 2^Bits.
   template <int B>
   void add(const CompactInt<B>& other, bool subtract = false) {
     static_assert(B <= Bits);
-    value_ = subtract ? value_ - other.value_ : value_ + other.value_;
+    value_ = subtract ? value_ - Value{other.value_} : value_ + Value{other.value_};
   }
 
   /// Returns the same number as a wide integer.
@@ -64,10 +66,11 @@ class CompactInt {
   friend class CompactInt;
 
   [[nodiscard]] Uint128 magnitude() const {
-    return value_ < 0 ? -static_cast<Uint128>(value_) : static_cast<Uint128>(value_);
+    const Uint128 value = static_cast<Uint128>(Int128{value_});
+    return value_ < 0 ? -value : value;
   }
 
-  Int128 value_ = 0;
+  Value value_ = 0;
 };
 
 /// Returns the sign of |a b| - |c d|.
