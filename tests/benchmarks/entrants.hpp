@@ -23,6 +23,8 @@ struct Entrant {
 };
 
 [[nodiscard]] std::vector<Entrant> surehit_entrants();
+/// Counts as a peer, so that all tables have its ratio to floats.
+[[nodiscard]] std::vector<Entrant> surehit_double_entrants();
 [[nodiscard]] std::vector<Entrant> embree_entrants();
 [[nodiscard]] std::vector<Entrant> cgal_entrants();
 [[nodiscard]] std::vector<Entrant> bullet_entrants();

@@ -10,6 +10,7 @@ PathBatch::PathBatch(std::vector<Segmentf> segments) : segments_(std::move(segme
   octets_.resize(segments_.size() / octet_size);
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Segmentf& segment = segments_[i];
+    in_double_.push_back({segment.start.cast<double>(), segment.end.cast<double>()});
     PathOctet& octet = octets_[i / octet_size];
     for (int axis = 0; axis < 3; ++axis) {
       octet.start[axis][i % octet_size] = segment.start[axis];

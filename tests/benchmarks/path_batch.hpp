@@ -13,7 +13,7 @@ struct alignas(32) PathOctet {
   float direction[3][8];
 };
 
-/// Segments in both layouts, so that no contender's time contains a change of layout.
+/// Segments in all layouts, so that no contender's time contains a change of layout.
 class PathBatch {
  public:
   static constexpr std::size_t octet_size = 8;
@@ -23,12 +23,14 @@ class PathBatch {
 
   [[nodiscard]] std::size_t size() const { return segments_.size(); }
   [[nodiscard]] std::span<const Segmentf> segments() const { return segments_; }
+  [[nodiscard]] std::span<const Segmentd> in_double() const { return in_double_; }
   [[nodiscard]] std::span<const PathOctet> octets() const { return octets_; }
   /// One of as many equal parts, a thread's share.
   [[nodiscard]] PathBatch part(std::size_t index, std::size_t parts) const;
 
  private:
   std::vector<Segmentf> segments_;
+  std::vector<Segmentd> in_double_;
   std::vector<PathOctet> octets_;
 };
 

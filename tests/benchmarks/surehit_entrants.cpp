@@ -1,4 +1,5 @@
 #include <surehit/collider.hpp>
+#include <vector>
 
 #include "entrants.hpp"
 
@@ -46,7 +47,50 @@ class SurehitSingle : public SurehitContender {
   }
 };
 
+/// The same mesh and paths in double.
+class SurehitInDouble : public Contender {
+ public:
+  void build(const TriangleMeshViewf& mesh) override {
+    copy_vertices(mesh);
+    collider_ = Colliderd({vertices_, mesh.triangles()});
+  }
+
+  void rebuild(const TriangleMeshViewf& mesh) override {
+    copy_vertices(mesh);
+    collider_.rebuild(vertices_);
+  }
+
+  [[nodiscard]] std::size_t memory_bytes() const override { return collider_.memory_bytes(); }
+
+  void first(const PathBatch& paths, std::span<Hitf> hits) const override {
+    hits_.resize(paths.size());
+    collider_.first_hits(paths.in_double(), hits_);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      hits[i].t = static_cast<float>(hits_[i].t);
+      hits[i].triangle = hits_[i].triangle;
+    }
+  }
+
+  void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
+    collider_.any_hits(paths.in_double(), blocked);
+  }
+
+ private:
+  void copy_vertices(const TriangleMeshViewf& mesh) {
+    vertices_.resize(mesh.vertex_count());
+    for (std::size_t i = 0; i < vertices_.size(); ++i) vertices_[i] = mesh.vertex(i).cast<double>();
+  }
+
+  std::vector<Vector3d> vertices_;
+  Colliderd collider_;
+  mutable std::vector<Hitd> hits_;
+};
+
 }  // namespace
+
+std::vector<Entrant> surehit_double_entrants() {
+  return {{"surehit in double", "batch", "", [] { return std::make_unique<SurehitInDouble>(); }}};
+}
 
 std::vector<Entrant> surehit_entrants() {
   return {{Entrant::our_library, "batch", "", [] { return std::make_unique<SurehitBatch>(); }},
