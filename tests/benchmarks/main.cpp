@@ -44,7 +44,7 @@ struct Words {
   std::vector<std::string> sets;
   std::vector<std::string> contenders;
   std::string folder;
-  std::string up = "y";
+  std::vector<std::string> z_up;
   std::string instruction_set = all_instruction_sets().front().name;
   std::string csv_path;
   std::string chart_path;
@@ -74,7 +74,7 @@ CLI::Option* add_choice(CLI::App& app, const char* option, Value& value, std::st
 
 void describe(CLI::App& app, Words& words, Request& request) {
   app.add_option("--meshes", words.folder, "Measure every mesh of a folder too")->type_name("FOLDER");
-  add_choice(app, "--up", words.up, "The upward axis of the folder's meshes", {"y", "z"})->capture_default_str();
+  app.add_option("--z-up", words.z_up, "These meshes of the folder have z upward, the others y")->type_name("NAME");
   app.add_flag("--uneven", words.uneven, "Measure the meshes that are built to be hard for grids too");
   add_choice(app, "--table", words.tables, "Only these tables", names_of(all_tables(), &TableKind::name))
       ->type_name("NAME");
@@ -122,7 +122,7 @@ void shrink(const CLI::App& app, Request& request) {
 void read_scenes(const Words& words, Request& request) {
   if (is_among("level", words.meshes)) request.scenes.push_back(level_scene(words.quick ? 0.05f : 1));
   if (!words.folder.empty()) {
-    for (Scene& scene : scenes_in(words.folder, words.up == "y" ? 1 : 2, words.meshes)) {
+    for (Scene& scene : scenes_in(words.folder, words.z_up, words.meshes)) {
       request.scenes.push_back(std::move(scene));
     }
   }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Measures everything and writes what is published: README.md and FIGURES.md between their markers, and ratios.svg.
+"""Measures everything and writes what is published: README.md between its markers, figures/, and ratios.svg.
 
-In FIGURES.md, what follows the last marker is written too: all tables of surehit_benchmark.
+Each processor has a page in figures/, made from template.md. It ends with all tables of surehit_benchmark.
 
 What it does not know is passed on to surehit_benchmark, to --quick too, which shows in half a minute that all of this
 works, and leaves figures without meaning: put the files back afterwards.
@@ -9,6 +9,7 @@ works, and leaves figures without meaning: put the files back afterwards.
 
 import argparse
 import csv
+import math
 import re
 import shlex
 import shutil
@@ -20,8 +21,14 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+PAGES = HERE / "figures"
+TEMPLATE = PAGES / "template.md"
 
 PATH_SETS = ["short", "near", "long", "sight", "edge"]
+ALL_SETS = ["short", "near", "detail", "long", "sight", "far", "edge", "edge_end", "cells", "in_plane"]
+GENERAL_SETS = ALL_SETS[:6]
+EVEN_MESHES = ["level", "dungeon", "nav_test", "ogre", "stanford-bunny"]
+IN_DOUBLE = "surehit in double batch"
 NOT_EDGE = PATH_SETS[:-1]
 CLOSEST, ANY = "closest hit", "any hit"
 OURS = ["surehit batch", "surehit single"]
@@ -29,6 +36,8 @@ INEXACT = ["surehit without its exact stage", "surehit without its filter"]
 MEDIUM, LOW = "Embree fast medium", "Embree fast low"
 ROBUST = "Embree robust medium"
 OTHER_INSTRUCTION_SETS = ["avx2", "sse4"]
+# The tables of a few even meshes with all contenders, and the queries and builds of all meshes.
+TABLES, CONTENT = "tables", "content"
 
 
 def fail(reason):
@@ -41,9 +50,9 @@ class Figures:
     def __init__(self):
         self.rows = []
 
-    def add(self, path):
+    def add(self, path, run):
         with open(path, newline="", encoding="utf-8") as file:
-            self.rows += csv.DictReader(file)
+            self.rows += [{"run": run, **row} for row in csv.DictReader(file)]
 
     @property
     def instruction_sets(self):
@@ -57,15 +66,15 @@ class Figures:
 
     def median(self, **where):
         """Of the one row that is meant; on the machine's best instruction set unless it is said which."""
-        rows = self.matching(**{"instruction_set": self.instruction_sets[0], **where})
+        rows = self.matching(**{"run": TABLES, "instruction_set": self.instruction_sets[0], **where})
         if len(rows) != 1:
             fail(f"{len(rows)} figures instead of one for {where}")
         return float(rows[0]["median"])
 
-    def meshes(self, table):
+    def meshes(self, table, run=TABLES):
         """Each mesh's name in the CSV, and with its triangles as it is shown."""
-        for mesh in self.values("mesh", table=table):
-            triangles = int(self.values("triangles", table=table, mesh=mesh)[0])
+        for mesh in self.values("mesh", table=table, run=run):
+            triangles = int(self.values("triangles", table=table, mesh=mesh, run=run)[0])
             yield mesh, f"{'built-in level' if mesh == 'level' else mesh} ({triangles:,})"
 
 
@@ -132,7 +141,7 @@ def query_ratios(figures, questions, contender, ours, sets):
         figures.median(
             table="queries", mesh=mesh, paths=paths, question=question, contender=contender, measure=f"over {ours}"
         )
-        for mesh in figures.values("mesh", table="queries")
+        for mesh in figures.values("mesh", table="queries", run=TABLES)
         for paths in sets
         for question in questions
     ]
@@ -174,7 +183,7 @@ def wrong(figures):
                     table="queries", mesh=mesh, paths=paths, question=ANY, contender=contender,
                     measure="wrong decisions",
                 )
-                for mesh in figures.values("mesh", table="queries")
+                for mesh in figures.values("mesh", table="queries", run=TABLES)
                 for paths in sets
             ]  # fmt: skip
             row.append(f"{sum(counts):,.0f}")
@@ -189,47 +198,106 @@ def wrong(figures):
 def summary(figures):
     batch, single = OURS
 
-    def times(question, way, ours, sets):
-        return shown_range(query_ratios(figures, [question], f"{MEDIUM} {way}", ours, sets))
-
-    def builds_over(quality, measure):
-        meshes = figures.values("mesh", table="build")
-        return [figures.median(table="build", mesh=mesh, contender=quality, measure=measure) for mesh in meshes]
-
-    def on(name):
-        cells = [
-            over_meshes(
-                figures, instruction_set=name, table="queries", paths=paths, question=question,
-                contender=f"{MEDIUM} x1", measure="over surehit batch",
-            )
-            for paths in NOT_EDGE
+    def over(sets, ours, way="x1", **where):
+        """Of all meshes: the ratios, each with its mesh and kind of path."""
+        return [
+            (figures.median(run=CONTENT, table="queries", mesh=mesh, paths=paths, question=question,
+                            contender=f"{MEDIUM} {way}", measure=f"over {ours}", **where), mesh, paths)
+            for mesh in figures.values("mesh", table="queries", run=CONTENT)
+            for paths in sets
             for question in (CLOSEST, ANY)
         ]  # fmt: skip
-        return shown_range([float(cell) for cell in cells])
 
-    builds_in_low, builds_in_medium = (builds_over(quality, "build over surehit") for quality in (LOW, MEDIUM))
-    memory = [1 / ratio for ratio in builds_over(LOW, "bytes over surehit")]
+    def told(ratios):
+        worst, mesh, paths = min(ratios)
+        mean = geometric_mean([ratio for ratio, _, _ in ratios])
+        return f"{number(mean)} times as fast as single rays on average. The worst is {number(worst)} ({paths} in {mesh})"
+
+    def builds_over(quality, measure):
+        meshes = figures.values("mesh", table="build", run=CONTENT)
+        return [figures.median(run=CONTENT, table="build", mesh=mesh, contender=quality, measure=measure)
+                for mesh in meshes]  # fmt: skip
+
+    meshes = len(figures.values("mesh", table="queries", run=CONTENT))
+    degenerate = [paths for paths in ALL_SETS if paths not in GENERAL_SETS]
+    builds_in_medium, builds_in_low = (builds_over(quality, "build over surehit") for quality in (MEDIUM, LOW))
+    memory = [1 / ratio for ratio in builds_over(MEDIUM, "bytes over surehit")]
     lines = [
-        f"A batch of closest hits is {times(CLOSEST, 'x1', batch, NOT_EDGE)} times as fast as Embree's single rays. "
-        f"It is {times(CLOSEST, 'x8', batch, NOT_EDGE)} times as fast as its packets of eight. For any hit, these are "
-        f"{times(ANY, 'x1', batch, NOT_EDGE)} and {times(ANY, 'x8', batch, NOT_EDGE)} times.",
-        f"Single calls are {times(CLOSEST, 'x1', single, NOT_EDGE)} times as fast as single rays for closest hits, and "
-        f"{times(ANY, 'x1', single, NOT_EDGE)} times for any hit.",
-        f"On paths aimed at vertices and edges, a batch of closest hits is {times(CLOSEST, 'x1', batch, ['edge'])} "
-        f"times as fast as single rays. For any hit, it is {times(ANY, 'x1', batch, ['edge'])} times. Exact arithmetic "
-        "decides many of these.",
-        f"A build is {shown_range(builds_in_low)} times as fast as one of Embree's low quality, and takes "
-        f"{shown_range(memory)} times its memory. It is {shown_range(builds_in_medium)} times as fast as one of medium "
-        "quality.",
+        f"{meshes} meshes, paths in general position: batches are {told(over(GENERAL_SETS, batch))}. "
+        f"Single calls are {told(over(GENERAL_SETS, single))}.",
+        f"Paths along edges, to vertices, between centres of cubes and in planes: batches are "
+        f"{told(over(degenerate, batch))}.",
+        f"A build is {number(geometric_mean(builds_in_medium))} times as fast as one of Embree's medium quality on "
+        f"average, and {number(geometric_mean(builds_in_low))} times as one of low quality. It takes "
+        f"{number(geometric_mean(memory))} times the memory of medium quality.",
     ]
-    others = [name for name in OTHER_INSTRUCTION_SETS if name in figures.instruction_sets[1:]]
-    if others:
-        with_less = [f"{on(name)} times with only {name_of_instruction_set(name)}" for name in others]
+    if "avx2" in figures.instruction_sets[1:]:
         lines.append(
-            f"The speed relative to single rays is {' and '.join(with_less)}, as the median of the meshes. "
-            "Embree keeps its best instruction set."
+            f"With AVX2 alone, while Embree keeps its best, batches are "
+            f"{told(over(GENERAL_SETS, batch, instruction_set='avx2'))}."
         )
     return "".join(f"- {line}\n" for line in lines)
+
+
+def geometric_mean(ratios):
+    return math.exp(statistics.fmean(map(math.log, ratios)))
+
+
+def all_meshes(figures, contender, measure, invert=False, **where):
+    """A row for each mesh, a column for each kind of path: closest / any. The minimum and the mean are the last rows."""
+
+    def ratio(mesh, paths, question):
+        value = figures.median(
+            run=CONTENT, table="queries", mesh=mesh, paths=paths, question=question, contender=contender,
+            measure=measure, **where,
+        )  # fmt: skip
+        return 1 / value if invert else value
+
+    meshes = list(figures.meshes("queries", CONTENT))
+    by_cell = {
+        (paths, question): [ratio(mesh, paths, question) for mesh, _ in meshes]
+        for paths in ALL_SETS
+        for question in (CLOSEST, ANY)
+    }
+
+    def row(shown, of):
+        return [shown, *(" / ".join(number(of(by_cell[paths, question])) for question in (CLOSEST, ANY))
+                         for paths in ALL_SETS)]  # fmt: skip
+
+    rows = [row(shown, lambda ratios, i=i: ratios[i]) for i, (_, shown) in enumerate(meshes)]
+    rows += [row("minimum", min), row("mean", geometric_mean)]
+    return markdown(["mesh (triangles)", *ALL_SETS], rows)
+
+
+def all_batches(figures):
+    return all_meshes(figures, f"{MEDIUM} x1", "over surehit batch")
+
+
+def all_batches_on_avx2(figures):
+    return all_meshes(figures, f"{MEDIUM} x1", "over surehit batch", instruction_set="avx2")
+
+
+def all_single_calls(figures):
+    return all_meshes(figures, f"{MEDIUM} x1", "over surehit single")
+
+
+def all_doubles(figures):
+    return all_meshes(figures, IN_DOUBLE, "over surehit batch").replace("minimum", "least")
+
+
+def all_builds(figures):
+    rows = []
+    for mesh, shown in figures.meshes("build", CONTENT):
+
+        def median(contender, measure):
+            return figures.median(run=CONTENT, table="build", mesh=mesh, contender=contender, measure=measure)
+
+        cells = [shown]
+        for measure, unit, of_ours in ("build ns", "ms", "build"), ("bytes", "MB", "bytes"):
+            cells.append(f"{number(median('surehit', measure) / 1e6)} {unit}")
+            cells += [number(median(quality, f"{of_ours} over surehit")) for quality in (MEDIUM, LOW)]
+        rows.append(cells)
+    return markdown(["mesh (triangles)", "build", "÷ medium", "÷ low", "memory", "÷ medium", "÷ low"], rows)
 
 
 def builds(figures):
@@ -289,7 +357,7 @@ def growth(figures):
 
 def over_meshes(figures, **where):
     """The median of what is the median of each mesh."""
-    meshes = figures.values("mesh", table=where["table"])
+    meshes = figures.values("mesh", table=where["table"], run=TABLES)
     return number(statistics.median(figures.median(mesh=mesh, **where) for mesh in meshes))
 
 
@@ -359,9 +427,21 @@ def bounds(figures):
     return markdown(["paths", "cells", "candidates", "closest hit", "any hit"], rows)
 
 
-BLOCKS_OF_README = [machine, wrong, summary]
+def summaries(_):
+    """The summaries of all pages, each below its machine."""
+    texts = []
+    for page in sorted(PAGES.glob("*.md")):
+        blocks = {match[2]: match[0] for match in MARKED.finditer(page.read_text(encoding="utf-8"))}
+        if page.name != TEMPLATE.name:
+            inner = {name: re.sub(r"<!--.*?-->", "", text).strip() for name, text in blocks.items()}
+            texts.append(f"{inner['machine']}:\n\n{inner['summary']}\n")
+    return "\n".join(texts)
+
+
+BLOCKS_OF_README = [wrong, summaries]
 BLOCKS_OF_FIGURES = [
-    machine, queries, ranges, instruction_sets, builds, ticks, growth, threads, exactness, bounds
+    machine, summary, all_batches, all_batches_on_avx2, all_single_calls, all_doubles, all_builds, queries, ranges,
+    instruction_sets, builds, ticks, growth, threads, exactness, bounds,
 ]  # fmt: skip
 BLOCKS = {block.__name__: block for block in BLOCKS_OF_README + BLOCKS_OF_FIGURES}
 
@@ -405,15 +485,17 @@ def main():
     parser.add_argument("meshes", metavar="FOLDER", help="every mesh in it is measured, besides the built-in level")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "release", metavar="FOLDER",
                         help="where CMake was configured, in Release (default: build/release)")  # fmt: skip
+    parser.add_argument("--z-up", action="append", default=[], metavar="NAME",
+                        help="a mesh of the folder whose upward axis is z")  # fmt: skip
     arguments, passed_on = parser.parse_known_args()
     if not (arguments.build / "CMakeCache.txt").exists():
         fail(f"{arguments.build} is not configured; cmake --preset release does it for build/release")
     subprocess.run(["cmake", "--build", arguments.build, "--target", "surehit_benchmark"], check=True)
-    readme, full = ROOT / "README.md", HERE / "FIGURES.md"
+    readme = ROOT / "README.md"
     text_of_readme = read_published(readme, BLOCKS_OF_README)
-    text_of_full = read_published(full, BLOCKS_OF_FIGURES)
-    if text_of_full.count(ALL_TABLES) != 1:
-        fail(f"{full.name} lacks the line {ALL_TABLES.strip()}")
+    text_of_page = read_published(TEMPLATE, BLOCKS_OF_FIGURES)
+    if text_of_page.count(ALL_TABLES) != 1:
+        fail(f"{TEMPLATE.name} lacks the line {ALL_TABLES.strip()}")
     program = arguments.build / "tests" / "benchmarks" / "surehit_benchmark"
 
     figures = Figures()
@@ -421,25 +503,32 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         csv_path, chart_path = Path(folder, "figures.csv"), Path(folder, "ratios.svg")
 
-        def run(*options, files=()):
-            shown = shlex.join(["surehit_benchmark", "--meshes", "FOLDER", *options, *passed_on])
+        def run(kind, *options, files=()):
+            shown = shlex.join(["surehit_benchmark", "--meshes", "FOLDER", *z_up, *options, *passed_on])
             print(shown, file=sys.stderr)
-            command = [program, "--meshes", arguments.meshes, *options, *passed_on, "--csv", csv_path, *files]
+            command = [program, "--meshes", arguments.meshes, *z_up, *options, *passed_on, "--csv", csv_path, *files]
             output = subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
-            figures.add(csv_path)
+            figures.add(csv_path, kind)
             sections.append(f"    {shown}\n\n{output.rstrip()}")
 
+        z_up = [option for mesh in arguments.z_up for option in ("--z-up", mesh)]
+        meshes = [option for mesh in EVEN_MESHES for option in ("--mesh", mesh)]
         sets = [option for paths in PATH_SETS for option in ("--set", paths)]
-        run(*sets, files=["--chart", chart_path])
-        best = figures.instruction_sets[0]
-        for name in OTHER_INSTRUCTION_SETS:
-            if name != best:
-                run(*sets, "--instruction-set", name, "--table", "queries", "--contender", MEDIUM)
+        run(TABLES, *meshes, *sets)
+        others = [name for name in OTHER_INSTRUCTION_SETS if name != figures.instruction_sets[0]]
+        for name in others:
+            run(TABLES, *meshes, *sets, "--instruction-set", name, "--table", "queries", "--contender", MEDIUM)
+        content = ["--uneven", "--table", "queries", "--contender", MEDIUM, "--contender", IN_DOUBLE, "--paths", "5000"]
+        run(CONTENT, *content, files=["--chart", chart_path])
+        if "avx2" in others:
+            run(CONTENT, *content, "--instruction-set", "avx2")
+        run(CONTENT, "--uneven", "--table", "build")
 
         check(figures)
-        head = text_of_full.partition(ALL_TABLES)[0]
+        name = re.sub(r"\W+", "_", machine(figures)).strip("_").lower()
+        head = text_of_page.partition(ALL_TABLES)[0]
         tables = "".join(f"\n{section}\n" for section in sections)
-        full.write_text(with_blocks(head, figures) + ALL_TABLES + tables, encoding="utf-8")
+        (PAGES / f"{name}.md").write_text(with_blocks(head, figures) + ALL_TABLES + tables, encoding="utf-8")
         readme.write_text(with_blocks(text_of_readme, figures), encoding="utf-8")
         shutil.copyfile(chart_path, HERE / "ratios.svg")
 

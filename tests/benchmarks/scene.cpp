@@ -78,7 +78,8 @@ Scene level_scene(float detail) {
   return {.name = "level", .mesh = std::move(level.mesh), .up = 2, .eye = eye};
 }
 
-std::vector<Scene> scenes_in(const std::string& folder, int up, const std::vector<std::string>& names) {
+std::vector<Scene> scenes_in(const std::string& folder, const std::vector<std::string>& z_up,
+                             const std::vector<std::string>& names) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
@@ -88,6 +89,7 @@ std::vector<Scene> scenes_in(const std::string& folder, int up, const std::vecto
   std::sort(files.begin(), files.end());
   std::vector<Scene> scenes;
   for (const fs::path& file : files) {
+    const int up = std::find(z_up.begin(), z_up.end(), file.stem()) != z_up.end() ? 2 : 1;
     Scene& scene = scenes.emplace_back(
         Scene{.name = file.stem().string(), .mesh = example::read_mesh<float>(file.string()), .up = up});
     scene.eye = choose_eye(scene);

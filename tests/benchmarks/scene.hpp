@@ -35,7 +35,8 @@ struct Scene {
 /// The built-in level, eye in its great hall.
 [[nodiscard]] Scene level_scene(float detail);
 /// The meshes in the folder by name: all, or those that are named. Throws InputError. An eye is a bit above some floor,
-/// from where about half of the floors are in sight.
-[[nodiscard]] std::vector<Scene> scenes_in(const std::string& folder, int up, const std::vector<std::string>& names);
+/// from where about half of the floors are in sight. The upward axis is z for meshes of `z_up`, and y for the others.
+[[nodiscard]] std::vector<Scene> scenes_in(const std::string& folder, const std::vector<std::string>& z_up,
+                                           const std::vector<std::string>& names);
 
 }  // namespace surehit::benchmark
