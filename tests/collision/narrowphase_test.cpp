@@ -183,6 +183,27 @@ TYPED_TEST(NarrowphaseOf, order_of_two_triangles_that_share_the_end_takes_no_exa
   }
 }
 
+/// The path starts in the first triangle alone. It meets the second one so little after the begin of the range that
+/// bounds in double do not tell.
+TEST(NarrowphaseOfDouble, order_of_a_start_in_a_plane_and_a_contact_right_after_the_begin) {
+  const Path<double> path = Segment<double>{{0, 0, 0}, {1, 0, 0}};
+  const QueryOptions<double> options{.min_t = 0.5};
+  const PathRange<double> range(path, options);
+  QueryStatistics statistics;
+  const Narrowphase<double> narrowphase(path, options, range, statistics);
+  const double after = std::nextafter(0.5, 1.0);
+  const auto candidate_of = [&](const Triangle<double>& triangle, std::uint32_t id) {
+    Candidate<double> candidate{id, triangle, {}};
+    EXPECT_TRUE(narrowphase.find_contact(triangle, candidate.contact));
+    return candidate;
+  };
+  const auto in_plane = candidate_of({{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}}, 9);
+  const auto crossed = candidate_of({{after, -1, -1}, {after, 1, -1}, {after, 0, 1}}, 4);
+  EXPECT_TRUE(in_plane.contact.at_start && !crossed.contact.at_start);
+  EXPECT_TRUE(narrowphase.comes_before(in_plane, crossed));
+  EXPECT_FALSE(narrowphase.comes_before(crossed, in_plane));
+}
+
 TYPED_TEST(NarrowphaseOf, order_is_by_t_and_then_by_id) {
   const Triangle<TypeParam> also_near{{0, 0, 0}, {0, 1, 1}, {1, 0, -1}};  // at height 0 there, but tilted
   const auto first = this->candidate_of(unit_triangle<TypeParam>(0), 9);

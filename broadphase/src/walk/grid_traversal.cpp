@@ -15,12 +15,6 @@ using detail::exact_difference;
 
 // WALK.md proves that the walk misses nothing. L1 to L12 are its lemmas. L9 bounds the errors of what is clipped here.
 
-/// A start at most this many widths from the grid's low corner, on each axis, need not be moved (L9).
-constexpr double far_widths = 0x1p20;
-/// A path that is faster than this on some axis, in cells a unit of t, is scaled.
-constexpr double too_fast = 0x1p60;
-/// A ray or line whose start is farther than it moves in so many units of t is scaled (L11).
-constexpr double max_t_to_grid = 0x1p38;
 /// A start that is moved ends up at most twice this far from the box's low corner (L10).
 constexpr double near = 4;
 /// A start farther away than this cannot be moved within the padding (L10).

@@ -41,6 +41,12 @@ struct ClippedPath {
   static constexpr float slow = 0x1p-20F;
   /// A path that is faster than this on some axis is clipped in double.
   static constexpr float fast = 0x1p20F;
+  /// A path that is faster than this on some axis is scaled.
+  static constexpr double too_fast = 0x1p60;
+  /// A start at most this many widths from the grid's low corner, on each axis, need not be moved (L9).
+  static constexpr double far_widths = 0x1p20;
+  /// A ray or line whose start is farther than it moves in so many units of t is scaled (L11).
+  static constexpr double max_t_to_grid = 0x1p38;
   /// A lower rate counts as 0, because it moves the path by less than 2^-27 cells (L11).
   static constexpr float min_rate = 0x1p-66F;
   /// The inverse of a rate of 0. It puts all crossings beyond every tau that counts (L1).

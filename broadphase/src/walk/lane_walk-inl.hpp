@@ -126,6 +126,29 @@ class LaneWalk {
             static_cast<std::uint32_t>(bits_of(d, hn::AndNot(is_plain, taken)))};
   }
 
+  /// Paths in double, one in each lane, with the ranges that count.
+  struct alignas(max_lanes * sizeof(double)) DoublePaths {
+    std::array<std::array<double, max_lanes>, 3> start;   ///< The starts.
+    std::array<std::array<double, max_lanes>, 3> toward;  ///< The ends or directions.
+    std::array<double, max_lanes> first_t;                ///< The begins of the ranges.
+    std::array<double, max_lanes> last_t;                 ///< The ends of the ranges.
+  };
+
+  /// Clips the paths of some lanes in double. `paths` must have numbers in all lanes. It sets `enters` to the t where
+  /// tau is 0. It takes the steps that `ClippedPath::clip_in_double` takes for paths that are not scaled (L9), so both
+  /// have the same bits. A path that must be scaled, or is not finite, is `apart`.
+  HWY_NOINLINE Clipped clip_in_double(const DoublePaths& paths, PathKind kind, std::uint32_t lanes,
+                                      WalkingPaths& clipped, std::array<double, max_lanes>& enters) const {
+    const std::size_t part = hn::Lanes(DoubleTag());
+    Clipped result = {0, 0};
+    for (std::size_t from = 0; lanes >> from != 0; from += part) {
+      const Clipped some = clip_part_in_double(paths, kind, from, lanes >> from, clipped, enters);
+      result.inside |= some.inside << from;
+      result.apart |= some.apart << from;
+    }
+    return result;
+  }
+
   /// Sets `stop` of all lanes to that of the outermost frame.
   HWY_INLINE void set_stops(WalkingPaths& paths) const {
     const FloatTag d;
@@ -153,11 +176,8 @@ class LaneWalk {
     paths.end[lane] = path.end;
     paths.octant[lane] = path.octant;
   }
-  /// Returns what the float `enters` leaves out of the t where tau is 0. The path must not be scaled.
-  static float rest_of_enters(const ClippedPath& path) {
-    const double enters = path.tau.origin[2];
-    return static_cast<float>(enters - double{static_cast<float>(enters)});
-  }
+  /// Returns what the float nearest to `enters` leaves out of it.
+  static float rest_of_enters(double enters) { return static_cast<float>(enters - double{static_cast<float>(enters)}); }
   /// Puts a path that `ClippedPath` has clipped to a frame into one lane. `enters` becomes the float nearest to the t
   /// where tau is 0, if tau is t less some number.
   static void put(std::size_t lane, const GridFrame& frame, const ClippedPath& path, WalkingPaths& paths) {
@@ -393,6 +413,110 @@ class LaneWalk {
   }
 
  private:
+  using DoubleTag = hn::CappedTag<double, 8>;
+
+  /// Does the same for the lanes of one vector of doubles. The first one is lane `from`.
+  HWY_INLINE Clipped clip_part_in_double(const DoublePaths& paths, PathKind kind, std::size_t from, std::uint32_t lanes,
+                                         WalkingPaths& clipped, std::array<double, max_lanes>& enters_at) const {
+    const DoubleTag d;
+    const hn::Rebind<float, DoubleTag> df;
+    const std::uint32_t some = lanes & static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(d)) - 1);
+    using Doubles = hn::Vec<DoubleTag>;
+    const auto number = [&](double x) { return hn::Set(d, x); };
+    const auto taken = mask_of(df, some);
+    const auto keep_floats = [&](LaneFloats& of, hn::Vec<decltype(df)> x) {
+      hn::BlendedStore(x, taken, df, &of[from]);
+    };
+    const auto keep = [&](LaneFloats& of, Doubles x) { keep_floats(of, hn::DemoteTo(df, x)); };
+    const Doubles zero = hn::Zero(d);
+    const auto scaled = [&](const std::array<double, max_lanes>& x) {
+      return hn::Mul(hn::Mul(hn::LoadU(d, &x[from]), number(frame_.unit[0])), number(frame_.unit[1]));
+    };
+    Doubles position[3];
+    Doubles by[3];
+    Doubles fastest = zero;
+    Doubles distance = zero;
+    auto is_near = hn::Eq(zero, zero);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Doubles scale = number(frame_.scale[k]);
+      const Doubles start = scaled(paths.start[k]);
+      const Doubles toward = scaled(paths.toward[k]);
+      const Doubles way = kind == PathKind::segment ? hn::Sub(toward, start) : toward;
+      position[k] = hn::Mul(hn::Sub(start, number(frame_.origin[k])), scale);
+      by[k] = hn::Mul(way, scale);
+      const Doubles cells = hn::Abs(position[k]);
+      distance = hn::Max(distance, cells);
+      fastest = hn::Max(fastest, hn::Abs(by[k]));
+      is_near = hn::And(is_near, hn::Le(cells, number(ClippedPath::far_widths * frame_.resolution(k))));
+      is_near = hn::And(is_near, hn::Le(hn::Abs(by[k]), number(ClippedPath::too_fast)));
+    }
+    auto is_plain = is_near;
+    if (kind != PathKind::segment) {
+      is_plain = hn::And(is_plain, hn::Ge(fastest, number(double{ClippedPath::slow})));
+      is_plain = hn::And(is_plain, hn::Le(distance, hn::Mul(number(ClippedPath::max_t_to_grid), fastest)));
+    }
+    const auto outward = [&](Doubles t) { return hn::Mul(hn::Abs(t), number(0x1p-50)); };
+    const Doubles first_t = hn::LoadU(d, &paths.first_t[from]);
+    const Doubles last_t = hn::LoadU(d, &paths.last_t[from]);
+    Doubles enters = hn::Sub(first_t, outward(first_t));
+    Doubles leaves = hn::Add(last_t, outward(last_t));
+    Doubles first_cell = zero;
+    auto passes = hn::Eq(zero, zero);
+    auto moves = hn::Lt(zero, zero);
+    std::array<std::uint64_t, 3> mirrored;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Doubles stop = number(frame_.resolution(k));
+      position[k] = hn::Add(position[k], number(double{frame_.margin[k]}));
+      const auto is_mirrored = hn::Lt(by[k], zero);
+      position[k] = hn::IfThenElse(is_mirrored, hn::Sub(stop, position[k]), position[k]);
+      const Doubles speed = hn::Abs(by[k]);
+      const auto is_still = hn::Lt(speed, number(double{ClippedPath::min_rate}));  // L11
+      by[k] = hn::IfThenElse(is_still, zero, speed);
+      const auto is_inside = hn::And(hn::Le(zero, position[k]), hn::Le(position[k], stop));
+      passes = hn::And(passes, hn::Or(hn::Not(is_still), is_inside));
+      moves = hn::Or(moves, hn::Not(is_still));
+      const Doubles inverse =
+          hn::IfThenElse(is_still, number(double{ClippedPath::max_inverse}), hn::Div(number(1), speed));
+      const Doubles low = hn::Mul(hn::Neg(position[k]), inverse);
+      const Doubles high = hn::Mul(hn::Sub(stop, position[k]), inverse);
+      enters = hn::IfThenElse(is_still, enters, hn::Max(enters, low));
+      leaves = hn::IfThenElse(is_still, leaves, hn::Min(leaves, high));
+      const GridFrame::TopOrder& turned = frame_.top_orders[std::size_t{1} << k];
+      const Doubles pitch = number(static_cast<double>(frame_.top_orders[0].pitch[k]));
+      keep(clipped.pitch[k], hn::IfThenElse(is_mirrored, hn::Neg(pitch), pitch));
+      first_cell = hn::Add(first_cell, hn::IfThenElseZero(is_mirrored, number(static_cast<double>(turned.first))));
+      keep(clipped.rate[k], by[k]);
+      keep(clipped.inverse_rate[k], inverse);
+      mirrored[k] = bits_of(d, is_mirrored);
+    }
+    const auto inside = hn::And(hn::And(is_plain, passes), hn::Le(enters, leaves));
+    enters = hn::IfThenElseZero(moves, enters);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto last = hn::Set(df, static_cast<float>(frame_.resolution(k)) * (1 - 0x1p-24F));
+      const auto entered = hn::DemoteTo(df, hn::Add(position[k], hn::Mul(enters, by[k])));
+      const auto start = hn::Min(hn::Max(entered, hn::Zero(df)), last);
+      keep_floats(clipped.start[k], start);
+      keep_floats(clipped.finest[k], hn::Floor(start));
+    }
+    // As `WalkParameter::beyond` (L12).
+    const Doubles exact = hn::Sub(last_t, enters);
+    const Doubles rounding = hn::Mul(hn::Add(hn::Abs(last_t), hn::Abs(enters)), number(0x1p-50));
+    const Doubles end =
+        hn::Add(hn::Add(hn::Add(exact, rounding), hn::Mul(hn::Abs(exact), number(0x1p-22))), number(0x1p-140));
+    keep(clipped.end, hn::IfThenElseZero(moves, end));
+    keep(clipped.enters, enters);
+    keep(clipped.first_cell, first_cell);
+    hn::StoreU(enters, d, &enters_at[from]);
+    for (std::uint32_t left = some; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      std::uint32_t octant = 0;
+      for (std::size_t k = 0; k < 3; ++k) octant |= static_cast<std::uint32_t>(mirrored[k] >> lane & 1) << k;
+      clipped.octant[from + lane] = octant;
+    }
+    const auto in_some = [&](hn::Mask<DoubleTag> mask) { return static_cast<std::uint32_t>(bits_of(d, mask)) & some; };
+    return {in_some(inside), in_some(hn::Not(is_plain))};
+  }
+
   /// Returns the lanes whose path misses the slab of the list (L4). The path is in the larger box of the list between
   /// tau `enters` and tau `leaves`.
   HWY_INLINE std::uint32_t miss_slabs(const Cells& cells, Words list, Floats enters, Floats leaves,

@@ -93,6 +93,14 @@ struct PlaneInterval {
   }
 };
 
+/// Returns the weight at t.
+Bounded weight_at(double t, const PlaneWeight& weight) { return weight.s + exact(t) * weight.d; }
+
+/// Returns the weight where `entry` is zero, times `entry.d`. There t is -s / d of `entry`.
+Bounded weight_at_entry(const PlaneWeight& entry, const PlaneWeight& weight) {
+  return &weight == &entry ? exact(0) : weight.s * entry.d - entry.s * weight.d;
+}
+
 /// Sets the quotients u and v.
 void set_quotients(BoundedContact& result, const Bounded& u, const Bounded& v, const Bounded& denominator) {
   result.u_scaled = u;
@@ -142,16 +150,12 @@ BoundedContact plane_contact(const Path<Scalar>& path, const Triangle<Scalar>& t
   result.verdict = Verdict::hit;
   result.contact = {std::max(interval.first_lower, first), std::max(interval.first_upper, first), Side::edge_on,
                     *at_start, *at_end};
+  const Bounded size = *side < 0 ? -normal : normal;
   if (interval.first_upper <= first) {
-    const auto weight_at_first = [&](const PlaneWeight& weight) { return weight.s + exact(first) * weight.d; };
-    set_quotients(result, weight_at_first(weights[0]), weight_at_first(weights[1]), *side < 0 ? -normal : normal);
+    set_quotients(result, weight_at(first, weights[0]), weight_at(first, weights[1]), size);
   } else if (interval.knows_entry && interval.first_lower >= first) {
-    // Here t is -s / d of this weight.
-    const auto [s, d] = weights[interval.entry];
-    const auto weight_at_entry = [&](std::size_t index) {
-      return index == interval.entry ? exact(0) : weights[index].s * d - s * weights[index].d;
-    };
-    set_quotients(result, weight_at_entry(0), weight_at_entry(1), (*side < 0 ? -normal : normal) * d);
+    const PlaneWeight& entry = weights[interval.entry];
+    set_quotients(result, weight_at_entry(entry, weights[0]), weight_at_entry(entry, weights[1]), size * entry.d);
   }
   return result;
 }

@@ -229,7 +229,7 @@ class Batch {
     LaneWalk::put(lane, frame, clipped, lanes);
     LaneWalk::set_stop(lane, frame, lanes);
     if constexpr (is_float) {
-      enters_rest_[slot] = LaneWalk::rest_of_enters(clipped);
+      enters_rest_[slot] = LaneWalk::rest_of_enters(clipped.tau.origin[2]);
     } else {
       taus_[slot] = clipped.tau;
     }
@@ -379,15 +379,20 @@ HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[
 #if HWY_TARGET != HWY_SCALAR
   // The lanes clip paths of floats in float. Paths of doubles are clipped one by one.
   const bool can_clip = std::is_same_v<Scalar, double> || grid.frame().has_floats;
-  // A few paths fill too few lanes. The last paths of a large batch are asked as the others.
-  constexpr std::size_t min_paths = 12;
-  const bool are_few = paths.size() < min_paths && queries.of_batch().path == 0;
-  if (can_clip && !queries.admits_nothing() && !are_few && !grid.is_one_list()) {
+  if (can_clip && !queries.admits_nothing() && !grid.is_one_list()) {
     Batch<Scalar, Visitor, Queries, Finish, Alone>(queries, paths, finish, alone).run();
     return;
   }
 #endif
   for (std::size_t i = 0; i < paths.size(); ++i) alone(i);
+}
+
+/// Returns true if a batch has so few paths that they are asked one by one, because they would fill too few lanes. The
+/// last paths of a large batch are asked as the others.
+template <typename Scalar>
+bool are_few(const Query<Scalar>& query, const PathSpan<Scalar>& paths) {
+  constexpr std::size_t min_paths = 12;
+  return paths.size() < min_paths && query.path == 0;
 }
 
 /// Sets `hits[i]` to the first hit of path i. Each element must be a miss before.
@@ -396,22 +401,10 @@ HWY_NOINLINE void search_each_first_by(Queries queries, const PathSpan<Scalar>& 
   const auto alone = [&](std::size_t index) {
     hits[index] = search_first<Scalar>(queries.query(index), paths[index]).value_or(Hit<Scalar>{});
   };
-  if constexpr (std::is_same_v<Scalar, float>) {
-    BatchRounding<Queries> rounding(queries, paths, hits);
-    const auto finish = [&](std::size_t index, FirstHit<float>& first) { rounding.add(index, first); };
-    search_paths<FirstHit<float>>(queries, paths, finish, alone);
-    rounding.flush();
-  } else {
-    const auto finish = [&](std::size_t index, FirstHit<Scalar>& first) {
-      if (!first.is_found()) return;
-      const Path<Scalar> path = paths[index];
-      const auto& query = queries.query(index);
-      const auto& range = queries.range(index);
-      hits[index] =
-          first.decide_hit(typename FirstHit<Scalar>::Narrowphase(path, query.options, range, query.statistics));
-    };
-    search_paths<FirstHit<Scalar>>(queries, paths, finish, alone);
-  }
+  BatchRounding<Scalar, Queries> rounding(queries, paths, hits);
+  const auto finish = [&](std::size_t index, FirstHit<Scalar>& first) { rounding.add(index, first); };
+  search_paths<FirstHit<Scalar>>(queries, paths, finish, alone);
+  rounding.flush();
 }
 
 /// Sets `blocked[i]` to 1 if path i has a hit. Each element must be 0 before.
@@ -428,6 +421,12 @@ HWY_NOINLINE void search_each_any_by(Queries queries, const PathSpan<Scalar>& pa
 template <typename Scalar>
 void search_each_first(const Query<Scalar>& query, const PathSpan<Scalar>& paths,
                        std::span<const QueryOptions<Scalar>> own_options, std::span<Hit<Scalar>> hits) noexcept {
+  if (are_few(query, paths)) {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      hits[i] = search_first<Scalar>(query_of_path(query, own_options, i), paths[i]).value_or(Hit<Scalar>{});
+    }
+    return;
+  }
   std::fill_n(hits.begin(), paths.size(), Hit<Scalar>{});
   if (query.filter == nullptr && own_options.empty()) {
     search_each_first_by(SharedQuery<Scalar>(query, paths.kind()), paths, hits);
@@ -440,6 +439,12 @@ void search_each_first(const Query<Scalar>& query, const PathSpan<Scalar>& paths
 template <typename Scalar>
 void search_each_any(const Query<Scalar>& query, const PathSpan<Scalar>& paths,
                      std::span<const QueryOptions<Scalar>> own_options, std::span<std::uint8_t> blocked) noexcept {
+  if (are_few(query, paths)) {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      blocked[i] = search_any<Scalar>(query_of_path(query, own_options, i), paths[i]) ? 1 : 0;
+    }
+    return;
+  }
   std::fill_n(blocked.begin(), paths.size(), std::uint8_t{0});
   if (query.filter == nullptr && own_options.empty()) {
     search_each_any_by(SharedQuery<Scalar>(query, paths.kind()), paths, blocked);

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <span>
 
+#include "filter/double_hit_rounding-inl.hpp"
 #include "filter/hit_rounding-inl.hpp"
 #include "narrowphase.hpp"
 #include "query/batch_queries-inl.hpp"
@@ -24,44 +25,40 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// Rounds the hits of a batch. It rounds as many at a time as a vector has doubles. The narrowphase rounds those that
-/// doubles cannot decide, one by one.
-template <typename Queries>
-class BatchRounding {
- public:
-  BatchRounding(const Queries& queries, const PathSpan<float>& paths, std::span<Hit<float>> hits)
-      : queries_(queries), query_(queries.of_batch()), paths_(paths), hits_(hits) {}
+/// Hits that wait to be rounded, as many as a vector has doubles. Lanes without a hit have any finite numbers.
+template <typename Scalar>
+class WaitingHits;
 
-  /// Takes the hit that the visitor of a path has kept. It is called when the path ends. A hit of the kernel is rounded
-  /// later, but at the latest by `flush`.
-  HWY_INLINE void add(std::size_t index, FirstHit<float>& first) {
-    if (!first.is_found()) return;
-    if (first.is_decided()) {
-      const Path<float> path = paths_[index];
-      const auto& query = queries_.query(index);
-      const auto& range = queries_.range(index);
-      hits_[index] = first.decide_hit(Narrowphase<float>(path, query.options, range, query.statistics));
-      return;
-    }
-    index_[count_] = index;
-    entry_[count_] = first.entry();
-    t_size_[count_] = first.t_size();
-    edge_size_[count_] = first.edge_size();
+/// What all of them have in common.
+template <typename Scalar>
+struct RoundedBatch {
+  static constexpr std::size_t max_hits = 8;  ///< The number of doubles in the widest vectors of today.
+  std::array<Scalar, max_hits> t, u, v;       ///< The rounded numbers.
+  std::uint64_t rounded;                      ///< The mask of the hits in which they are right.
+  std::uint64_t front;                        ///< The mask of the hits whose path arrives at the front.
+};
+
+template <>
+class WaitingHits<float> {
+ public:
+  using DoubleTag = hn::CappedTag<double, 8>;
+
+  /// Sets hit i. The path is six floats in a row.
+  HWY_INLINE void set(std::size_t i, const float* path, const FirstHit<float>& first) {
+    t_size_[i] = first.t_size();
+    edge_size_[i] = first.edge_size();
     static_assert(sizeof(Triangle<float>) == 9 * sizeof(float));
     // Each copy has four numbers: three coordinates, and the number after them. There is none after the last vector of
     // the path, and none after the last corner. So those copies begin one number earlier.
-    const float* const path = is_packed_ ? paths_.packed(index) : copy_path(index);
-    copy(0, path, 0);
-    copy(1, path, 2);
-    copy(2, &first.triangle(), 0);
-    copy(3, &first.triangle(), 3);
-    copy(4, &first.triangle(), 5);
-    if (++count_ == hn::Lanes(DoubleTag())) flush();
+    copy(i, 0, path, 0);
+    copy(i, 1, path, 2);
+    copy(i, 2, &first.triangle(), 0);
+    copy(i, 3, &first.triangle(), 3);
+    copy(i, 4, &first.triangle(), 5);
   }
 
-  /// Rounds all hits that were added and not rounded yet.
-  HWY_NOINLINE void flush() {
-    if (count_ == 0) return;
+  /// Rounds all hits.
+  HWY_INLINE RoundedBatch<float> round(PathKind kind) const {
     const DoubleTag d;
     const FloatTag df;
     const auto vectors = [&](std::size_t which, bool has_one_before = false) -> Vectors<DoubleTag> {
@@ -73,23 +70,109 @@ class BatchRounding {
       return has_one_before ? of(second, third, fourth) : of(first, second, third);
     };
     const Vectors<DoubleTag> start = vectors(0);
-    const Vectors<DoubleTag> direction = directions_of<DoubleTag>(paths_.kind(), start, vectors(1, true));
+    const Vectors<DoubleTag> direction = directions_of<DoubleTag>(kind, start, vectors(1, true));
     const auto doubles = [&](const std::array<float, max_hits>& floats) {
       return hn::PromoteTo(d, hn::Load(df, floats.data()));
     };
     const HitIntervals<DoubleTag> intervals(d, start, direction, vectors(2), vectors(3), vectors(4, true),
                                             doubles(t_size_), doubles(edge_size_));
     const RoundedHits<DoubleTag> rounded(d, intervals);
-    std::array<float, max_hits> t;
-    std::array<float, max_hits> u;
-    std::array<float, max_hits> v;
-    hn::StoreU(rounded.t, df, t.data());
-    hn::StoreU(rounded.u, df, u.data());
-    hn::StoreU(rounded.v, df, v.data());
+    RoundedBatch<float> result;
+    hn::StoreU(rounded.t, df, result.t.data());
+    hn::StoreU(rounded.u, df, result.u.data());
+    hn::StoreU(rounded.v, df, result.v.data());
+    result.rounded = rounded.rounded;
+    result.front = rounded.front;
+    return result;
+  }
+
+ private:
+  using FloatTag = hn::Rebind<float, DoubleTag>;
+  static constexpr std::size_t max_hits = RoundedBatch<float>::max_hits;
+
+  /// Copies four numbers of hit i, from number `from` on.
+  HWY_INLINE void copy(std::size_t i, std::size_t which, const void* numbers, std::size_t from) {
+    auto& four = vectors_[which][i];
+    std::memcpy(four.data(), static_cast<const char*>(numbers) + from * sizeof(float), sizeof four);
+  }
+
+  /// The start of each path, its end or direction, and the three corners of the triangle. Each has one number more, as
+  /// `set` copies it.
+  alignas(max_hits * sizeof(float)) std::array<std::array<std::array<float, 4>, max_hits>, 5> vectors_ = {};
+  alignas(max_hits * sizeof(float)) std::array<float, max_hits> t_size_ = {};     ///< The t size of each hit.
+  alignas(max_hits * sizeof(float)) std::array<float, max_hits> edge_size_ = {};  ///< The edge size of each hit.
+};
+
+template <>
+class WaitingHits<double> {
+ public:
+  using DoubleTag = hn::CappedTag<double, 8>;
+
+  /// Sets hit i. The path is six doubles in a row.
+  HWY_INLINE void set(std::size_t i, const double* path, const FirstHit<double>& first) {
+    for (std::size_t k = 0; k < 6; ++k) numbers_[k][i] = path[k];
+    const Triangle<double>& triangle = first.triangle();
+    std::size_t k = 6;
+    for (const auto* const corner : {&triangle.a, &triangle.b, &triangle.c}) {
+      for (Eigen::Index axis = 0; axis < 3; ++axis) numbers_[k++][i] = (*corner)[axis];
+    }
+  }
+
+  /// Rounds all hits.
+  HWY_INLINE RoundedBatch<double> round(PathKind kind) const {
+    const DoubleTag d;
+    const auto vectors = [&](std::size_t k) -> Vectors<DoubleTag> {
+      const auto load = [&](std::size_t which) { return hn::Load(d, numbers_[which].data()); };
+      return {load(k), load(k + 1), load(k + 2)};
+    };
+    const DoubleHitRounding<DoubleTag> rounded(d, kind, vectors(0), vectors(3), vectors(6), vectors(9), vectors(12));
+    RoundedBatch<double> result;
+    hn::StoreU(rounded.t, d, result.t.data());
+    hn::StoreU(rounded.u, d, result.u.data());
+    hn::StoreU(rounded.v, d, result.v.data());
+    result.rounded = rounded.rounded;
+    result.front = rounded.front;
+    return result;
+  }
+
+ private:
+  /// The start of each path, its end or direction, and the three corners of the triangle, coordinate by coordinate.
+  alignas(64) std::array<std::array<double, RoundedBatch<double>::max_hits>, 15> numbers_ = {};
+};
+
+/// Rounds the hits of a batch. It rounds as many at a time as a vector has doubles. The narrowphase rounds those that
+/// this cannot decide, one by one.
+template <typename Scalar, typename Queries>
+class BatchRounding {
+ public:
+  BatchRounding(const Queries& queries, const PathSpan<Scalar>& paths, std::span<Hit<Scalar>> hits)
+      : queries_(queries), query_(queries.of_batch()), paths_(paths), hits_(hits) {}
+
+  /// Takes the hit that the visitor of a path has kept. It is called when the path ends. A hit of the kernel is rounded
+  /// later, but at the latest by `flush`.
+  HWY_INLINE void add(std::size_t index, FirstHit<Scalar>& first) {
+    if (!first.is_found()) return;
+    if (first.is_decided()) {
+      const Path<Scalar> path = paths_[index];
+      const auto& query = queries_.query(index);
+      const auto& range = queries_.range(index);
+      hits_[index] = first.decide_hit(Narrowphase<Scalar>(path, query.options, range, query.statistics));
+      return;
+    }
+    index_[count_] = index;
+    entry_[count_] = first.entry();
+    waiting_.set(count_, is_packed_ ? paths_.packed(index) : copy_path(index), first);
+    if (++count_ == hn::Lanes(typename WaitingHits<Scalar>::DoubleTag())) flush();
+  }
+
+  /// Rounds all hits that were added and not rounded yet.
+  HWY_NOINLINE void flush() {
+    if (count_ == 0) return;
+    const RoundedBatch<Scalar> batch = waiting_.round(paths_.kind());
     for (std::size_t i = 0; i < count_; ++i) {
-      if ((rounded.rounded >> i & 1) != 0) {
-        hits_[index_[i]] = {t[i], u[i], v[i], query_.grid.entries()[entry_[i]],
-                            (rounded.front >> i & 1) != 0 ? Side::front : Side::back};
+      if ((batch.rounded >> i & 1) != 0) {
+        hits_[index_[i]] = {batch.t[i], batch.u[i], batch.v[i], query_.grid.entries()[entry_[i]],
+                            (batch.front >> i & 1) != 0 ? Side::front : Side::back};
       } else {
         round_alone(i);
       }
@@ -98,48 +181,35 @@ class BatchRounding {
   }
 
  private:
-  using DoubleTag = hn::CappedTag<double, 8>;
-  using FloatTag = hn::Rebind<float, DoubleTag>;
-  /// The number of doubles in the widest vectors of today.
-  static constexpr std::size_t max_hits = 8;
+  static constexpr std::size_t max_hits = RoundedBatch<Scalar>::max_hits;
 
-  /// Copies four numbers of the next hit, from number `from` on.
-  HWY_INLINE void copy(std::size_t which, const void* numbers, std::size_t from) {
-    auto& four = vectors_[which][count_];
-    std::memcpy(four.data(), static_cast<const char*>(numbers) + from * sizeof(float), sizeof four);
-  }
-
-  /// Copies the numbers of a path that does not lie in six floats in a row.
-  HWY_NOINLINE const float* copy_path(std::size_t index) {
+  /// Copies the numbers of a path that does not lie in six numbers in a row.
+  HWY_NOINLINE const Scalar* copy_path(std::size_t index) {
     paths_.copy(index, path_.data());
     return path_.data();
   }
 
   /// Lets the narrowphase decide and round hit i.
   HWY_NOINLINE void round_alone(std::size_t i) {
-    const Path<float> path = paths_[index_[i]];
+    const Path<Scalar> path = paths_[index_[i]];
     const auto& query = queries_.query(index_[i]);
     const auto& range = queries_.range(index_[i]);
-    const Narrowphase<float> narrowphase(path, query.options, range, query.statistics);
+    const Narrowphase<Scalar> narrowphase(path, query.options, range, query.statistics);
     const std::uint32_t id = query_.grid.entries()[entry_[i]];
-    Candidate<float> candidate{id, query_.mesh.triangle(id), {}};
+    Candidate<Scalar> candidate{id, query_.mesh.triangle(id), {}};
     if (narrowphase.find_contact(candidate.triangle, candidate.contact)) hits_[index_[i]] = narrowphase.hit(candidate);
   }
 
   const Queries& queries_;                     ///< The queries of the paths.
-  const Query<float>& query_;                  ///< The query of the batch.
-  const PathSpan<float>& paths_;               ///< The paths of the batch.
+  const Query<Scalar>& query_;                 ///< The query of the batch.
+  const PathSpan<Scalar>& paths_;              ///< The paths of the batch.
   const bool is_packed_ = paths_.is_packed();  ///< True if paths can be read in place.
-  std::span<Hit<float>> hits_;                 ///< The answers.
+  std::span<Hit<Scalar>> hits_;                ///< The answers.
   std::size_t count_ = 0;                      ///< The number of hits to round.
-  std::array<float, 6> path_;                  ///< The path that `copy_path` has copied.
-  /// The start of each path, its end or direction, and the three corners of the triangle. Each has one number more, as
-  /// `add` copies it. Lanes after the last hit have any finite numbers.
-  alignas(max_hits * sizeof(float)) std::array<std::array<std::array<float, 4>, max_hits>, 5> vectors_ = {};
-  alignas(max_hits * sizeof(float)) std::array<float, max_hits> t_size_ = {};     ///< The t size of each hit.
-  alignas(max_hits * sizeof(float)) std::array<float, max_hits> edge_size_ = {};  ///< The edge size of each hit.
-  std::array<std::size_t, max_hits> index_;                                       ///< The index of each path.
-  std::array<std::size_t, max_hits> entry_;  ///< The grid's entry with the triangle's id. It is being prefetched.
+  std::array<Scalar, 6> path_;                 ///< The path that `copy_path` has copied.
+  WaitingHits<Scalar> waiting_;                ///< The hits to round.
+  std::array<std::size_t, max_hits> index_;    ///< The index of each path.
+  std::array<std::size_t, max_hits> entry_;    ///< The grid's entry with the triangle's id. It is being prefetched.
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE

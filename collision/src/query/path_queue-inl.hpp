@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
 #include "filter/kernel_lanes-inl.hpp"
 #include "filter/kernel_path.hpp"
@@ -94,7 +95,7 @@ class PathQueue {
       const bool can_read_all = is_packed_ && count == hn::Lanes(FloatTag());
       return can_read_all ? clip_numbers(paths_.packed(first_), count) : clip_copies(count);
     } else {
-      return clip_one_by_one(count);
+      return clip_doubles(count);
     }
   }
 
@@ -115,34 +116,31 @@ class PathQueue {
     return clipped.apart == 0 ? clipped : clip_apart(clipped);
   }
 
-  /// Clips the paths of floats that the lanes could not clip, one by one in double. Those that must be scaled, or that
-  /// are too far away, stay apart.
+  /// Clips the paths of floats that the lanes could not clip in float. Those that must be scaled, or that are too far
+  /// away, stay apart.
   HWY_NOINLINE LaneWalk::Clipped clip_apart(LaneWalk::Clipped result) {
-    const GridFrame& frame = queries_.of_batch().grid.frame();
-    for (std::uint32_t lanes = result.apart; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      const std::uint32_t bit = std::uint32_t{1} << lane;
-      const auto range = queries_.range(first_ + lane);
-      if (range.is_empty()) continue;
-      const Path<Scalar> path = paths_[first_ + lane];
-      const ClippedPath clipped(frame, path, range.first, range.last);
-      if (clipped.status == ClippedPath::Status::miss) result.apart &= ~bit;
-      if (clipped.status != ClippedPath::Status::clipped || !clipped.is_unscaled()) continue;
-      result.apart &= ~bit;
-      result.inside |= bit;
-      LaneWalk::put(lane, frame, clipped, clipped_);
-      enters_rest_[lane] = LaneWalk::rest_of_enters(clipped);
+    LaneDoubles enters;
+    const LaneWalk::Clipped clipped = clip_in_double(result.apart, enters);
+    for (std::uint32_t inside = clipped.inside; inside != 0; inside &= inside - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(inside));
+      enters_rest_[lane] = LaneWalk::rest_of_enters(enters[lane]);
     }
-    return result;
+    return {result.inside | clipped.inside, clipped.apart};
   }
 
-  /// Clips paths of doubles, one by one in double. They walk in float, like all paths.
-  HWY_NOINLINE LaneWalk::Clipped clip_one_by_one(std::size_t count) {
+  /// Clips `count` paths of doubles. They walk in float, like all paths.
+  HWY_NOINLINE LaneWalk::Clipped clip_doubles(std::size_t count) {
     const Grid& grid = queries_.of_batch().grid;
-    LaneWalk::Clipped result = {0, 0};
-    for (std::size_t lane = 0; lane < count; ++lane) {
+    LaneDoubles enters;
+    LaneWalk::Clipped result = clip_in_double(static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1), enters);
+    for (std::uint32_t inside = result.inside; inside != 0; inside &= inside - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(inside));
+      kernel_paths_[lane] = KernelPath<Scalar>(paths_[first_ + lane], grid.frame());
+      taus_[lane] = {{1, 1, 1}, {0, 0, enters[lane]}};
+    }
+    for (std::uint32_t apart = std::exchange(result.apart, 0); apart != 0; apart &= apart - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(apart));
       const auto range = queries_.range(first_ + lane);
-      if (range.is_empty()) continue;
       const Path<Scalar> path = paths_[first_ + lane];
       const ClippedPath clipped(grid, path, range.first, range.last);
       if (clipped.status == ClippedPath::Status::too_far) result.apart |= std::uint32_t{1} << lane;
@@ -153,6 +151,29 @@ class PathQueue {
       taus_[lane] = clipped.tau;
     }
     return result;
+  }
+
+  using LaneDoubles = std::array<double, max_lanes>;
+
+  /// Clips the paths of some lanes in double. A path with an empty range misses.
+  HWY_INLINE LaneWalk::Clipped clip_in_double(std::uint32_t lanes, LaneDoubles& enters) {
+    LaneWalk::DoublePaths paths = {};
+    std::uint32_t taken = 0;
+    for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      const auto range = queries_.range(first_ + lane);
+      if (range.is_empty()) continue;
+      taken |= std::uint32_t{1} << lane;
+      std::array<Scalar, path_size> numbers;
+      paths_.copy(first_ + lane, numbers.data());
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        paths.start[axis][lane] = numbers[axis];
+        paths.toward[axis][lane] = numbers[3 + axis];
+      }
+      paths.first_t[lane] = range.first;
+      paths.last_t[lane] = range.last;
+    }
+    return walk_.clip_in_double(paths, paths_.kind(), taken, clipped_, enters);
   }
 
   /// Fetches into the cache as many paths as are clipped together. The first of them is path `first`. The processor

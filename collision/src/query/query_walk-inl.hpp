@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "filter/block_kernel-inl.hpp"
+#include "filter/double_hit_rounding-inl.hpp"
 #include "filter/hit_rounding-inl.hpp"
 #include "filter/kernel_path.hpp"
 #include "query/hit_visitors-inl.hpp"
@@ -335,6 +336,24 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
   walk_from<OnDemand>(0, query, path, range, clipped, visitor);
 }
 
+/// Returns the hit that the visitor of a path has kept.
+template <typename Scalar>
+HWY_INLINE Hit<Scalar> round_first(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
+                                   FirstHit<Scalar>& first) {
+  Hit<Scalar> hit;
+  bool is_rounded = first.is_certain();
+  if constexpr (std::is_same_v<Scalar, float>) {
+    is_rounded = is_rounded && try_round(path, first.triangle(), first.t_size(), first.edge_size(), hit);
+  } else {
+    is_rounded = is_rounded && try_round(path, first.triangle(), hit);
+  }
+  if (!is_rounded) {
+    return first.decide_hit(typename FirstHit<Scalar>::Narrowphase(path, query.options, range, query.statistics));
+  }
+  hit.triangle = first.id();
+  return hit;
+}
+
 /// Returns the first hit of a path.
 template <typename Scalar>
 std::optional<Hit<Scalar>> search_first(const Query<Scalar>& query, const Path<Scalar>& path) noexcept {
@@ -342,14 +361,7 @@ std::optional<Hit<Scalar>> search_first(const Query<Scalar>& query, const Path<S
   FirstHit<Scalar> first(query);
   walk(query, path, range, first);
   if (!first.is_found()) return std::nullopt;
-  if constexpr (std::is_same_v<Scalar, float>) {
-    Hit<Scalar> hit;
-    if (first.is_certain() && try_round(path, first.triangle(), first.t_size(), first.edge_size(), hit)) {
-      hit.triangle = first.id();
-      return hit;
-    }
-  }
-  return first.decide_hit(typename FirstHit<Scalar>::Narrowphase(path, query.options, range, query.statistics));
+  return round_first(query, path, range, first);
 }
 
 /// Returns true if the path has a hit.

@@ -7,6 +7,7 @@
 // Behind foreach_target.h.
 #include <algorithm>
 
+#include "filter/double_hit_rounding-inl.hpp"
 #include "filter/double_kernel-inl.hpp"
 #include "filter/hit_rounding-inl.hpp"
 
@@ -99,6 +100,28 @@ void intervals_of(std::span<const test::PairCoordinates> pairs, std::span<const 
   });
 }
 
+void hits_of(std::span<const Path<double>> paths, std::span<const Triangle<double>> triangles,
+             std::span<test::LaneHit> results) {
+  for_each_vector(paths.size(), [&](std::size_t first, std::size_t count) {
+    const auto vectors = [&](const auto& point_of) -> Vectors<DoubleTag> {
+      const auto axis = [&](Eigen::Index k) {
+        return gather(count, [&](std::size_t i) { return point_of(first + i)[k]; });
+      };
+      return {axis(0), axis(1), axis(2)};
+    };
+    const DoubleHitRounding<DoubleTag> of(
+        DoubleTag(), paths[first].kind, vectors([&](std::size_t i) { return paths[i].start; }),
+        vectors([&](std::size_t i) { return paths[i].toward; }), vectors([&](std::size_t i) { return triangles[i].a; }),
+        vectors([&](std::size_t i) { return triangles[i].b; }), vectors([&](std::size_t i) { return triangles[i].c; }));
+    const LaneNumbers t = numbers_of(of.t);
+    const LaneNumbers u = numbers_of(of.u);
+    const LaneNumbers v = numbers_of(of.v);
+    for (std::size_t i = 0; i < count; ++i) {
+      results[first + i] = {t[i], u[i], v[i], (of.rounded >> i & 1) != 0, (of.front >> i & 1) != 0};
+    }
+  });
+}
+
 }  // namespace surehit::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -108,6 +131,7 @@ namespace surehit::detail {
 HWY_EXPORT(determinants_of);
 HWY_EXPORT(quotients_of);
 HWY_EXPORT(intervals_of);
+HWY_EXPORT(hits_of);
 HWY_EXPORT(lanes_of_double);
 void chosen_determinants(std::span<const test::PairCoordinates> pairs, std::span<test::LaneDeterminants> results) {
   HWY_DYNAMIC_DISPATCH(determinants_of)(pairs, results);
@@ -119,6 +143,10 @@ void chosen_quotients(std::span<const Bounded> numerators, std::span<const Bound
 void chosen_intervals(std::span<const test::PairCoordinates> pairs, std::span<const test::HitSizes> sizes,
                       std::span<test::LaneIntervals> results) {
   HWY_DYNAMIC_DISPATCH(intervals_of)(pairs, sizes, results);
+}
+void chosen_hits(std::span<const Path<double>> paths, std::span<const Triangle<double>> triangles,
+                 std::span<test::LaneHit> results) {
+  HWY_DYNAMIC_DISPATCH(hits_of)(paths, triangles, results);
 }
 std::size_t chosen_lanes_of_double() { return HWY_DYNAMIC_DISPATCH(lanes_of_double)(); }
 
@@ -136,6 +164,10 @@ void quotients(std::span<const detail::Bounded> numerators, std::span<const deta
 void hit_intervals(std::span<const PairCoordinates> pairs, std::span<const HitSizes> sizes,
                    std::span<LaneIntervals> results) {
   detail::chosen_intervals(pairs, sizes, results);
+}
+void round_hits(std::span<const Path<double>> paths, std::span<const Triangle<double>> triangles,
+                std::span<LaneHit> results) {
+  detail::chosen_hits(paths, triangles, results);
 }
 std::size_t double_lanes() { return detail::chosen_lanes_of_double(); }
 

@@ -52,6 +52,15 @@ struct LaneIntervals {
 void hit_intervals(std::span<const PairCoordinates> pairs, std::span<const HitSizes> sizes,
                    std::span<LaneIntervals> results);
 
+/// What `detail::DoubleHitRounding` says of a pair.
+struct LaneHit {
+  double t, u, v;
+  bool is_rounded, is_front;
+};
+/// `detail::DoubleHitRounding` there. All paths must be of one kind.
+void round_hits(std::span<const Path<double>> paths, std::span<const Triangle<double>> triangles,
+                std::span<LaneHit> results);
+
 [[nodiscard]] std::size_t double_lanes();
 
 }  // namespace surehit::test

@@ -136,12 +136,14 @@ TYPED_TEST(KernelPathOf, is_the_same_in_lanes) {
         QueryStatistics alone;
         EXPECT_FALSE(collider.any_hit(path, nothing, &alone));
         QueryStatistics in_lane;
-        std::uint8_t blocked = 1;
-        collider.any_hits(std::span(&path, 1), std::span(&blocked, 1), {.options = nothing, .statistics = &in_lane});
-        EXPECT_EQ(blocked, 0);
+        constexpr std::size_t copies = 12;  // Fewer paths would be asked one by one.
+        const std::vector paths(copies, path);
+        std::vector<std::uint8_t> blocked(copies, 1);
+        collider.any_hits(paths, blocked, {.options = nothing, .statistics = &in_lane});
+        EXPECT_EQ(std::count(blocked.begin(), blocked.end(), 0), copies);
         // Where rounding lets one of them come to a list that the other misses, there is nothing to compare.
-        if (alone.candidates != in_lane.candidates) return;
-        EXPECT_EQ(alone.undecided, in_lane.undecided) << hex_text(Path<TypeParam>(path));
+        if (copies * alone.candidates != in_lane.candidates) return;
+        EXPECT_EQ(copies * alone.undecided, in_lane.undecided) << hex_text(Path<TypeParam>(path));
         undecided += alone.undecided;
       };
       expect_same(Segment<TypeParam>{start, start + way});
@@ -150,6 +152,31 @@ TYPED_TEST(KernelPathOf, is_the_same_in_lanes) {
     }
     EXPECT_GT(undecided, 0U);
     this->RecordProperty("undecided_" + name_of_instruction_set(target), std::to_string(undecided));
+  }
+}
+
+/// In double, the margins are so wide that no verdict shows a reach that is too low.
+TEST(KernelPathOfFloats, reaches_the_whole_box) {
+  Random random(116);
+  const auto mesh = rough_ground<float>(6, 0.7F, random);
+  const Grid grid(mesh.view(), box_of(mesh.view()), {.resolution = {3, 3, 3}, .crowded = 0});
+  const GridFrame& frame = grid.frame();
+  PathDrawer<float> drawer(mesh.view(), 117);
+  for (std::size_t i = case_count(1'000); i > 0; --i) {
+    const Path<float> path = drawer.draw();
+    const auto in_double = detail::KernelPath<double>::of_floats(path, frame);
+    double reach = 0;
+    double d_size = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double start = path.start[static_cast<Eigen::Index>(axis)];
+      const double toward = path.toward[static_cast<Eigen::Index>(axis)];
+      EXPECT_EQ(in_double.start[axis], start);
+      EXPECT_EQ(in_double.d[axis], path.has_end() ? toward - start : toward);
+      reach = std::max({reach, std::fabs(start - frame.low[axis]), std::fabs(start - frame.high[axis])});
+      d_size = std::max(d_size, std::fabs(in_double.d[axis]));
+    }
+    EXPECT_EQ(in_double.reach, reach);
+    EXPECT_EQ(in_double.d_size, d_size);
   }
 }
 

@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "collision/rational_determinants.hpp"
+#include "double_kernel_on_targets.hpp"
+#include "on_every_instruction_set.hpp"
+#include "support/case_count.hpp"
+#include "support/exact_oracle.hpp"
+#include "support/instruction_sets.hpp"
+#include "support/pair_families.hpp"
+#include "support/pair_text.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// Pairs of one kind that meet, rounded all together and so in all lanes.
+class RoundedPairs {
+ public:
+  void add_if_they_meet(const Path<double>& path, const Triangle<double>& triangle) {
+    const RationalDeterminants of = rational_determinants(path, triangle);
+    if (of.det == 0 || of.u / of.det < 0 || of.v / of.det < 0 || of.w / of.det < 0) return;
+    paths_.push_back(path);
+    triangles_.push_back(triangle);
+    exact_.push_back(of);
+  }
+  [[nodiscard]] std::size_t count() const { return paths_.size(); }
+
+  /// What is rounded is right. Returns the number of pairs that were rounded on the last instruction set.
+  std::size_t check() const {
+    std::size_t rounded = 0;
+    on_every_instruction_set([&] {
+      rounded = 0;
+      std::vector<LaneHit> hits(paths_.size());
+      round_hits(paths_, triangles_, hits);
+      for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (!hits[i].is_rounded) continue;
+        ++rounded;
+        SCOPED_TRACE(hex_text(paths_[i]) + hex_text(triangles_[i]));
+        const RationalDeterminants& of = exact_[i];
+        EXPECT_EQ(hits[i].t, nearest<double>(of.height / of.det));
+        EXPECT_EQ(hits[i].u, nearest<double>(of.u / of.det));
+        EXPECT_EQ(hits[i].v, nearest<double>(of.v / of.det));
+        EXPECT_EQ(hits[i].is_front, of.det > 0);
+      }
+    });
+    return rounded;
+  }
+
+ private:
+  std::vector<Path<double>> paths_;
+  std::vector<Triangle<double>> triangles_;
+  std::vector<RationalDeterminants> exact_;
+};
+
+class DoubleHitRoundingOnFamily : public testing::TestWithParam<PairFamily> {};
+
+TEST_P(DoubleHitRoundingOnFamily, is_never_wrong) {
+  for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
+    Random random(113);
+    RoundedPairs pairs;
+    for (std::size_t i = case_count(1'000); i > 0; --i) {
+      const auto [segment, triangle] = draw_pair<double>(GetParam(), random);
+      pairs.add_if_they_meet(path_along(segment, kind), triangle);
+    }
+    pairs.check();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, DoubleHitRoundingOnFamily, testing::ValuesIn(all_pair_families),
+                         [](const auto& family) { return name_of(family.param); });
+
+/// Returns a path through a random point of the triangle. `distance` is that of its start, in sizes of the triangle.
+Segment<double> segment_through(const Triangle<double>& triangle, double distance, Random& random) {
+  const double b = random.unit<double>();
+  const double c = (1 - b) * random.unit<double>();
+  const Vector3<double> point = triangle.a + b * (triangle.b - triangle.a) + c * (triangle.c - triangle.a);
+  const double size = (triangle.b - triangle.a).norm();
+  const Vector3<double> way = Vector3<double>::NullaryExpr([&] { return random.symmetric<double>(); });
+  const Vector3<double> start = point - distance * size * way;
+  return {start, start + (1 + random.unit<double>()) * (point - start)};
+}
+
+TEST(DoubleHitRounding, rounds_nearly_all_hits_at_all_magnitudes) {
+  Random random(114);
+  RoundedPairs pairs;
+  for (std::size_t i = case_count(3'000); i > 0; --i) {
+    const auto exponent = static_cast<int>(random.between(-190, 190));
+    const auto vector = [&]() -> Vector3<double> {
+      return Vector3<double>::NullaryExpr([&] { return std::ldexp(random.symmetric<double>(), exponent); });
+    };
+    const Triangle<double> triangle{vector(), vector(), vector()};
+    const double distance = std::ldexp(1.0, static_cast<int>(random.between(-4, 8)));
+    pairs.add_if_they_meet(segment_through(triangle, distance, random), triangle);
+  }
+  EXPECT_GT(pairs.count(), case_count(3'000) / 2);
+  EXPECT_GE(pairs.check(), pairs.count() * 98 / 100);
+}
+
+TEST(DoubleHitRounding, is_never_wrong_beyond_the_sizes_of_its_bound) {
+  Random random(115);
+  RoundedPairs pairs;
+  for (std::size_t i = case_count(3'000); i > 0; --i) {
+    const auto draw = [&]() -> Vector3<double> {
+      const auto exponent = static_cast<int>(random.between(-1070, 1020));
+      return Vector3<double>::NullaryExpr([&] { return std::ldexp(random.symmetric<double>(), exponent); });
+    };
+    const Triangle<double> triangle{draw(), draw(), draw()};
+    if (!(triangle.b - triangle.a).allFinite() || !(triangle.c - triangle.a).allFinite()) continue;
+    const Segment<double> segment = segment_through(triangle, 1, random);
+    if (segment.start.allFinite() && segment.end.allFinite()) pairs.add_if_they_meet(segment, triangle);
+  }
+  pairs.check();
+}
+
+/// Where t, u and v are powers of two, the ends of an interval round to different doubles.
+TEST(DoubleHitRounding, leaves_what_a_double_holds_exactly) {
+  RoundedPairs pairs;
+  const Triangle<double> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  pairs.add_if_they_meet(Segment<double>{{0.25, 0.25, 1}, {0.25, 0.25, -1}}, triangle);
+  ASSERT_EQ(pairs.count(), 1U);
+  EXPECT_EQ(pairs.check(), 0U);
+}
+
+}  // namespace
+}  // namespace surehit::test
