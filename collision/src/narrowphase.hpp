@@ -30,12 +30,12 @@ struct Candidate {
 /// What is known of a path and a triangle before the narrowphase.
 enum class Closeness : std::uint8_t {
   unknown,  ///< Nothing is known.
-  close,    ///< The determinants in double have not decided the pair.
+  close,    ///< The kernel in double has not decided the pair, with its bounds for a list.
 };
 
-/// Decides one path against triangles that may be hit. The kernel has not called them misses. The first stage works in
-/// double. For paths in the plane of a wall it needs two coordinates alone. Running error bounds decide what it leaves
-/// undecided. Exact integers decide the rest.
+/// Decides one path against triangles that may be hit. The kernel has not called them misses. It begins with the
+/// second stage, which works in double. For paths in the plane of a wall, it needs two coordinates alone. Running error
+/// bounds decide what it leaves undecided. Exact integers decide the rest.
 template <typename Scalar>
 class Narrowphase {
  public:
@@ -44,7 +44,7 @@ class Narrowphase {
       : path_(path), options_(options), range_(range), statistics_(statistics) {}
 
   /// Returns true, with the contact in `found`, if the path meets the triangle and the options on contacts admit it.
-  /// Otherwise `found` has no meaning. A close pair begins with the second stage. A contact after parameter `limit` may
+  /// Otherwise `found` has no meaning. A close pair skips `double_contact`. A contact after parameter `limit` may
   /// count as none. Masks, filters and the ignored triangle are for the caller.
   [[nodiscard]] bool find_contact(const Triangle<Scalar>& triangle, Contact& found,
                                   double limit = std::numeric_limits<double>::infinity(),

@@ -198,11 +198,11 @@ def wrong(figures):
 def summary(figures):
     batch, single = OURS
 
-    def over(sets, ours, way="x1", **where):
+    def over(sets, ours, **where):
         """Of all meshes: the ratios, each with its mesh and kind of path."""
         return [
             (figures.median(run=CONTENT, table="queries", mesh=mesh, paths=paths, question=question,
-                            contender=f"{MEDIUM} {way}", measure=f"over {ours}", **where), mesh, paths)
+                            contender=f"{MEDIUM} x1", measure=f"over {ours}", **where), mesh, paths)
             for mesh in figures.values("mesh", table="queries", run=CONTENT)
             for paths in sets
             for question in (CLOSEST, ANY)
@@ -243,15 +243,14 @@ def geometric_mean(ratios):
     return math.exp(statistics.fmean(map(math.log, ratios)))
 
 
-def all_meshes(figures, contender, measure, invert=False, **where):
-    """A row for each mesh, a column for each kind of path: closest / any. The minimum and the mean are the last rows."""
+def all_meshes(figures, contender, measure, worst=min, **where):
+    """A row for each mesh, a column for each kind of path: closest / any. The worst and the mean are the last rows."""
 
     def ratio(mesh, paths, question):
-        value = figures.median(
+        return figures.median(
             run=CONTENT, table="queries", mesh=mesh, paths=paths, question=question, contender=contender,
             measure=measure, **where,
         )  # fmt: skip
-        return 1 / value if invert else value
 
     meshes = list(figures.meshes("queries", CONTENT))
     by_cell = {
@@ -265,7 +264,7 @@ def all_meshes(figures, contender, measure, invert=False, **where):
                          for paths in ALL_SETS)]  # fmt: skip
 
     rows = [row(shown, lambda ratios, i=i: ratios[i]) for i, (_, shown) in enumerate(meshes)]
-    rows += [row("minimum", min), row("mean", geometric_mean)]
+    rows += [row("worst", worst), row("mean", geometric_mean)]
     return markdown(["mesh (triangles)", *ALL_SETS], rows)
 
 
@@ -274,6 +273,8 @@ def all_batches(figures):
 
 
 def all_batches_on_avx2(figures):
+    if "avx2" not in figures.instruction_sets[1:]:
+        return ""
     return all_meshes(figures, f"{MEDIUM} x1", "over surehit batch", instruction_set="avx2")
 
 
@@ -282,37 +283,26 @@ def all_single_calls(figures):
 
 
 def all_doubles(figures):
-    return all_meshes(figures, IN_DOUBLE, "over surehit batch").replace("minimum", "least")
+    return all_meshes(figures, IN_DOUBLE, "over surehit batch", worst=max)
+
+
+def builds(figures, run=TABLES):
+    rows = []
+    for mesh, shown in figures.meshes("build", run):
+
+        def median(contender, measure):
+            return figures.median(run=run, table="build", mesh=mesh, contender=contender, measure=measure)
+
+        cells = [shown]
+        for measure, unit, of_ours in ("build ns", "ms", "build"), ("bytes", "MB", "bytes"):
+            cells.append(f"{number(median('surehit', measure) / 1e6)} {unit}")
+            cells += [number(median(quality, f"{of_ours} over surehit")) for quality in (MEDIUM, LOW)]
+        rows.append(cells)
+    return markdown(["mesh (triangles)", "build", "÷ medium", "÷ low", "memory", "÷ medium", "÷ low"], rows)
 
 
 def all_builds(figures):
-    rows = []
-    for mesh, shown in figures.meshes("build", CONTENT):
-
-        def median(contender, measure):
-            return figures.median(run=CONTENT, table="build", mesh=mesh, contender=contender, measure=measure)
-
-        cells = [shown]
-        for measure, unit, of_ours in ("build ns", "ms", "build"), ("bytes", "MB", "bytes"):
-            cells.append(f"{number(median('surehit', measure) / 1e6)} {unit}")
-            cells += [number(median(quality, f"{of_ours} over surehit")) for quality in (MEDIUM, LOW)]
-        rows.append(cells)
-    return markdown(["mesh (triangles)", "build", "÷ medium", "÷ low", "memory", "÷ medium", "÷ low"], rows)
-
-
-def builds(figures):
-    rows = []
-    for mesh, shown in figures.meshes("build"):
-
-        def median(contender, measure):
-            return figures.median(table="build", mesh=mesh, contender=contender, measure=measure)
-
-        cells = [shown]
-        for measure, unit, of_ours in ("build ns", "ms", "build"), ("bytes", "MB", "bytes"):
-            cells.append(f"{number(median('surehit', measure) / 1e6)} {unit}")
-            cells += [number(median(quality, f"{of_ours} over surehit")) for quality in (MEDIUM, LOW)]
-        rows.append(cells)
-    return markdown(["mesh (triangles)", "build", "÷ medium", "÷ low", "memory", "÷ medium", "÷ low"], rows)
+    return builds(figures, CONTENT)
 
 
 def ticks(figures):
@@ -427,6 +417,13 @@ def bounds(figures):
     return markdown(["paths", "cells", "candidates", "closest hit", "any hit"], rows)
 
 
+def pages(_):
+    """The list of all pages."""
+    texts = {page.name: page.read_text(encoding="utf-8") for page in sorted(PAGES.glob("*.md")) if page != TEMPLATE}
+    machines = {name: re.search(r"<!-- figures: machine -->(.*?)<!--", text)[1] for name, text in texts.items()}
+    return "".join(f"- [{machine}](figures/{name})\n" for name, machine in machines.items())
+
+
 def summaries(_):
     """The summaries of all pages, each below its machine."""
     texts = []
@@ -443,7 +440,7 @@ BLOCKS_OF_FIGURES = [
     machine, summary, all_batches, all_batches_on_avx2, all_single_calls, all_doubles, all_builds, queries, ranges,
     instruction_sets, builds, ticks, growth, threads, exactness, bounds,
 ]  # fmt: skip
-BLOCKS = {block.__name__: block for block in BLOCKS_OF_README + BLOCKS_OF_FIGURES}
+BLOCKS = {block.__name__: block for block in [*BLOCKS_OF_README, *BLOCKS_OF_FIGURES, pages]}
 
 
 MARKED = re.compile(r"(<!-- figures: (\w+) -->)(\n?).*?(<!-- end -->)", re.DOTALL)
@@ -475,7 +472,7 @@ def check(figures):
     if not {"CGAL", "Bullet", f"{MEDIUM} x1", f"{ROBUST} x1"} <= set(contenders):
         fail("README.md compares with Embree, CGAL and Bullet; the benchmark was built or run without one of them")
     for row in figures.matching(measure="wrong decisions"):
-        if row["contender"] in OURS and float(row["median"]) > 0:
+        if row["contender"] in [*OURS, IN_DOUBLE] and float(row["median"]) > 0:
             fail(f"surehit is wrong, which has to be mended first: {row}")
 
 
@@ -493,6 +490,8 @@ def main():
     subprocess.run(["cmake", "--build", arguments.build, "--target", "surehit_benchmark"], check=True)
     readme = ROOT / "README.md"
     text_of_readme = read_published(readme, BLOCKS_OF_README)
+    full = HERE / "FIGURES.md"
+    text_of_full = read_published(full, [pages])
     text_of_page = read_published(TEMPLATE, BLOCKS_OF_FIGURES)
     if text_of_page.count(ALL_TABLES) != 1:
         fail(f"{TEMPLATE.name} lacks the line {ALL_TABLES.strip()}")
@@ -529,6 +528,7 @@ def main():
         head = text_of_page.partition(ALL_TABLES)[0]
         tables = "".join(f"\n{section}\n" for section in sections)
         (PAGES / f"{name}.md").write_text(with_blocks(head, figures) + ALL_TABLES + tables, encoding="utf-8")
+        full.write_text(with_blocks(text_of_full, figures), encoding="utf-8")
         readme.write_text(with_blocks(text_of_readme, figures), encoding="utf-8")
         shutil.copyfile(chart_path, HERE / "ratios.svg")
 

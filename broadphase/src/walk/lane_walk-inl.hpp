@@ -134,9 +134,9 @@ class LaneWalk {
     std::array<double, max_lanes> last_t;                 ///< The ends of the ranges.
   };
 
-  /// Clips the paths of some lanes in double. `paths` must have numbers in all lanes. It sets `enters` to the t where
+  /// Clips the paths of some lanes in double. `paths` must be set in all lanes. It sets `enters` to the t where
   /// tau is 0. It takes the steps that `ClippedPath::clip_in_double` takes for paths that are not scaled (L9), so both
-  /// have the same bits. A path that must be scaled, or is not finite, is `apart`.
+  /// have the same numbers. A path that must be scaled, or is not finite, is `apart`.
   HWY_NOINLINE Clipped clip_in_double(const DoublePaths& paths, PathKind kind, std::uint32_t lanes,
                                       WalkingPaths& clipped, std::array<double, max_lanes>& enters) const {
     const std::size_t part = hn::Lanes(DoubleTag());
@@ -415,7 +415,7 @@ class LaneWalk {
  private:
   using DoubleTag = hn::CappedTag<double, 8>;
 
-  /// Does the same for the lanes of one vector of doubles. The first one is lane `from`.
+  /// Does what `clip_in_double` does for the lanes of one vector of doubles. The first one is lane `from`.
   HWY_INLINE Clipped clip_part_in_double(const DoublePaths& paths, PathKind kind, std::size_t from, std::uint32_t lanes,
                                          WalkingPaths& clipped, std::array<double, max_lanes>& enters_at) const {
     const DoubleTag d;
@@ -423,12 +423,17 @@ class LaneWalk {
     const std::uint32_t some = lanes & static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(d)) - 1);
     using Doubles = hn::Vec<DoubleTag>;
     const auto number = [&](double x) { return hn::Set(d, x); };
+    const Doubles zero = hn::Zero(d);
     const auto taken = mask_of(df, some);
     const auto keep_floats = [&](LaneFloats& of, hn::Vec<decltype(df)> x) {
       hn::BlendedStore(x, taken, df, &of[from]);
     };
     const auto keep = [&](LaneFloats& of, Doubles x) { keep_floats(of, hn::DemoteTo(df, x)); };
-    const Doubles zero = hn::Zero(d);
+    const auto keep_end = [&](LaneFloats& of, Doubles x) {
+      // Highway's emulated vectors make infinity the largest finite float.
+      const auto is_infinite = hn::DemoteTo(df, hn::IfThenElse(hn::Eq(x, hn::Inf(d)), number(1), zero));
+      keep_floats(of, hn::IfThenElse(hn::Gt(is_infinite, hn::Zero(df)), hn::Inf(df), hn::DemoteTo(df, x)));
+    };
     const auto scaled = [&](const std::array<double, max_lanes>& x) {
       return hn::Mul(hn::Mul(hn::LoadU(d, &x[from]), number(frame_.unit[0])), number(frame_.unit[1]));
     };
@@ -503,7 +508,7 @@ class LaneWalk {
     const Doubles rounding = hn::Mul(hn::Add(hn::Abs(last_t), hn::Abs(enters)), number(0x1p-50));
     const Doubles end =
         hn::Add(hn::Add(hn::Add(exact, rounding), hn::Mul(hn::Abs(exact), number(0x1p-22))), number(0x1p-140));
-    keep(clipped.end, hn::IfThenElseZero(moves, end));
+    keep_end(clipped.end, hn::IfThenElseZero(moves, end));
     keep(clipped.enters, enters);
     keep(clipped.first_cell, first_cell);
     hn::StoreU(enters, d, &enters_at[from]);

@@ -29,8 +29,8 @@ inline float round_down(double x) {
 }
 
 /// Does the same as `classify` in double, for some lanes of a vector of floats. The other lanes are misses here. `path`
-/// must be `KernelPath<double>::of_floats`. Few lanes are undecided after this, even if the path begins far away or
-/// passes close to an edge.
+/// is a path of floats in double, with its reach in float (K6). Few lanes are undecided after this, even if the path
+/// begins far away or passes close to an edge.
 inline HWY_NOINLINE Verdicts classify_in_double(const KernelPath<double>& path, const PathRange<float>& range,
                                                 const TriangleList<float>& list, std::size_t from, std::uint64_t lanes,
                                                 double limit, FirstLanes<float>& first) {

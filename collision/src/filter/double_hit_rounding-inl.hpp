@@ -24,30 +24,33 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 /// Tries to round t, u and v of a hit in each lane. All coordinates are doubles, and the arithmetic is in double words.
 ///
-/// The names are those of kernel_bound.hpp, with u = 2^-53. The sizes d, e, f and s must be at most 2^200, and all
+/// The names are those of kernel_bound.hpp, with eps = 2^-53. The sizes d, e, f and s must be at most 2^200, and all
 /// computed determinants at least 2^-700.
 ///
 /// D1. A computed determinant is off by at most 2^-98 times its product of sizes.
 /// Proof. The differences of coordinates are exact (W1). Let x and y be the sizes of two factors of a cross product.
-///     By W3 and W2, a component is off by 7 u^2 of each product and 3.1 u^2 of their sum. This is 20.2 u^2 x y.
+///     By W3 and W2, a component is off by 7 eps^2 of each product and 3.1 eps^2 of their sum. This is 20.2 eps^2 x y.
 ///     It is at most 2 x y in size. Let z be the size of the third factor.
-///     Each of the three products with it is off by (7 · 2 + 20.2) u^2 x y z, and these are 102.6 u^2 x y z.
-///     The two sums are at most 4 x y z and 6 x y z, and they add 31 u^2 x y z.
-///     Together, this is below 134 u^2, and 2^-98 = 256 u^2. The sizes are those of the high parts, off by u.
+///     Each of the three products with it is off by (7 · 2 + 20.2) eps^2 x y z, and these are 102.6 eps^2 x y z.
+///     The two sums are at most 4 x y z and 6 x y z, and they add 31 eps^2 x y z.
+///     Together, this is below 134 eps^2, and 2^-98 = 256 eps^2. The sizes are those of the high parts, off by eps.
 ///     By K3, x y z is at least 2^-703, and 2^-98 of it is at least 2^-801. Underflow adds less than 2^-1060 times a
 ///     size, and this is at most 2^-860.
 ///
 /// D2. Let n and m be computed determinants, with the bounds r_n and r_m, and let m be the det. Let q0 be the quotient
-///     of their high parts, and q1 that of the remainder n - q0 m. If B = 2^-98 |q0| + 2 (r_n + |q0| r_m) / |m| is
-///     below 2^-40 |q0|, then N / M is within B of q0 + q1.
-/// Proof. Then r_m is below 2^-41 |m|. By K10, N / M is within (r_n + |n / m| r_m) / (|m| - r_m) of n / m. The factor 2
-/// covers |m| - r_m, and that
-///     q0 and the inverse are rounded. The product q0 m is off by 3 u^2 |q0 m|, and the remainder is at most
-///     5 u |q0 m|. So leaving out its low part and rounding it and q1 add at most 8 u · 5 u |q0|.
-///     Both ends q0 + (q1 ± bound) have one rounding more, of at most 6 u^2 |q0|. Together, this is below 64 u^2 |q0|.
+///     of their high parts, and q1 the computed quotient of n - q0 m. Let B = 2^-98 |q0| + 2 (r_n + |q0| r_m) / |m|.
+///     If B is below 2^-40 |q0|, then N / M is within B of q0 + q1.
+/// Proof. By K10, N / M is within (r_n + |n / m| r_m) / (|m| - r_m) of n / m. Here r_m is below 2^-41 |m|.
+///     So the factor 2 covers |m| - r_m, and that q0 and the inverse are rounded.
+///     The product q0 m is within 4 eps |n| of n. So the high parts differ by at most 6 eps |n|, exactly (Sterbenz).
+///     The other three terms of n - q0 m are at most eps |n| each. All sums and the product with the low part of m are
+///     rounded, by 15 eps^2 |n| together. Then |q1| is at most 9 eps |q0|, and the inverse and its product add
+///     27 eps^2 |q0|. The ends q0 + (q1 - B) and q0 + (q1 + B) have one rounding more, of at most 10 eps^2 |q0|.
+///     Together, this is below 64 eps^2 |q0|, and 2^-98 = 256 eps^2.
 ///     The product does not underflow, because it is close to n. Nor does the quotient, if |q0| is at least 2^-900.
 ///
-/// As in R5, the hit is rounded if both ends of each interval round to the same double. Then B is below 2^-40 |q0|.
+/// As in R5, the hit is rounded if both ends of each interval round to the same double. Then B is at most a few eps
+/// times |q0|, as D2 requires.
 template <class D>
 struct DoubleHitRounding {
   using V = hn::Vec<D>;
@@ -78,8 +81,9 @@ struct DoubleHitRounding {
       const V q0 = hn::Mul(numerator.high, inverse);
       const V q0_size = hn::Abs(q0);
       const Words product = Words::exact_product(q0, det.high);
-      const Words whole = {product.high, hn::Add(product.low, hn::Mul(q0, det.low))};
-      const V q1 = hn::Mul((numerator - whole).high, inverse);
+      const V high = hn::Sub(numerator.high, product.high);
+      const V low = hn::Sub(hn::Sub(numerator.low, product.low), hn::Mul(q0, det.low));
+      const V q1 = hn::Mul(hn::Add(high, low), inverse);
       const V twice = hn::Abs(hn::Add(inverse, inverse));
       const V error = hn::Add(hn::Mul(q0_size, relative), hn::Mul(hn::Add(bound, hn::Mul(q0_size, det_bound)), twice));
       const V rounded_value = hn::Add(q0, hn::Add(q1, error));

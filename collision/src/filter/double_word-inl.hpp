@@ -17,12 +17,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// A double word in each lane: the sum of two doubles, of which `high` is the double nearest to the sum.
 ///
 /// The algorithms and their bounds are from Joldes, Muller and Popescu, "Tight and Rigorous Error Bounds for Basic
-/// Building Blocks of Double-Word Arithmetic" (2017). Here u = 2^-53. Nothing may overflow.
+/// Building Blocks of Double-Word Arithmetic" (2017). Here eps = 2^-53. Factors must be at most 2^900, so that nothing
+/// overflows.
 ///
 /// W1. `exact_sum` and `exact_product` have no error, unless the error of a product underflows (B3 in bounded.hpp).
-/// W2. `sum` is off by at most 3.1 u^2 times the exact sum (algorithm 6).
-/// W3. `product` is off by at most 7 u^2 times the exact product (algorithm 10). If it underflows, it may be off by
-///     2^-1070 in addition.
+/// W2. The sum of two double words is off by at most 3.1 eps^2 times the exact sum (algorithm 6).
+/// W3. The product of two double words is off by at most 7 eps^2 times the exact product (algorithm 10). If it
+///     underflows, it may be off by 2^-1070 in addition.
 template <class D>
 struct DoubleWords {
   using V = hn::Vec<D>;

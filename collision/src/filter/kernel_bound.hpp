@@ -64,9 +64,10 @@ namespace surehit::detail {
 //     K2 and K4 left out a few eps. The distance s may be too small by a factor 1 - 2^-21 (P1).
 //     All of this is below 2^-18 of the bound. The step from 60 to 66 is a tenth of it.
 //
-// K6. In double, the bounds also hold for paths and lists of floats, though the edge size is a float.
-// Proof. All coordinates are doubles too. The edge size was rounded to float, which may make it smaller by 2^-24.
-//     It occurs twice at most in a term. So this is far below the tenth that K5 leaves.
+// K6. In double, the bounds also hold for paths and lists of floats, though edge size and reach are floats.
+// Proof. Coordinates of floats and their differences are below 2^130, which is far below `largest_size`.
+//     The edge size was rounded to float, which may make it smaller by 2^-24, and the reach by 2^-20 (P1).
+//     A term has at most three of them. So this is far below the tenth that K5 leaves.
 //
 // K7. Underflow changes W and the ends of the range by at most 12 eta (1 + l) (1 + |first|).
 //     Here l is the largest size, and `first` is either limit of the range.

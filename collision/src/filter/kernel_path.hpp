@@ -48,8 +48,6 @@ struct KernelPath {
 
   KernelPath() = default;
   KernelPath(const Path<Scalar>& path, const GridFrame& frame);
-  /// Makes a path in double from a path of floats, for any list of the grid. `frame` is the outermost one.
-  static KernelPath of_floats(const Path<float>& path, const GridFrame& frame);
   KernelPath(const Path<Scalar>& path, Scalar any_reach) : reach(any_reach), d_size(0) {
     Scalar start_size = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -62,7 +60,7 @@ struct KernelPath {
   }
 
  private:
-  /// S is at most `largest_size` if the start and all vertices are at most half of it.
+  /// S is at most `largest_size` if the start and the first corners of a list are at most half of it.
   static bool are_small(Scalar start_size, Scalar any_d_size) {
     return start_size <= KernelBound<Scalar>::largest_size / 2 && any_d_size <= KernelBound<Scalar>::largest_size;
   }
@@ -71,22 +69,6 @@ struct KernelPath {
 template <>
 inline KernelPath<double>::KernelPath(const Path<double>& path, const GridFrame& frame) : KernelPath(path, 0.0) {
   reach = reach_of(path, d, frame);
-}
-
-template <>
-inline KernelPath<double> KernelPath<double>::of_floats(const Path<float>& path, const GridFrame& frame) {
-  KernelPath result;
-  result.reach = 0;
-  result.d_size = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double start = path.start[static_cast<Eigen::Index>(axis)];
-    result.start[axis] = start;
-    result.d[axis] = direction_of(path.kind, start, double{path.toward[static_cast<Eigen::Index>(axis)]});
-    result.d_size = std::max(result.d_size, std::fabs(result.d[axis]));
-    // The first bound of P1. The second one would need the frame of the list.
-    result.reach = std::max({result.reach, std::fabs(start - frame.low[axis]), std::fabs(start - frame.high[axis])});
-  }
-  return result;
 }
 
 /// The same for floats, `reach_of` included. A vector holds all axes, because scalars are slower on short paths.

@@ -22,13 +22,13 @@ struct PlaneVector {
 
 /// Returns the component of x × y on the axis of the plane.
 ///
-/// F1. The computed value is off by at most 8 eps (|x.x y.y| + |x.y y.x|), where eps = 2^-53. This includes the
+/// G1. The computed value is off by at most 8 eps (|x.x y.y| + |x.y y.x|), where eps = 2^-53. This includes the
 ///     roundings of the differences, and those of the bound. The smallest normal number covers underflow.
 /// Proof. Each product passes through four roundings: two differences, the product and the sum. This is 4 eps, up to
 ///     terms in eps^2. The bound itself has three roundings, so 5 eps would be enough. Each product and the bound lose
 ///     at most 2^-1075 by underflow.
 ///
-/// F2. If each product has a factor that is zero, the value is an exact zero.
+/// G2. If each product has a factor that is zero, the value is an exact zero.
 /// Proof. A difference is computed as zero only if it is zero.
 Bounded cross(const PlaneVector& x, const PlaneVector& y) {
   if ((x.x == 0 || y.y == 0) && (x.y == 0 || y.x == 0)) return exact(0);
@@ -48,7 +48,21 @@ std::optional<Eigen::Index> axis_of_plane(const Path<Scalar>& path, const Triang
   return std::nullopt;
 }
 
-/// The weight of a corner at the line's point at t, times the normal: s + t d. It is not negative in the triangle.
+/// The weight of a corner at the line's point at t, times the normal's size: s + t d.
+///
+/// G3. The line's point at t is in the triangle if and only if no weight is negative.
+/// Proof. A weight is the signed area between the point and the edge opposite the corner, with the sign of the
+/// triangle.
+///
+/// G4. Each weight with d > 0 bounds t from below, and each one with d < 0 from above, by -s / d. The maximum of the
+///     lower bounds of intervals is a lower bound of the maximum, and so on for upper bounds and for minima.
+///     So `first` and `last` hold the ends of the interval in which no weight is negative.
+///
+/// G5. The pair is a miss if this interval is certain to be empty, or to be beside the range. It is a hit if
+///     the interval and the range are certain to overlap. The first contact is at the larger one of the two lower ends.
+///
+/// G6. Let the interval begin with -s / d of one weight, and let this be certain. Another weight is s' + t d' there.
+///     This is (s' d - s d') / d, and the weight itself is zero.
 struct PlaneWeight {
   Bounded s, d;
 };
@@ -60,7 +74,7 @@ struct PlaneInterval {
   double last_lower = unlimited;
   double last_upper = unlimited;
   std::size_t entry = 0;     ///< The index of the weight that is zero at `first`.
-  bool knows_entry = false;  ///< True if no other weight may be zero there.
+  bool knows_entry = false;  ///< True if no other lower bound may be as large.
 
   /// Adds the condition s + t d >= 0, as weight `index`. Returns false if the signs are not certain.
   bool add(const PlaneWeight& weight, std::size_t index) {
@@ -96,7 +110,7 @@ struct PlaneInterval {
 /// Returns the weight at t.
 Bounded weight_at(double t, const PlaneWeight& weight) { return weight.s + exact(t) * weight.d; }
 
-/// Returns the weight where `entry` is zero, times `entry.d`. There t is -s / d of `entry`.
+/// Returns the weight where `entry` is zero, times `entry.d` (G6).
 Bounded weight_at_entry(const PlaneWeight& entry, const PlaneWeight& weight) {
   return &weight == &entry ? exact(0) : weight.s * entry.d - entry.s * weight.d;
 }
@@ -139,6 +153,7 @@ BoundedContact plane_contact(const Path<Scalar>& path, const Triangle<Scalar>& t
   result.u_scaled.radius = result.v_scaled.radius = unlimited;
   const double first = range.first;
   const double last = range.last;
+  // G5
   if (interval.first_lower > std::min(interval.last_upper, last) || interval.last_upper < first) {
     result.verdict = Verdict::miss;
     return result;
@@ -155,7 +170,9 @@ BoundedContact plane_contact(const Path<Scalar>& path, const Triangle<Scalar>& t
     set_quotients(result, weight_at(first, weights[0]), weight_at(first, weights[1]), size);
   } else if (interval.knows_entry && interval.first_lower >= first) {
     const PlaneWeight& entry = weights[interval.entry];
-    set_quotients(result, weight_at_entry(entry, weights[0]), weight_at_entry(entry, weights[1]), size * entry.d);
+    const Bounded denominator = size * entry.d;
+    if (denominator.sign() != 1) return result;  // Its sign must be certain.
+    set_quotients(result, weight_at_entry(entry, weights[0]), weight_at_entry(entry, weights[1]), denominator);  // G6
   }
   return result;
 }

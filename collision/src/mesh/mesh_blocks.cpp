@@ -122,12 +122,14 @@ template <typename Index>
 void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor,
                                      [[maybe_unused]] Slabs wanted) {
   blocks_.resize(offset(grid.lists().size(), grid.entries().size()) + slack);
-  Scalar largest = 0;
-  for (const Vector3<Scalar>& vertex : vertices_) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
-  const bool too_large = !(largest <= detail::KernelBound<Scalar>::largest_size / 2);
   using Four = Eigen::Matrix<Scalar, 4, 1>;
   using FourPoints = Eigen::Matrix<Scalar, 4, 4>;
-  const auto fill_four = [&](const std::uint32_t* ids, Scalar* list, std::size_t count, Four& longest) {
+  /// The largest components of some triangles: of their first corners, and of their edges from there.
+  struct Sizes {
+    Four corner = Four::Zero();
+    Four edge = Four::Zero();
+  };
+  const auto fill_four = [&](const std::uint32_t* ids, Scalar* list, std::size_t count, Sizes& sizes) {
     std::array<FourPoints, 3> corners;
     for (std::size_t k = 0; k < 4; ++k) {
       const std::array<Index, 3>& triangle = triangles[ids[k]];
@@ -143,8 +145,9 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
       }
     }
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      sizes.corner = sizes.corner.cwiseMax(corners[0].col(axis).cwiseAbs());
       for (const std::size_t corner : {1U, 2U}) {
-        longest = longest.cwiseMax((corners[corner].col(axis) - corners[0].col(axis)).cwiseAbs());
+        sizes.edge = sizes.edge.cwiseMax((corners[corner].col(axis) - corners[0].col(axis)).cwiseAbs());
       }
     }
   };
@@ -156,22 +159,25 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
       *edge_size = 0;
       return;
     }
-    Four longest = Four::Zero();
+    Sizes sizes;
     if (ids.size() >= 4) {
-      for (std::size_t i = 0; i + 4 < ids.size(); i += 4) fill_four(ids.data() + i, list + i, ids.size(), longest);
+      for (std::size_t i = 0; i + 4 < ids.size(); i += 4) fill_four(ids.data() + i, list + i, ids.size(), sizes);
       // The last four may overlap those before them.
-      fill_four(&ids.back() - 3, list + ids.size() - 4, ids.size(), longest);
+      fill_four(&ids.back() - 3, list + ids.size() - 4, ids.size(), sizes);
     } else {
       std::array<std::uint32_t, 4> four;
       four.fill(ids.back());
       std::copy(ids.begin(), ids.end(), four.begin());
       std::array<Scalar, coordinates * 4> of_four;
-      fill_four(four.data(), of_four.data(), 4, longest);
+      fill_four(four.data(), of_four.data(), 4, sizes);
       for (std::size_t k = 0; k < coordinates; ++k) {
         std::copy_n(of_four.data() + 4 * k, ids.size(), list + k * ids.size());
       }
     }
-    *edge_size = too_large ? std::numeric_limits<Scalar>::infinity() : longest.maxCoeff();
+    constexpr Scalar largest_size = detail::KernelBound<Scalar>::largest_size;
+    const Scalar edge = sizes.edge.maxCoeff();
+    const bool is_small = sizes.corner.maxCoeff() <= largest_size / 2 && edge <= largest_size;
+    *edge_size = is_small ? edge : std::numeric_limits<Scalar>::infinity();
   };
   slabs_.clear();
   if (grid.lists().empty()) return;

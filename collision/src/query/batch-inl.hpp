@@ -285,9 +285,9 @@ class Batch {
     const auto& query = queries_.query(index_[slot]);
     const auto& range = queries_.range(index_[slot]);
     const PathOfSlot path{paths_, index_[slot]};
-    const bool shorter =
-        visit(CandidateBlock<Scalar, PathOfSlot>{query, range, path, jobs_.list(slot), from, verdicts, first},
-              visitors_[slot]);
+    const bool shorter = visit(CandidateBlock<Scalar, PathOfSlot>{query, range, path, jobs_.list(slot),
+                                                                  jobs_.path(slot).reach, from, verdicts, first},
+                               visitors_[slot]);
     if constexpr (Visitor::wants_order) {
       if (shorter) shorten(slot, visitors_[slot].limit());
       return 0;
@@ -377,9 +377,7 @@ HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[
     return;
   }
 #if HWY_TARGET != HWY_SCALAR
-  // The lanes clip paths of floats in float. Paths of doubles are clipped one by one.
-  const bool can_clip = std::is_same_v<Scalar, double> || grid.frame().has_floats;
-  if (can_clip && !queries.admits_nothing() && !grid.is_one_list()) {
+  if (!queries.admits_nothing() && !grid.is_one_list()) {
     Batch<Scalar, Visitor, Queries, Finish, Alone>(queries, paths, finish, alone).run();
     return;
   }

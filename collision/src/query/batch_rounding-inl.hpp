@@ -29,7 +29,7 @@ namespace surehit::detail::HWY_NAMESPACE {
 template <typename Scalar>
 class WaitingHits;
 
-/// What all of them have in common.
+/// The rounded hits of one vector.
 template <typename Scalar>
 struct RoundedBatch {
   static constexpr std::size_t max_hits = 8;  ///< The number of doubles in the widest vectors of today.

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -44,6 +45,7 @@ struct CandidateBlock {
   const PathRange<Scalar>& range;    ///< The range of the path.
   const AnyPath& path;               ///< The path.
   const TriangleList<Scalar>& list;  ///< The list that has the triangles.
+  Scalar reach;                      ///< The reach of the path in the frame of the list (P1).
   std::size_t from;                  ///< The index in the list of the triangle in lane 0.
   Verdicts verdicts;                 ///< The verdicts of the kernel.
   const FirstLanes<Scalar>& first;   ///< The hits that may be first. It is set only if the visitor wants an order.
@@ -59,7 +61,7 @@ struct CandidateBlock {
 /// Some lanes of a block that the visitor has not decided.
 struct OpenLanes {
   std::uint64_t lanes;  ///< The mask of these lanes.
-  std::uint64_t close;  ///< Those that double cannot decide.
+  std::uint64_t close;  ///< Those that `Closeness::close` describes.
 };
 
 /// Classifies some lanes of a block of floats in double. The visitor takes what is certain now. Returns the lanes that
@@ -71,12 +73,15 @@ HWY_INLINE OpenLanes look_again(const CandidateBlock<float, AnyPath>& block, con
   const std::uint64_t again = Visitor::wants_order ? lanes : lanes & ~block.verdicts.certain;
   double limit = std::numeric_limits<double>::infinity();
   if constexpr (Visitor::wants_order) limit = visitor.limit();  // `t_upper` may be rounded down.
-  const auto in_double = KernelPath<double>::of_floats(path, block.query.grid.frame());
+  const Path<double> in_double(path.kind, path.start.template cast<double>(), path.toward.template cast<double>());
+  const KernelPath<double> kernel_path(in_double, double{block.reach});
   FirstLanes<float> first;
-  const Verdicts verdicts = classify_in_double(in_double, block.range, block.list, block.from, again, limit, first);
+  const Verdicts verdicts = classify_in_double(kernel_path, block.range, block.list, block.from, again, limit, first);
   const CandidateBlock<float, AnyPath> now = {block.query, block.range, block.path, block.list,
-                                              block.from,  verdicts,    first};
-  return {(lanes & ~again) | visitor.take_certain(now, shorter), verdicts.possible & ~verdicts.certain};
+                                              block.reach, block.from,  verdicts,   first};
+  // Without a bound of the list, each pair may still be decided by its own sizes.
+  const std::uint64_t close = std::isfinite(block.list.edge_size) ? verdicts.possible & ~verdicts.certain : 0;
+  return {(lanes & ~again) | visitor.take_certain(now, shorter), close};
 }
 
 /// Gives the candidates of some lanes to the visitor one by one, with a narrowphase that can decide them. Lanes of
@@ -188,8 +193,8 @@ class FirstHit {
     state_ = State::decided;
     grid_ = &query.grid;
     best_ = candidate;
-    // Rounding to nearest moves these bounds by at most eps |t|. They are compared with intervals of the kernel. In
-    // float, these are wider than they need to be by 3 eps |t| (K16). In double, they were rounded outwards to floats.
+    // They are rounded to nearest. A Scalar below such a number is below the exact bound too, and one above it is
+    // above.
     t_lower_ = static_cast<Scalar>(best_.contact.t_lower);
     t_upper_ = static_cast<Scalar>(best_.contact.t_upper);
     return true;

@@ -113,6 +113,7 @@ class PathQueue {
     enters_rest_ = {};
     const LaneWalk::Clipped clipped =
         walk_.clip(numbers, paths_.kind() == PathKind::segment, ends.first, ends.last, count, clipped_, kernel_paths_);
+    if (!can_clip_in_float_) return clip_apart({0, static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1)});
     return clipped.apart == 0 ? clipped : clip_apart(clipped);
   }
 
@@ -206,7 +207,9 @@ class PathQueue {
   /// The parameters of their walks, for paths of doubles.
   [[no_unique_address]] std::conditional_t<is_float, None, std::array<WalkParameter, max_lanes>> taus_;
   const LaneWalk& walk_;
-  const Queries& queries_;                     ///< The queries of the paths.
+  const Queries& queries_;  ///< The queries of the paths.
+  /// True if floats hold the numbers of the grid's frame. Else `LaneWalk::clip` only sets the paths of the kernel.
+  const bool can_clip_in_float_ = queries_.of_batch().grid.frame().has_floats;
   const PathSpan<Scalar>& paths_;              ///< All paths of the batch.
   const bool is_packed_ = paths_.is_packed();  ///< True if paths can be read in place.
   const Alone& alone_;                         ///< Answers a path that no lane can walk.

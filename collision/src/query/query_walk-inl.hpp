@@ -69,7 +69,9 @@ HWY_INLINE bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& 
     }
     if (verdicts.possible == 0) continue;
     query.statistics.undecided += static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
-    shorter |= visit(CandidateBlock<Scalar, Path<Scalar>>{query, range, path, list, from, verdicts, first}, visitor);
+    shorter |=
+        visit(CandidateBlock<Scalar, Path<Scalar>>{query, range, path, list, input.path.reach, from, verdicts, first},
+              visitor);
     if (visitor.is_done()) return true;
   }
   return shorter;

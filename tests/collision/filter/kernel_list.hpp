@@ -73,8 +73,9 @@ class KernelList {
     if constexpr (std::is_same_v<Scalar, float>) {
       const std::size_t count = std::min(kernel_lanes<Scalar>(), list_.count - from);
       const auto all = static_cast<std::uint64_t>((std::uint64_t{1} << count) - 1);
-      const auto in_double = detail::KernelPath<double>::of_floats(path, grid_.frame());
-      return classify_in_double(in_double, range, list_, from, all, limit);
+      const Path<double> in_double(path.kind, path.start.template cast<double>(), path.toward.template cast<double>());
+      const detail::KernelPath<double> in_kernel(in_double, double{kernel_path(path).reach});
+      return classify_in_double(in_kernel, range, list_, from, all, limit);
     } else {
       const KernelVerdicts verdicts = verdicts_from(path, range, from);
       return {verdicts, first_from(path, from, verdicts.certain, limit)};

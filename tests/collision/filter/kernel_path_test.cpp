@@ -155,30 +155,5 @@ TYPED_TEST(KernelPathOf, is_the_same_in_lanes) {
   }
 }
 
-/// In double, the margins are so wide that no verdict shows a reach that is too low.
-TEST(KernelPathOfFloats, reaches_the_whole_box) {
-  Random random(116);
-  const auto mesh = rough_ground<float>(6, 0.7F, random);
-  const Grid grid(mesh.view(), box_of(mesh.view()), {.resolution = {3, 3, 3}, .crowded = 0});
-  const GridFrame& frame = grid.frame();
-  PathDrawer<float> drawer(mesh.view(), 117);
-  for (std::size_t i = case_count(1'000); i > 0; --i) {
-    const Path<float> path = drawer.draw();
-    const auto in_double = detail::KernelPath<double>::of_floats(path, frame);
-    double reach = 0;
-    double d_size = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double start = path.start[static_cast<Eigen::Index>(axis)];
-      const double toward = path.toward[static_cast<Eigen::Index>(axis)];
-      EXPECT_EQ(in_double.start[axis], start);
-      EXPECT_EQ(in_double.d[axis], path.has_end() ? toward - start : toward);
-      reach = std::max({reach, std::fabs(start - frame.low[axis]), std::fabs(start - frame.high[axis])});
-      d_size = std::max(d_size, std::fabs(in_double.d[axis]));
-    }
-    EXPECT_EQ(in_double.reach, reach);
-    EXPECT_EQ(in_double.d_size, d_size);
-  }
-}
-
 }  // namespace
 }  // namespace surehit::test

@@ -31,6 +31,27 @@ Pair<Scalar> flattened(Pair<Scalar> pair, Eigen::Index axis) {
   return pair;
 }
 
+/// What is decided is true.
+template <typename Scalar>
+void expect_true(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const QueryOptions<Scalar>& options) {
+  const PathRange<Scalar> range(path, options);
+  if (range.is_empty()) return;
+  const BoundedContact bounded = detail::plane_contact(path, triangle, range);
+  if (bounded.verdict == Verdict::undecided) return;
+  SCOPED_TRACE(hex_text(path) + hex_text(triangle) + hex_text(options));
+  const auto truth = exact_contact(path, triangle, options);
+  ASSERT_EQ(bounded.verdict == Verdict::hit, truth.has_value());
+  if (!truth) return;
+  expect_contact_of(*truth, bounded.contact, path, triangle, options);
+  const auto expect_holds = [](const std::array<double, 2>& interval, const mpq_class& exact) {
+    if (!std::isfinite(interval[0]) || !std::isfinite(interval[1])) return;
+    EXPECT_LE(mpq_class(interval[0]), exact);
+    EXPECT_GE(mpq_class(interval[1]), exact);
+  };
+  expect_holds(bounded.by_det.of(bounded.u_scaled), truth->u);
+  expect_holds(bounded.by_det.of(bounded.v_scaled), truth->v);
+}
+
 class PlaneContactOfFamily : public testing::TestWithParam<PairFamily> {
  protected:
   template <typename Scalar>
@@ -48,28 +69,6 @@ class PlaneContactOfFamily : public testing::TestWithParam<PairFamily> {
       }
     }
   }
-
- private:
-  template <typename Scalar>
-  static void expect_true(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
-                          const QueryOptions<Scalar>& options) {
-    const PathRange<Scalar> range(path, options);
-    if (range.is_empty()) return;
-    const BoundedContact bounded = detail::plane_contact(path, triangle, range);
-    if (bounded.verdict == Verdict::undecided) return;
-    SCOPED_TRACE(hex_text(path) + hex_text(triangle) + hex_text(options));
-    const auto truth = exact_contact(path, triangle, options);
-    ASSERT_EQ(bounded.verdict == Verdict::hit, truth.has_value());
-    if (!truth) return;
-    expect_contact_of(*truth, bounded.contact, path, triangle, options);
-    const auto expect_holds = [](const std::array<double, 2>& interval, const mpq_class& exact) {
-      if (!std::isfinite(interval[0]) || !std::isfinite(interval[1])) return;
-      EXPECT_LE(mpq_class(interval[0]), exact);
-      EXPECT_GE(mpq_class(interval[1]), exact);
-    };
-    expect_holds(bounded.by_det.of(bounded.u_scaled), truth->u);
-    expect_holds(bounded.by_det.of(bounded.v_scaled), truth->v);
-  }
 };
 
 TEST_P(PlaneContactOfFamily, is_never_wrong_for_float) { check<float>(); }
@@ -77,6 +76,25 @@ TEST_P(PlaneContactOfFamily, is_never_wrong_for_double) { check<double>(); }
 
 INSTANTIATE_TEST_SUITE_P(Families, PlaneContactOfFamily, testing::ValuesIn(all_pair_families),
                          [](const auto& family) { return name_of(family.param); });
+
+/// The bound of the product of the normal and a weight may be larger than the product itself.
+TEST(PlaneContactOfSlivers, is_never_wrong) {
+  Random random(63);
+  for (std::size_t i = case_count(20'000); i > 0 && !testing::Test::HasFailure(); --i) {
+    const auto draw = [&]() -> Vector3<double> { return {random.symmetric<double>(), random.symmetric<double>(), 0}; };
+    const Vector3<double> a = random.one_in(2) ? draw() : Vector3<double>::Zero();
+    const Vector3<double> edge = draw();
+    const double thickness = std::ldexp(1.0, -static_cast<int>(random.between(40, 54)));
+    const Triangle<double> sliver{a, a + edge, a + random.unit<double>() * edge + thickness * draw()};
+    const Vector3<double> start = a + random.unit<double>() * edge + thickness * draw();
+    const Vector3<double> way = random.one_in(2) ? draw() : Vector3<double>(edge + thickness * draw());
+    for (const Path<double>& path :
+         {Path<double>(Line<double>{start, way}), Path<double>(Ray<double>{start - way, way}),
+          Path<double>(Segment<double>{start - way, start + way})}) {
+      expect_true(path, sliver, {});
+    }
+  }
+}
 
 template <typename Scalar>
 class PlaneContact : public testing::Test {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -201,18 +202,45 @@ TYPED_TEST(MeshBlocksTest, numbers_vertices_in_sixteen_bits_where_that_is_enough
   }
 }
 
-/// Beyond half the largest size that the kernel's bound allows, its bounds are made infinite.
+/// The first corners may be half as large as the kernel's bound allows, and the edges as large. Beyond, its bounds are
+/// made infinite, for this list alone.
 TYPED_TEST(MeshBlocksTest, says_that_coordinates_are_too_large_for_the_kernel) {
-  const TypeParam limit = std::ldexp(TypeParam{1}, sizeof(TypeParam) == sizeof(float) ? 33 : 299);
-  for (const bool too_large : {false, true}) {
-    const TypeParam far = too_large ? std::nextafter(limit, std::numeric_limits<TypeParam>::infinity()) : limit;
+  constexpr TypeParam infinity = std::numeric_limits<TypeParam>::infinity();
+  const TypeParam max_corner = std::ldexp(TypeParam{1}, sizeof(TypeParam) == sizeof(float) ? 33 : 299);
+  const auto expect_edge_size = [&](const Triangle<TypeParam>& triangle, TypeParam expected) {
     GeneratedMesh<TypeParam> mesh;
-    mesh.add({{0, 0, 0}, {1, 0, 0}, {0, -far, 0}});
+    mesh.add(triangle);
     const Grid grid = this->grid_of(mesh, {.resolution = {1, 1, 1}});
     const MeshBlocks<TypeParam> blocks(mesh.view(), grid);
     const TypeParam* block = blocks.block(grid.top()[0].list(), grid.first_entry(grid.top()[0]));
-    EXPECT_EQ(blocks.edge_size(block), too_large ? std::numeric_limits<TypeParam>::infinity() : far);
+    EXPECT_EQ(blocks.edge_size(block), expected);
+  };
+  for (const bool too_large : {false, true}) {
+    const auto beyond = [&](TypeParam limit) { return too_large ? std::nextafter(limit, infinity) : limit; };
+    const TypeParam far = beyond(max_corner);
+    expect_edge_size({{0, -far, 0}, {1, -far, 0}, {0, -far, 1}}, too_large ? infinity : 1);
+    const TypeParam edge = beyond(2 * max_corner);
+    expect_edge_size({{0, 0, 0}, {1, 0, 0}, {0, -edge, 0}}, too_large ? infinity : edge);
   }
+}
+
+TYPED_TEST(MeshBlocksTest, bounds_lists_beside_a_triangle_that_is_too_large) {
+  const TypeParam huge = std::numeric_limits<TypeParam>::max() / 4;
+  GeneratedMesh<TypeParam> mesh;
+  mesh.add({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  mesh.add({{huge, huge, huge}, {huge, huge / 2, huge}, {huge, huge, huge / 2}});
+  const Grid grid = this->grid_of(mesh, {.resolution = {4, 4, 4}});
+  const MeshBlocks<TypeParam> blocks(mesh.view(), grid);
+  std::size_t bounded = 0;
+  for (const CellWord word : grid.top()) {
+    if (word.is_empty()) continue;
+    const TypeParam size = blocks.edge_size(blocks.block(word.list(), grid.first_entry(word)));
+    const std::span<const std::uint32_t> ids = grid.triangles(word);
+    const bool has_huge = std::find(ids.begin(), ids.end(), 1U) != ids.end();
+    EXPECT_EQ(size, has_huge ? std::numeric_limits<TypeParam>::infinity() : 1);
+    bounded += !has_huge;
+  }
+  EXPECT_GT(bounded, 0U);
 }
 
 }  // namespace
