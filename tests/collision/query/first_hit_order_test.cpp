@@ -157,11 +157,12 @@ TYPED_TEST(FirstHitOrder, of_floors_some_of_which_an_ulp_tilts) {
   EXPECT_GT(this->ties_, case_count(60));
 }
 
-/// The list of the first cell has a triangle so large that the kernel leaves its floor undecided. The narrowphase finds
-/// this floor. In the next cell it ties with a floor of a lower id, and the kernel is certain of that one.
+/// The list of the first cell has a triangle so large that the kernel leaves its floor undecided, in double too. The
+/// narrowphase finds this floor. In the next cell it ties with a floor of a lower id, and the kernel is certain of that
+/// one.
 TYPED_TEST(FirstHitOrder, of_a_floor_that_was_decided_and_one_that_was_not) {
   constexpr bool is_float = std::is_same_v<TypeParam, float>;
-  constexpr TypeParam large = is_float ? 0x1p12 : 0x1p20;
+  constexpr TypeParam large = is_float ? 0x1p24 : 0x1p20;
   constexpr TypeParam reach = is_float ? 1 : 0x1p18;
   const TypeParam near = TypeParam{0.05F};
   GeneratedMesh<TypeParam> mesh;
