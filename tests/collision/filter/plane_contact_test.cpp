@@ -79,12 +79,18 @@ INSTANTIATE_TEST_SUITE_P(Families, PlaneContactOfFamily, testing::ValuesIn(all_p
 
 /// The bound of the product of the normal and a weight may be larger than the product itself.
 TEST(PlaneContactOfSlivers, is_never_wrong) {
+  const Triangle<double> found{
+      {0, 0, 0}, {0x1.a79ecba41310fp+0, 0x1.93147a4a41c40p-3, 0}, {0x1.6b8378508c323p+0, 0x1.59e33ee520223p-3, 0}};
+  const Vector3<double> from(0x1.567b9f781f8e2p+0, 0x1.45e072b6e0762p-3, 0);
+  const Vector3<double> to(0x1.3c161b48babd1p+0, 0x1.2cc29649d9872p-3, 0);
+  expect_true(Path<double>(Line<double>{from, to - from}), found, {});
+  expect_true(Path<double>(Ray<double>{from, to - from}), found, {});
   Random random(63);
   for (std::size_t i = case_count(20'000); i > 0 && !testing::Test::HasFailure(); --i) {
     const auto draw = [&]() -> Vector3<double> { return {random.symmetric<double>(), random.symmetric<double>(), 0}; };
     const Vector3<double> a = random.one_in(2) ? draw() : Vector3<double>::Zero();
     const Vector3<double> edge = draw();
-    const double thickness = std::ldexp(1.0, -static_cast<int>(random.between(40, 54)));
+    const double thickness = std::ldexp(1.0, -static_cast<int>(random.between(44, 53)));
     const Triangle<double> sliver{a, a + edge, a + random.unit<double>() * edge + thickness * draw()};
     const Vector3<double> start = a + random.unit<double>() * edge + thickness * draw();
     const Vector3<double> way = random.one_in(2) ? draw() : Vector3<double>(edge + thickness * draw());

@@ -157,12 +157,11 @@ TYPED_TEST(FirstHitOrder, of_floors_some_of_which_an_ulp_tilts) {
   EXPECT_GT(this->ties_, case_count(60));
 }
 
-/// The list of the first cell has a triangle so large that the kernel leaves its floor undecided, in double too. The
-/// narrowphase finds this floor. In the next cell it ties with a floor of a lower id, and the kernel is certain of that
-/// one.
+/// The list of the first cell has a triangle so large that the kernel leaves its floor undecided in the
+/// precision of the mesh. In the next cell it ties with a floor of a lower id, and the kernel is certain of that one.
 TYPED_TEST(FirstHitOrder, of_a_floor_that_was_decided_and_one_that_was_not) {
   constexpr bool is_float = std::is_same_v<TypeParam, float>;
-  constexpr TypeParam large = is_float ? 0x1p24 : 0x1p20;
+  constexpr TypeParam large = is_float ? 0x1p12 : 0x1p20;
   constexpr TypeParam reach = is_float ? 1 : 0x1p18;
   const TypeParam near = TypeParam{0.05F};
   GeneratedMesh<TypeParam> mesh;
@@ -183,6 +182,32 @@ TYPED_TEST(FirstHitOrder, of_a_floor_that_was_decided_and_one_that_was_not) {
     EXPECT_TRUE(same_bits(hit, expected.front())) << hex_text(hit);
     EXPECT_GT(statistics.undecided, 0U);
     EXPECT_EQ(statistics.cells, 2U);
+  }
+}
+
+/// In the first cell, the path meets a floor exactly at an edge, so the narrowphase decides this floor. In the next
+/// cell the kernel is certain of a floor of a lower id, before it comes to the first floor again.
+TYPED_TEST(FirstHitOrder, of_a_floor_that_was_met_at_an_edge) {
+  const TypeParam near = TypeParam{0.05F};
+  GeneratedMesh<TypeParam> mesh;
+  mesh.add({{near, -1, 0}, {3, -1, 0}, {near, 3, 0}});
+  for (int i = 0; i < 40; ++i) mesh.add({{2, 2, 3}, {3, 2, 3}, {2, 3, 3}});
+  for (const TypeParam x : {TypeParam{-3}, TypeParam{3}}) mesh.add({{x, 0, 0}, {x, 0, 0}, {x, 0, 0}});
+  mesh.add({{-2, 2, -3}, {-2.5F, 2, 3}, {-2, 2.5F, 3}});  // So the path comes to the box of the first list.
+  mesh.add({{-1, 0, 0}, {3, 0, 0}, {-1, 3, 0}});
+  const std::vector<Segment<TypeParam>> segments(100, {{-1, 0, 1}, {1.5F, 0, -1}});
+  const auto expected = brute_force_hits<TypeParam>(mesh.view(), segments.front());
+  ASSERT_EQ(expected.size(), 2U);
+  ASSERT_EQ(expected.front().triangle, 0U);
+  for (const std::int64_t target : instruction_sets()) {
+    const ForcedInstructionSet forced(target);
+    const Collider<TypeParam> collider(mesh.view(), BuildOptions{{.resolution = {2, 1, 1}, .crowded = 0}, {}});
+    SCOPED_TRACE(name_of_instruction_set(target));
+    const Hit<TypeParam> single = collider.first_hit(segments.front()).value_or(Hit<TypeParam>{});
+    EXPECT_TRUE(same_bits(single, expected.front())) << hex_text(single);
+    std::vector<Hit<TypeParam>> hits(segments.size());
+    collider.first_hits(segments, hits);
+    for (const Hit<TypeParam>& hit : hits) EXPECT_TRUE(same_bits(hit, expected.front())) << hex_text(hit);
   }
 }
 
