@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "contact.hpp"
+#include "filter/bounded_contact.hpp"
 #include "support/exact_oracle.hpp"
 
 namespace surehit::test {
@@ -30,6 +32,19 @@ void expect_contact_of(const ExactContact& truth, const detail::Contact& contact
   ignoring_end.ignore_end_contact = true;
   EXPECT_EQ(contact.at_start, !exact_contact(path, triangle, ignoring_start).has_value());
   EXPECT_EQ(contact.at_end, !exact_contact(path, triangle, ignoring_end).has_value());
+}
+
+/// What a stage in double has decided must be true. Returns the exact contact if it is a hit.
+template <typename Scalar>
+[[nodiscard]] std::optional<ExactContact> expect_decided(const detail::BoundedContact& bounded,
+                                                         const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+                                                         const QueryOptions<Scalar>& limits) {
+  if (bounded.verdict == detail::Verdict::undecided) return std::nullopt;
+  const auto truth = exact_contact(path, triangle, limits);
+  EXPECT_EQ(bounded.verdict == detail::Verdict::hit, truth.has_value());
+  if (bounded.verdict != detail::Verdict::hit || !truth) return std::nullopt;
+  expect_contact_of(*truth, bounded.contact, path, triangle, limits);
+  return truth;
 }
 
 }  // namespace surehit::test

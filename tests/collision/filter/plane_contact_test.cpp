@@ -37,12 +37,9 @@ void expect_true(const Path<Scalar>& path, const Triangle<Scalar>& triangle, con
   const PathRange<Scalar> range(path, options);
   if (range.is_empty()) return;
   const BoundedContact bounded = detail::plane_contact(path, triangle, range);
-  if (bounded.verdict == Verdict::undecided) return;
   SCOPED_TRACE(hex_text(path) + hex_text(triangle) + hex_text(options));
-  const auto truth = exact_contact(path, triangle, options);
-  ASSERT_EQ(bounded.verdict == Verdict::hit, truth.has_value());
+  const auto truth = expect_decided(bounded, path, triangle, options);
   if (!truth) return;
-  expect_contact_of(*truth, bounded.contact, path, triangle, options);
   const auto expect_holds = [](const std::array<double, 2>& interval, const mpq_class& exact) {
     if (!std::isfinite(interval[0]) || !std::isfinite(interval[1])) return;
     EXPECT_LE(mpq_class(interval[0]), exact);

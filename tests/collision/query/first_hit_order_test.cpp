@@ -67,6 +67,25 @@ class FirstHitOrder : public testing::Test {
     }
   }
 
+  /// A path through two cells meets two floors in one plane. The first hit is that of triangle 0, alone and in a batch
+  /// of more paths than it has at once.
+  static void expect_lower_id(const GeneratedMesh<Scalar>& mesh) {
+    const std::vector<Segment<Scalar>> segments(100, {{-1, 0, 1}, {1.5F, 0, -1}});
+    const auto expected = brute_force_hits<Scalar>(mesh.view(), segments.front());
+    ASSERT_EQ(expected.size(), 2U);
+    ASSERT_EQ(expected.front().triangle, 0U);
+    for (const std::int64_t target : instruction_sets()) {
+      const ForcedInstructionSet forced(target);
+      const Collider<Scalar> collider(mesh.view(), BuildOptions{{.resolution = {2, 1, 1}, .crowded = 0}, {}});
+      SCOPED_TRACE(name_of_instruction_set(target));
+      const Hit<Scalar> single = collider.first_hit(segments.front()).value_or(Hit<Scalar>{});
+      EXPECT_TRUE(same_bits(single, expected.front())) << hex_text(single);
+      std::vector<Hit<Scalar>> hits(segments.size());
+      collider.first_hits(segments, hits);
+      for (const Hit<Scalar>& hit : hits) EXPECT_TRUE(same_bits(hit, expected.front())) << hex_text(hit);
+    }
+  }
+
   std::size_t hits_ = 0;
   std::size_t ties_ = 0;
 };
@@ -195,44 +214,18 @@ TYPED_TEST(FirstHitOrder, of_a_floor_that_was_met_at_an_edge) {
   for (const TypeParam x : {TypeParam{-3}, TypeParam{3}}) mesh.add({{x, 0, 0}, {x, 0, 0}, {x, 0, 0}});
   mesh.add({{-2, 2, -3}, {-2.5F, 2, 3}, {-2, 2.5F, 3}});  // So the path comes to the box of the first list.
   mesh.add({{-1, 0, 0}, {3, 0, 0}, {-1, 3, 0}});
-  const std::vector<Segment<TypeParam>> segments(100, {{-1, 0, 1}, {1.5F, 0, -1}});
-  const auto expected = brute_force_hits<TypeParam>(mesh.view(), segments.front());
-  ASSERT_EQ(expected.size(), 2U);
-  ASSERT_EQ(expected.front().triangle, 0U);
-  for (const std::int64_t target : instruction_sets()) {
-    const ForcedInstructionSet forced(target);
-    const Collider<TypeParam> collider(mesh.view(), BuildOptions{{.resolution = {2, 1, 1}, .crowded = 0}, {}});
-    SCOPED_TRACE(name_of_instruction_set(target));
-    const Hit<TypeParam> single = collider.first_hit(segments.front()).value_or(Hit<TypeParam>{});
-    EXPECT_TRUE(same_bits(single, expected.front())) << hex_text(single);
-    std::vector<Hit<TypeParam>> hits(segments.size());
-    collider.first_hits(segments, hits);
-    for (const Hit<TypeParam>& hit : hits) EXPECT_TRUE(same_bits(hit, expected.front())) << hex_text(hit);
-  }
+  this->expect_lower_id(mesh);
 }
 
 /// A floor is met in the first cell, but the path hits it in the next one. There it also hits another floor, which has
-/// a lower id and other u and v. More paths than a batch has at once.
+/// a lower id and other u and v.
 TYPED_TEST(FirstHitOrder, of_a_floor_and_one_of_a_lower_id_in_the_next_cell) {
   const TypeParam near = TypeParam{0.05F};
   GeneratedMesh<TypeParam> mesh;
   mesh.add({{near, -1, 0}, {3, -1, 0}, {near, 3, 0}});
   mesh.add({{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}});
   for (const TypeParam x : {TypeParam{-3}, TypeParam{3}}) mesh.add({{x, 0, 0}, {x, 0, 0}, {x, 0, 0}});
-  const std::vector<Segment<TypeParam>> segments(100, {{-1, 0, 1}, {1.5F, 0, -1}});
-  const auto expected = brute_force_hits<TypeParam>(mesh.view(), segments.front());
-  ASSERT_EQ(expected.size(), 2U);
-  ASSERT_EQ(expected.front().triangle, 0U);
-  for (const std::int64_t target : instruction_sets()) {
-    const ForcedInstructionSet forced(target);
-    const Collider<TypeParam> collider(mesh.view(), BuildOptions{{.resolution = {2, 1, 1}, .crowded = 0}, {}});
-    SCOPED_TRACE(name_of_instruction_set(target));
-    const Hit<TypeParam> single = collider.first_hit(segments.front()).value_or(Hit<TypeParam>{});
-    EXPECT_TRUE(same_bits(single, expected.front())) << hex_text(single);
-    std::vector<Hit<TypeParam>> hits(segments.size());
-    collider.first_hits(segments, hits);
-    for (const Hit<TypeParam>& hit : hits) EXPECT_TRUE(same_bits(hit, expected.front())) << hex_text(hit);
-  }
+  this->expect_lower_id(mesh);
 }
 
 /// Planes square to an axis, one ulp or none apart, in any order of their ids: more than become jobs at once.
