@@ -14,6 +14,7 @@
 
 #include "filter/double_kernel-inl.hpp"
 #include "filter/double_word-inl.hpp"
+#include "filter/hit_rounding-inl.hpp"
 #include "support/lane_bits-inl.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/path.hpp"
@@ -133,11 +134,7 @@ HWY_INLINE bool try_round(const Path<double>& path, const Triangle<double>& tria
   };
   const DoubleHitRounding<Tag> hits(Tag(), path.kind, lane_of(path.start), lane_of(path.toward), lane_of(triangle.a),
                                     lane_of(triangle.b), lane_of(triangle.c));
-  hit.t = hn::GetLane(hits.t);
-  hit.u = hn::GetLane(hits.u);
-  hit.v = hn::GetLane(hits.v);
-  hit.side = (hits.front & 1) != 0 ? Side::front : Side::back;
-  return (hits.rounded & 1) != 0;
+  return set_hit(hits, hit);
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE

@@ -103,6 +103,17 @@ struct RoundedHits {
   std::uint64_t front;    ///< The mask of the lanes whose path arrives at the front.
 };
 
+/// Sets a hit from the only lane of `RoundedHits` or `DoubleHitRounding`, except for the triangle's id. Returns whether
+/// its numbers are right.
+template <typename Scalar, class Rounded>
+HWY_INLINE bool set_hit(const Rounded& in_lane, Hit<Scalar>& hit) {
+  hit.t = hn::GetLane(in_lane.t);
+  hit.u = hn::GetLane(in_lane.u);
+  hit.v = hn::GetLane(in_lane.v);
+  hit.side = (in_lane.front & 1) != 0 ? Side::front : Side::back;
+  return (in_lane.rounded & 1) != 0;
+}
+
 /// Tries to round one certain hit. Returns whether `hit` is right, without its triangle's id. The sizes are those of
 /// `HitIntervals`.
 HWY_INLINE bool try_round(const Path<float>& path, const Triangle<float>& triangle, float t_size, float edge_size,
@@ -116,12 +127,7 @@ HWY_INLINE bool try_round(const Path<float>& path, const Triangle<float>& triang
   const auto direction = directions_of<Tag>(path.kind, start, lane_of(path.toward));
   const HitIntervals<Tag> intervals(d, start, direction, lane_of(triangle.a), lane_of(triangle.b), lane_of(triangle.c),
                                     hn::Set(d, double{t_size}), hn::Set(d, double{edge_size}));
-  const RoundedHits<Tag> hits(d, intervals);
-  hit.t = hn::GetLane(hits.t);
-  hit.u = hn::GetLane(hits.u);
-  hit.v = hn::GetLane(hits.v);
-  hit.side = (hits.front & 1) != 0 ? Side::front : Side::back;
-  return (hits.rounded & 1) != 0;
+  return set_hit(RoundedHits<Tag>(d, intervals), hit);
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE

@@ -36,6 +36,14 @@ struct RoundedBatch {
   std::array<Scalar, max_hits> t, u, v;       ///< The rounded numbers.
   std::uint64_t rounded;                      ///< The mask of the hits in which they are right.
   std::uint64_t front;                        ///< The mask of the hits whose path arrives at the front.
+
+  /// Stores `RoundedHits` or `DoubleHitRounding`, whose numbers have the tag `d`.
+  template <class D, class Rounded>
+  HWY_INLINE RoundedBatch(D d, const Rounded& in_lanes) : rounded(in_lanes.rounded), front(in_lanes.front) {
+    hn::StoreU(in_lanes.t, d, t.data());
+    hn::StoreU(in_lanes.u, d, u.data());
+    hn::StoreU(in_lanes.v, d, v.data());
+  }
 };
 
 template <>
@@ -76,14 +84,7 @@ class WaitingHits<float> {
     };
     const HitIntervals<DoubleTag> intervals(d, start, direction, vectors(2), vectors(3), vectors(4, true),
                                             doubles(t_size_), doubles(edge_size_));
-    const RoundedHits<DoubleTag> rounded(d, intervals);
-    RoundedBatch<float> result;
-    hn::StoreU(rounded.t, df, result.t.data());
-    hn::StoreU(rounded.u, df, result.u.data());
-    hn::StoreU(rounded.v, df, result.v.data());
-    result.rounded = rounded.rounded;
-    result.front = rounded.front;
-    return result;
+    return {df, RoundedHits<DoubleTag>(d, intervals)};
   }
 
  private:
@@ -125,14 +126,7 @@ class WaitingHits<double> {
       const auto load = [&](std::size_t which) { return hn::Load(d, numbers_[which].data()); };
       return {load(k), load(k + 1), load(k + 2)};
     };
-    const DoubleHitRounding<DoubleTag> rounded(d, kind, vectors(0), vectors(3), vectors(6), vectors(9), vectors(12));
-    RoundedBatch<double> result;
-    hn::StoreU(rounded.t, d, result.t.data());
-    hn::StoreU(rounded.u, d, result.u.data());
-    hn::StoreU(rounded.v, d, result.v.data());
-    result.rounded = rounded.rounded;
-    result.front = rounded.front;
-    return result;
+    return {d, DoubleHitRounding<DoubleTag>(d, kind, vectors(0), vectors(3), vectors(6), vectors(9), vectors(12))};
   }
 
  private:
