@@ -45,7 +45,7 @@ class KernelList {
   }
   /// The same of the kernel in double.
   [[nodiscard]] detail::Verdict verdict_in_double(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
-                                                  std::size_t i) const {
+                                                  std::size_t i) const requires std::is_same_v<Scalar, float> {
     const std::size_t from = vector_of(i);
     return verdict_of(in_double_from(path, range, from, std::numeric_limits<Scalar>::infinity()).verdicts, i - from);
   }
@@ -67,19 +67,16 @@ class KernelList {
     return first_of_one(kernel_path(path), weights, list_, from, lane);
   }
 
-  /// For a list of doubles, this is what the kernel says anyway.
+  /// What the kernel in double says of some lanes of a list of floats.
   [[nodiscard]] KernelInDouble<Scalar> in_double_from(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
-                                                      std::size_t from, Scalar limit) const {
-    if constexpr (std::is_same_v<Scalar, float>) {
-      const std::size_t count = std::min(kernel_lanes<Scalar>(), list_.count - from);
-      const auto all = static_cast<std::uint64_t>((std::uint64_t{1} << count) - 1);
-      const Path<double> in_double(path.kind, path.start.template cast<double>(), path.toward.template cast<double>());
-      const detail::KernelPath<double> in_kernel(in_double, double{kernel_path(path).reach});
-      return classify_in_double(in_kernel, range, list_, from, all, limit);
-    } else {
-      const KernelVerdicts verdicts = verdicts_from(path, range, from);
-      return {verdicts, first_from(path, from, verdicts.certain, limit)};
-    }
+                                                      std::size_t from, Scalar limit,
+                                                      std::uint64_t lanes = ~std::uint64_t{
+                                                          0}) const requires std::is_same_v<Scalar, float> {
+    const std::size_t count = std::min(kernel_lanes<Scalar>(), list_.count - from);
+    const auto all = static_cast<std::uint64_t>((std::uint64_t{1} << count) - 1);
+    const Path<double> in_double(path.kind, path.start.template cast<double>(), path.toward.template cast<double>());
+    const detail::KernelPath<double> in_kernel(in_double, double{kernel_path(path).reach});
+    return classify_in_double(in_kernel, range, list_, from, lanes & all, limit);
   }
 
  private:
