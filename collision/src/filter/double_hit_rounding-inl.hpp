@@ -23,7 +23,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// Tries to round t, u and v of a hit in each lane. All coordinates are doubles, and the arithmetic is in double words.
+/// Quotients t, u and v of a certain hit in each lane, with their bounds. All coordinates are doubles, and the
+/// arithmetic is in double words.
 ///
 /// The names are those of kernel_bound.hpp, with eps = 2^-53. The sizes d, e, f and s must be at most 2^200, and all
 /// computed determinants at least 2^-700.
@@ -49,16 +50,17 @@ namespace surehit::detail::HWY_NAMESPACE {
 ///     27 eps^2 |q0|. The ends q0 + (q1 - B) and q0 + (q1 + B) have one rounding more, of at most 10 eps^2 |q0|.
 ///     Together, this is below 64 eps^2 |q0|, and 2^-98 = 256 eps^2.
 ///     The product does not underflow, because it is close to n. Nor does the quotient, if |q0| is at least 2^-900.
-///
-/// As in R5, the hit is rounded if both ends of each interval round to the same double. Then B is at most a few eps
-/// times |q0|, as D2 requires.
 template <class D>
-struct DoubleHitRounding {
+struct DoubleHitIntervals {
   using V = hn::Vec<D>;
   using Words = DoubleWords<D>;
+  /// The exact quotient is within `bound` of high + low, if `known` is true and `bound` is below 2^-40 |high|.
+  struct Interval {
+    V high, low, bound;
+  };
 
-  HWY_INLINE DoubleHitRounding(D d, PathKind kind, const Vectors<D>& start, const Vectors<D>& toward,
-                               const Vectors<D>& a, const Vectors<D>& b, const Vectors<D>& c) {
+  HWY_INLINE DoubleHitIntervals(D d, PathKind kind, const Vectors<D>& start, const Vectors<D>& toward,
+                                const Vectors<D>& a, const Vectors<D>& b, const Vectors<D>& c) {
     const WordVector e1 = difference(b, a);
     const WordVector e2 = difference(c, a);
     const WordVector s = difference(start, a);
@@ -76,9 +78,9 @@ struct DoubleHitRounding {
     const V side_sizes = hn::Mul(hn::Mul(s_size, d_size), relative);
     const V det_bound = hn::Mul(edge_sizes, d_size);  // D1, as the bounds below
     const V min_determinant = hn::Set(d, 0x1p-700);
-    auto known = hn::And(hn::Le(max_size, hn::Set(d, 0x1p200)), hn::Ge(hn::Abs(det.high), min_determinant));
+    known = hn::And(hn::Le(max_size, hn::Set(d, 0x1p200)), hn::Ge(hn::Abs(det.high), min_determinant));
     const V inverse = hn::Div(hn::Set(d, 1), det.high);
-    const auto round = [&](const Words& numerator, V bound) {  // D2
+    const auto quotient = [&](const Words& numerator, V numerator_bound) -> Interval {  // D2
       const V q0 = hn::Mul(numerator.high, inverse);
       const V q0_size = hn::Abs(q0);
       const Words product = Words::exact_product(q0, det.high);
@@ -86,23 +88,19 @@ struct DoubleHitRounding {
       const V low = hn::Sub(hn::Sub(numerator.low, product.low), hn::Mul(q0, det.low));
       const V q1 = hn::Mul(hn::Add(high, low), inverse);
       const V twice = hn::Abs(hn::Add(inverse, inverse));
-      const V error = hn::Add(hn::Mul(q0_size, relative), hn::Mul(hn::Add(bound, hn::Mul(q0_size, det_bound)), twice));
-      const V rounded_value = hn::Add(q0, hn::Add(q1, error));
-      known = hn::And(known, hn::Eq(hn::Add(q0, hn::Sub(q1, error)), rounded_value));
       known = hn::And(known, hn::Ge(hn::Abs(numerator.high), min_determinant));
       known = hn::And(known, hn::Ge(q0_size, hn::Set(d, 0x1p-900)));
-      return rounded_value;
+      return {q0, q1, hn::MulAdd(q0_size, relative, hn::Mul(hn::MulAdd(q0_size, det_bound, numerator_bound), twice))};
     };
-    t = round(dot(e2, q), hn::Mul(edge_sizes, s_size));
-    u = round(dot(s, p), hn::Mul(side_sizes, e2_size));
-    v = round(dot(direction, q), hn::Mul(side_sizes, e1_size));
-    rounded = bits_of(d, known);
-    front = bits_of(d, hn::Gt(det.high, zero));
+    t = quotient(dot(e2, q), hn::Mul(edge_sizes, s_size));
+    u = quotient(dot(s, p), hn::Mul(side_sizes, e2_size));
+    v = quotient(dot(direction, q), hn::Mul(side_sizes, e1_size));
+    is_front = hn::Gt(det.high, zero);
   }
 
-  V t, u, v;
-  std::uint64_t rounded;  ///< The mask of the lanes in which t, u and v are right.
-  std::uint64_t front;    ///< The mask of the lanes whose path arrives at the front.
+  Interval t, u, v;
+  hn::Mask<D> known;     ///< The lanes with sizes for which D1 and D2 hold.
+  hn::Mask<D> is_front;  ///< The lanes whose path arrives at the front.
 
  private:
   struct WordVector {
@@ -126,15 +124,41 @@ struct DoubleHitRounding {
   }
 };
 
+/// The rounded hits. As in R5, a hit is rounded if both ends of each interval round to the same double. Then the bounds
+/// are at most a few eps times the quotients, as D2 requires.
+template <class D>
+struct RoundedDoubleHits {
+  using V = hn::Vec<D>;
+
+  HWY_INLINE RoundedDoubleHits(D d, const DoubleHitIntervals<D>& hits) {
+    auto are_rounded = hits.known;
+    const auto round = [&](const typename DoubleHitIntervals<D>::Interval& interval) {
+      const V upper = hn::Add(interval.high, hn::Add(interval.low, interval.bound));
+      const V lower = hn::Add(interval.high, hn::Sub(interval.low, interval.bound));
+      are_rounded = hn::And(are_rounded, hn::Eq(lower, upper));
+      return upper;
+    };
+    t = round(hits.t);
+    u = round(hits.u);
+    v = round(hits.v);
+    rounded = bits_of(d, are_rounded);
+    front = bits_of(d, hits.is_front);
+  }
+
+  V t, u, v;
+  std::uint64_t rounded;  ///< The mask of the lanes in which t, u and v are right.
+  std::uint64_t front;    ///< The mask of the lanes whose path arrives at the front.
+};
+
 /// Tries to round one hit that the kernel is certain of. Returns whether `hit` is right, without its triangle's id.
 HWY_INLINE bool try_round(const Path<double>& path, const Triangle<double>& triangle, Hit<double>& hit) {
   using Tag = hn::CappedTag<double, 1>;
   const auto lane_of = [](const Vector3<double>& x) -> Vectors<Tag> {
     return {hn::Set(Tag(), x[0]), hn::Set(Tag(), x[1]), hn::Set(Tag(), x[2])};
   };
-  const DoubleHitRounding<Tag> hits(Tag(), path.kind, lane_of(path.start), lane_of(path.toward), lane_of(triangle.a),
-                                    lane_of(triangle.b), lane_of(triangle.c));
-  return set_hit(hits, hit);
+  const DoubleHitIntervals<Tag> intervals(Tag(), path.kind, lane_of(path.start), lane_of(path.toward),
+                                          lane_of(triangle.a), lane_of(triangle.b), lane_of(triangle.c));
+  return set_hit(RoundedDoubleHits<Tag>(Tag(), intervals), hit);
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE

@@ -103,7 +103,7 @@ struct RoundedHits {
   std::uint64_t front;    ///< The mask of the lanes whose path arrives at the front.
 };
 
-/// Sets a hit from the only lane of `RoundedHits` or `DoubleHitRounding`, except for the triangle's id. Returns whether
+/// Sets a hit from the only lane of `RoundedHits` or `RoundedDoubleHits`, except for the triangle's id. Returns whether
 /// its numbers are right.
 template <typename Scalar, class Rounded>
 HWY_INLINE bool set_hit(const Rounded& in_lane, Hit<Scalar>& hit) {

@@ -37,7 +37,7 @@ struct RoundedBatch {
   std::uint64_t rounded;                      ///< The mask of the hits in which they are right.
   std::uint64_t front;                        ///< The mask of the hits whose path arrives at the front.
 
-  /// Stores `RoundedHits` or `DoubleHitRounding`, whose numbers have the tag `d`.
+  /// Stores `RoundedHits` or `RoundedDoubleHits`, whose numbers have the tag `d`.
   template <class D, class Rounded>
   HWY_INLINE RoundedBatch(D d, const Rounded& in_lanes) : rounded(in_lanes.rounded), front(in_lanes.front) {
     hn::StoreU(in_lanes.t, d, t.data());
@@ -126,7 +126,8 @@ class WaitingHits<double> {
       const auto load = [&](std::size_t which) { return hn::Load(d, numbers_[which].data()); };
       return {load(k), load(k + 1), load(k + 2)};
     };
-    return {d, DoubleHitRounding<DoubleTag>(d, kind, vectors(0), vectors(3), vectors(6), vectors(9), vectors(12))};
+    const DoubleHitIntervals<DoubleTag> intervals(d, kind, vectors(0), vectors(3), vectors(6), vectors(9), vectors(12));
+    return {d, RoundedDoubleHits<DoubleTag>(d, intervals)};
   }
 
  private:

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "collision/rational_determinants.hpp"
+#include "coordinate_changes.hpp"
 #include "double_kernel_on_targets.hpp"
 #include "on_every_instruction_set.hpp"
 #include "support/case_count.hpp"
@@ -16,6 +19,16 @@
 
 namespace surehit::test {
 namespace {
+
+/// Returns how much of the bound an error takes up, or 0 if the bound is too large to claim anything.
+double share_of(const WordInterval& of, const mpq_class& truth) {
+  if (!(of.bound < 0x1p-40 * std::fabs(of.high))) return 0;
+  return mpq_class(abs(mpq_class(of.high) + mpq_class(of.low) - truth) / mpq_class(of.bound)).get_d();
+}
+double worst_share(const LaneHit& hit, const RationalDeterminants& of) {
+  return std::max({share_of(hit.t_interval, of.height / of.det), share_of(hit.u_interval, of.u / of.det),
+                   share_of(hit.v_interval, of.v / of.det)});
+}
 
 /// Pairs of one kind that meet, rounded all together and so in all lanes.
 class RoundedPairs {
@@ -37,6 +50,9 @@ class RoundedPairs {
       std::vector<LaneHit> hits(paths_.size());
       round_hits(paths_, triangles_, hits);
       for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (hits[i].is_known) {
+          EXPECT_LE(worst_share(hits[i], exact_[i]), 1) << hex_text(paths_[i]) << hex_text(triangles_[i]);
+        }
         if (!hits[i].is_rounded) continue;
         ++rounded;
         SCOPED_TRACE(hex_text(paths_[i]) + hex_text(triangles_[i]));
@@ -116,6 +132,46 @@ TEST(DoubleHitRounding, is_never_wrong_beyond_the_sizes_of_its_bound) {
   }
   EXPECT_GT(pairs.count(), 0U);
   pairs.check();
+}
+
+TEST(DoubleHitRounding, is_never_wrong_where_hill_climbing_makes_the_error_worst) {
+  on_every_instruction_set([] {
+    const std::string name = name_of_instruction_set(hwy::SupportedTargets());
+    Random random(119);
+    const auto worst_share_of = [](const std::array<double, 15>& x) {
+      const Path<double> path = Segment<double>{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+      const Triangle<double> triangle{{x[6], x[7], x[8]}, {x[9], x[10], x[11]}, {x[12], x[13], x[14]}};
+      const RationalDeterminants of = rational_determinants(path, triangle);
+      if (of.det == 0) return 0.0;
+      LaneHit hit;
+      round_hits({&path, 1}, {&triangle, 1}, {&hit, 1});
+      return hit.is_known ? worst_share(hit, of) : 0;
+    };
+    double worst = 0;
+    for (std::size_t start = 0; start < 20; ++start) {
+      std::array<double, 15> best;
+      double best_share = 0;
+      for (std::size_t step = case_count(1'000); step > 0; --step) {
+        std::array<double, 15> next = best;
+        if (best_share == 0) {
+          for (double& coordinate : next) coordinate = draw_coordinate<double>(random);
+        } else {
+          double& coordinate = next[random.below(next.size())];
+          coordinate = changed_coordinate(random, coordinate);
+        }
+        if (const double share = worst_share_of(next); share > best_share) {
+          best = next;
+          best_share = share;
+        }
+      }
+      worst = std::max(worst, best_share);
+    }
+    testing::Test::RecordProperty("worst_share_" + name, std::to_string(worst));
+    EXPECT_LT(worst, 1) << name;
+    if (runs_all_cases()) {
+      EXPECT_GT(worst, 0.005) << name << ": room to waste";
+    }
+  });
 }
 
 /// Here t is midway between two doubles, 1 and the next one.

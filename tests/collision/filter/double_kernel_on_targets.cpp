@@ -109,16 +109,29 @@ void hits_of(std::span<const Path<double>> paths, std::span<const Triangle<doubl
       };
       return {axis(0), axis(1), axis(2)};
     };
-    const DoubleHitRounding<DoubleTag> of(
+    const DoubleHitIntervals<DoubleTag> intervals(
         DoubleTag(), paths[first].kind, vectors([&](std::size_t i) { return paths[i].start; }),
         vectors([&](std::size_t i) { return paths[i].toward; }), vectors([&](std::size_t i) { return triangles[i].a; }),
         vectors([&](std::size_t i) { return triangles[i].b; }), vectors([&](std::size_t i) { return triangles[i].c; }));
+    const RoundedDoubleHits<DoubleTag> of(DoubleTag(), intervals);
+    const std::uint64_t known = bits_of(DoubleTag(), intervals.known);
     const LaneNumbers t = numbers_of(of.t);
     const LaneNumbers u = numbers_of(of.u);
     const LaneNumbers v = numbers_of(of.v);
     for (std::size_t i = 0; i < count; ++i) {
-      results[first + i] = {t[i], u[i], v[i], (of.rounded >> i & 1) != 0, (of.front >> i & 1) != 0};
+      results[first + i] = {
+          t[i], u[i], v[i], (of.rounded >> i & 1) != 0, (of.front >> i & 1) != 0, (known >> i & 1) != 0, {}, {}, {}};
     }
+    const auto put = [&](const DoubleHitIntervals<DoubleTag>::Interval& interval,
+                         test::WordInterval test::LaneHit::*member) {
+      const LaneNumbers high = numbers_of(interval.high);
+      const LaneNumbers low = numbers_of(interval.low);
+      const LaneNumbers bound = numbers_of(interval.bound);
+      for (std::size_t i = 0; i < count; ++i) results[first + i].*member = {high[i], low[i], bound[i]};
+    };
+    put(intervals.t, &test::LaneHit::t_interval);
+    put(intervals.u, &test::LaneHit::u_interval);
+    put(intervals.v, &test::LaneHit::v_interval);
   });
 }
 

@@ -52,12 +52,17 @@ struct LaneIntervals {
 void hit_intervals(std::span<const PairCoordinates> pairs, std::span<const HitSizes> sizes,
                    std::span<LaneIntervals> results);
 
-/// What `detail::DoubleHitRounding` says of a pair.
+/// A `detail::DoubleHitIntervals::Interval` of a pair.
+struct WordInterval {
+  double high, low, bound;
+};
+/// What `detail::RoundedDoubleHits` and `detail::DoubleHitIntervals` say of a pair.
 struct LaneHit {
   double t, u, v;
-  bool is_rounded, is_front;
+  bool is_rounded, is_front, is_known;
+  WordInterval t_interval, u_interval, v_interval;
 };
-/// `detail::DoubleHitRounding` there. All paths must be of one kind.
+/// `detail::RoundedDoubleHits` there. All paths must be of one kind.
 void round_hits(std::span<const Path<double>> paths, std::span<const Triangle<double>> triangles,
                 std::span<LaneHit> results);
 
