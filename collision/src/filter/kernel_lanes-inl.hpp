@@ -20,7 +20,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// Paths in the form that the kernel uses, one in each lane. `LaneWalk::clip` sets them.
+/// Paths in the form that the kernel uses, one in each lane. `LaneClip::clip` sets them.
 class alignas(max_lanes * sizeof(float)) KernelLanes {
  public:
   /// Sets component `axis` of the starts and of the computed D.

@@ -21,6 +21,7 @@
 #include "filter/kernel_path.hpp"
 #include "path_range.hpp"
 #include "surehit/path_span.hpp"
+#include "walk/lane_clip-inl.hpp"
 #include "walk/lane_walk-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -78,7 +79,7 @@ class PathQueue {
       const std::size_t count = std::min(lanes, paths_.size() - next_);
       next_ += count;
       prefetch(next_ + paths_ahead);
-      const LaneWalk::Clipped clipped = clip(count);
+      const LaneClip::Clipped clipped = clip(count);
       queries_.of_batch().statistics.paths += count - static_cast<std::size_t>(std::popcount(clipped.apart));
       for (std::uint32_t apart = clipped.apart; apart != 0; apart &= apart - 1) {
         alone_(first_ + static_cast<std::size_t>(std::countr_zero(apart)));
@@ -90,7 +91,7 @@ class PathQueue {
   }
 
   /// Clips `count` paths, one in each lane. The first of them is path `first_`.
-  HWY_INLINE LaneWalk::Clipped clip(std::size_t count) {
+  HWY_INLINE LaneClip::Clipped clip(std::size_t count) {
     if constexpr (is_float) {
       const bool can_read_all = is_packed_ && count == hn::Lanes(FloatTag());
       return can_read_all ? clip_numbers(paths_.packed(first_), count) : clip_copies(count);
@@ -99,29 +100,29 @@ class PathQueue {
     }
   }
 
-  /// Copies paths of floats side by side, and clips the copies. The other lanes become zero, because `LaneWalk::clip`
+  /// Copies paths of floats side by side, and clips the copies. The other lanes become zero, because `LaneClip::clip`
   /// reads all of them.
-  HWY_NOINLINE LaneWalk::Clipped clip_copies(std::size_t count) {
+  HWY_NOINLINE LaneClip::Clipped clip_copies(std::size_t count) {
     std::array<float, path_size* max_lanes> copies = {};
     for (std::size_t i = 0; i < count; ++i) paths_.copy(first_ + i, &copies[path_size * i]);
     return clip_numbers(copies.data(), count);
   }
 
   /// Clips paths of floats that lie side by side.
-  HWY_INLINE LaneWalk::Clipped clip_numbers(const float* numbers, std::size_t count) {
+  HWY_INLINE LaneClip::Clipped clip_numbers(const float* numbers, std::size_t count) {
     const auto ends = queries_.ends(first_, count);
     enters_rest_ = {};
-    const LaneWalk::Clipped clipped =
-        walk_.clip(numbers, paths_.kind() == PathKind::segment, ends.first, ends.last, count, clipped_, kernel_paths_);
+    const LaneClip::Clipped clipped =
+        clip_.clip(numbers, paths_.kind() == PathKind::segment, ends.first, ends.last, count, clipped_, kernel_paths_);
     if (!can_clip_in_float_) return clip_apart({0, static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1)});
     return clipped.apart == 0 ? clipped : clip_apart(clipped);
   }
 
   /// Clips the paths of floats that the lanes could not clip in float. Those that must be scaled, or that are too far
   /// away, stay apart.
-  HWY_NOINLINE LaneWalk::Clipped clip_apart(LaneWalk::Clipped result) {
+  HWY_NOINLINE LaneClip::Clipped clip_apart(LaneClip::Clipped result) {
     LaneDoubles enters;
-    const LaneWalk::Clipped clipped = clip_in_double(result.apart, enters);
+    const LaneClip::Clipped clipped = clip_in_double(result.apart, enters);
     for (std::uint32_t inside = clipped.inside; inside != 0; inside &= inside - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(inside));
       enters_rest_[lane] = LaneWalk::rest_of_enters(enters[lane]);
@@ -130,10 +131,10 @@ class PathQueue {
   }
 
   /// Clips `count` paths of doubles. They walk in float, like all paths.
-  HWY_NOINLINE LaneWalk::Clipped clip_doubles(std::size_t count) {
+  HWY_NOINLINE LaneClip::Clipped clip_doubles(std::size_t count) {
     const Grid& grid = queries_.of_batch().grid;
     LaneDoubles enters;
-    LaneWalk::Clipped result = clip_in_double(static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1), enters);
+    LaneClip::Clipped result = clip_in_double(static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1), enters);
     for (std::uint32_t inside = result.inside; inside != 0; inside &= inside - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(inside));
       kernel_paths_[lane] = KernelPath<Scalar>(paths_[first_ + lane], grid.frame());
@@ -157,8 +158,8 @@ class PathQueue {
   using LaneDoubles = std::array<double, max_lanes>;
 
   /// Clips the paths of some lanes in double. A path with an empty range misses.
-  HWY_INLINE LaneWalk::Clipped clip_in_double(std::uint32_t lanes, LaneDoubles& enters) {
-    LaneWalk::DoublePaths paths = {};
+  HWY_INLINE LaneClip::Clipped clip_in_double(std::uint32_t lanes, LaneDoubles& enters) {
+    LaneClip::DoublePaths paths = {};
     std::uint32_t taken = 0;
     for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
@@ -174,7 +175,7 @@ class PathQueue {
       paths.first_t[lane] = range.first;
       paths.last_t[lane] = range.last;
     }
-    return walk_.clip_in_double(paths, paths_.kind(), taken, clipped_, enters);
+    return clip_.clip_in_double(paths, paths_.kind(), taken, clipped_, enters);
   }
 
   /// Fetches into the cache as many paths as are clipped together. The first of them is path `first`. The processor
@@ -208,7 +209,8 @@ class PathQueue {
   [[no_unique_address]] std::conditional_t<is_float, None, std::array<WalkParameter, max_lanes>> taus_;
   const LaneWalk& walk_;
   const Queries& queries_;  ///< The queries of the paths.
-  /// True if floats hold the numbers of the grid's frame. Else `LaneWalk::clip` only sets the paths of the kernel.
+  const LaneClip clip_{queries_.of_batch().grid.frame()};
+  /// True if floats hold the numbers of the grid's frame. Else `LaneClip::clip` only sets the paths of the kernel.
   const bool can_clip_in_float_ = queries_.of_batch().grid.frame().has_floats;
   const PathSpan<Scalar>& paths_;              ///< All paths of the batch.
   const bool is_packed_ = paths_.is_packed();  ///< True if paths can be read in place.

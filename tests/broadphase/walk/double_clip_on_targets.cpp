@@ -12,7 +12,7 @@
 #include <cstdint>
 
 #if HWY_TARGET != HWY_SCALAR
-#include "walk/lane_walk-inl.hpp"
+#include "walk/lane_clip-inl.hpp"
 #endif
 
 HWY_BEFORE_NAMESPACE();
@@ -22,7 +22,7 @@ namespace surehit::detail::HWY_NAMESPACE {
 std::vector<test::DoubleClip> clip_in_double(const Grid&, std::span<const test::RangedPath>) { return {}; }
 #else
 std::vector<test::DoubleClip> clip_in_double(const Grid& grid, std::span<const test::RangedPath> paths) {
-  const LaneWalk walk(grid, nullptr);
+  const LaneClip lane_clip(grid.frame());
   std::vector<test::DoubleClip> clips;
   for (std::size_t first = 0; first < paths.size(); first += hn::Lanes(FloatTag())) {
     const std::size_t count = std::min(hn::Lanes(FloatTag()), paths.size() - first);
@@ -32,9 +32,9 @@ std::vector<test::DoubleClip> clip_in_double(const Grid& grid, std::span<const t
     WalkingPaths walking = {};
     std::array<double, max_lanes> enters = {};
     std::array<double, max_lanes> kept = {};
-    LaneWalk::Clipped clipped = {0, 0};
+    LaneClip::Clipped clipped = {0, 0};
     for (const std::uint32_t lanes : {all & every_other, all & ~every_other}) {
-      LaneWalk::DoublePaths in_lanes = {};
+      LaneClip::DoublePaths in_lanes = {};
       for (std::size_t lane = 0; lane < count; ++lane) {
         if ((lanes >> lane & 1) == 0) continue;
         const auto& [path, first_t, last_t] = paths[first + lane];
@@ -45,7 +45,7 @@ std::vector<test::DoubleClip> clip_in_double(const Grid& grid, std::span<const t
         in_lanes.first_t[lane] = first_t;
         in_lanes.last_t[lane] = last_t;
       }
-      const auto some = walk.clip_in_double(in_lanes, paths[first].path.kind, lanes, walking, enters);
+      const auto some = lane_clip.clip_in_double(in_lanes, paths[first].path.kind, lanes, walking, enters);
       clipped.inside |= some.inside;
       clipped.apart |= some.apart;
       for (std::size_t lane = 0; lane < count; ++lane) {

@@ -9,7 +9,7 @@
 
 namespace surehit::test {
 
-/// A lane after `detail::LaneWalk::clip_in_double`.
+/// A lane after `detail::LaneClip::clip_in_double`.
 struct DoubleClip {
   bool is_inside;
   bool is_apart;
