@@ -175,6 +175,7 @@ class GridBuild {
     if (depth_ == 0) {
       grid_.entries_.reserve(entries);
       grid_.lists_.reserve(lists);
+      grid_.top_.reserve(top_count + Grid::top_slack);
     }
     spare_entries_ = entries_left() - std::min(entries_left(), listed.size());
     words.assign(top_count, 0);
@@ -365,8 +366,24 @@ std::size_t GridScratch::memory_bytes() const noexcept {
 template <typename Scalar>
 Grid::Grid(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
            const Executor* executor) {
-  GridScratch scratch;
-  rebuild(mesh, box, options, scratch, executor);
+  {
+    GridScratch scratch;
+    rebuild(mesh, box, options, scratch, executor);
+  }
+  shrink();
+}
+
+/// Gives back the memory of arrays that are not nearly full. They are copied, so it pays only for a grid that stays.
+void Grid::shrink() {
+  const auto shrink = [](auto& vector) {
+    constexpr std::size_t small_share = 32;
+    if (vector.capacity() - vector.size() > vector.size() / small_share) vector.shrink_to_fit();
+  };
+  shrink(top_);
+  shrink(bricks_);
+  shrink(lists_);
+  shrink(entries_);
+  shrink(inner_frames_);
 }
 
 template <typename Scalar>

@@ -124,6 +124,8 @@ class Grid {
   /// A vector load may read so many words beyond the last top cell.
   static constexpr std::size_t top_slack = 64;
 
+  void shrink();
+
   GridFrame frame_;
   std::vector<GridFrame> inner_frames_;
   GridCover cover_;
