@@ -125,7 +125,7 @@ class FirstAsComputed {
     t_ = block.first.t_lower;
     entry_ = block.entry(lane);
     triangle_ = block.triangle(lane);
-    hwy::Prefetch(block.query.grid.entries().data() + entry_);  // The id is needed when the path ends.
+    hwy::Prefetch(block.query.grid.entries().address(entry_));  // The id is needed when the path ends.
     return 0;
   }
   [[nodiscard]] float t_upper() const { return t_; }

@@ -211,10 +211,13 @@ class GridBuild {
       }
     }
     const std::uint32_t list = begin_list(box_of(ids, cell, size));
-    const std::size_t first = grid_.entries_.size();
-    grid_.entries_.insert(grid_.entries_.end(), ids.begin(), ids.end());
-    listed_.to_ids(std::span(grid_.entries_).subspan(first));
+    append(ids);
     return CellWord::listing(list).bits();
+  }
+
+  /// Appends the ids of triangles, which are given by their numbers.
+  void append(std::span<const std::uint32_t> numbers) {
+    grid_.entries_.append(numbers, [&](std::uint32_t number) { return listed_.id(number); });
   }
 
   /// Begins a list, and returns its number.
@@ -251,7 +254,7 @@ class GridBuild {
       if (is_small(i)) {
         scratch_.inner_ids_.push_back(listed_.id(i));
       } else {
-        grid_.entries_.push_back(listed_.id(i));
+        append({&i, 1});
       }
     }
     begin_list(CellBox(static_cast<std::uint32_t>(scratch_.pending_.size() - 1)));
@@ -397,7 +400,7 @@ void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
   top_.clear();
   bricks_.clear();
   lists_.clear();
-  entries_.clear();
+  entries_.clear(mesh.triangle_count());
   inner_frames_.clear();
   levels_ = 0;
   scratch.pending_.clear();

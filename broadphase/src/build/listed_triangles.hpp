@@ -83,8 +83,6 @@ class ListedTriangles {
   [[nodiscard]] std::size_t count() const { return mesh_.triangle_count(); }
   /// Returns the id of triangle number i.
   [[nodiscard]] std::uint32_t id(std::uint32_t i) const { return i; }
-  /// Turns numbers of triangles into ids.
-  void to_ids(std::span<std::uint32_t> /*numbers*/) const {}
   /// Returns the box around all of them.
   [[nodiscard]] const Box<Scalar>& box() const { return box_; }
   /// Returns the edges of the box of one of them, in the scaled frame.
@@ -136,9 +134,6 @@ class InnerTriangles {
 
   [[nodiscard]] std::size_t count() const { return ids_.size(); }
   [[nodiscard]] std::uint32_t id(std::uint32_t i) const { return ids_[i]; }
-  void to_ids(std::span<std::uint32_t> numbers) const {
-    for (std::uint32_t& number : numbers) number = ids_[number];
-  }
   [[nodiscard]] const Box<Scalar>& box() const { return box_; }
   [[nodiscard]] std::array<double, 3> extent(const GridFrame& frame, std::size_t i) const {
     const Box<Scalar> box = box_of_triangle(mesh_, ids_[i]);

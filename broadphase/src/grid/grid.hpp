@@ -10,6 +10,7 @@
 #include "grid/cell_word.hpp"
 #include "grid/grid_cover.hpp"
 #include "grid/grid_frame.hpp"
+#include "grid/packed_ids.hpp"
 #include "support/default_init_allocator.hpp"
 #include "surehit/box.hpp"
 #include "surehit/executor.hpp"
@@ -86,7 +87,7 @@ class Grid {
   [[nodiscard]] std::size_t entry_count() const noexcept { return entries_.size(); }
   [[nodiscard]] std::size_t memory_bytes() const noexcept {
     return (top_.capacity() + bricks_.capacity()) * sizeof(CellWord) + lists_.capacity() * sizeof(CellList) +
-           entries_.capacity() * sizeof(std::uint32_t) + inner_frames_.capacity() * sizeof(GridFrame);
+           entries_.memory_bytes() + inner_frames_.capacity() * sizeof(GridFrame);
   }
 
   /// Returns the words of the top cells of the outermost grid. x runs fastest, then y, then z.
@@ -98,7 +99,7 @@ class Grid {
   /// Returns the words of the cells of all bricks. Each brick has `brick_size` words, in the same order.
   [[nodiscard]] std::span<const CellWord> bricks() const noexcept { return bricks_; }
   /// Returns the triangle ids of all lists, one list after the other.
-  [[nodiscard]] std::span<const std::uint32_t> entries() const noexcept { return entries_; }
+  [[nodiscard]] const detail::PackedIds& entries() const noexcept { return entries_; }
 
   /// Returns all lists by their numbers, and one more that begins where the last list ends. Returns nothing if the mesh
   /// has no triangles. After the list of a cell with an inner grid comes an empty list. The bits of its box are the
@@ -114,8 +115,8 @@ class Grid {
   /// Returns the box of a cell's list.
   [[nodiscard]] CellBox box(CellWord word) const noexcept { return lists_[word.list()].box; }
   /// Returns the ids of the triangles that a cell lists, in ascending order.
-  [[nodiscard]] std::span<const std::uint32_t> triangles(CellWord word) const noexcept {
-    return {entries_.data() + first_entry(word), entry_count(word)};
+  [[nodiscard]] detail::PackedIds::Range triangles(CellWord word) const noexcept {
+    return entries_.between(first_entry(word), first_entry(word) + entry_count(word));
   }
 
  private:
@@ -135,7 +136,7 @@ class Grid {
   detail::UnsetVector<CellWord> top_;  ///< Longer by `top_slack` than all top cells.
   std::vector<CellWord> bricks_;
   detail::UnsetVector<CellList> lists_;
-  detail::UnsetVector<std::uint32_t> entries_;
+  detail::PackedIds entries_;
 };
 
 }  // namespace surehit

@@ -129,7 +129,7 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
     Four corner = Four::Zero();
     Four edge = Four::Zero();
   };
-  const auto fill_four = [&](const std::uint32_t* ids, Scalar* list, std::size_t count, Sizes& sizes) {
+  const auto fill_four = [&](const std::array<std::uint32_t, 4>& ids, Scalar* list, std::size_t count, Sizes& sizes) {
     std::array<FourPoints, 3> corners;
     for (std::size_t k = 0; k < 4; ++k) {
       const std::array<Index, 3>& triangle = triangles[ids[k]];
@@ -151,28 +151,30 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
       }
     }
   };
+  const detail::PackedIds& ids = grid.entries();
   const auto fill = [&](CellWord word) {
-    const std::span<const std::uint32_t> ids = grid.triangles(word);
-    Scalar* edge_size = blocks_.data() + offset(word.list(), grid.first_entry(word));
+    const std::size_t first = grid.first_entry(word);
+    const std::size_t count = grid.entry_count(word);
+    Scalar* edge_size = blocks_.data() + offset(word.list(), first);
     Scalar* list = edge_size + 1;
-    if (ids.empty()) {  // All triangles of the cell are in its inner grid.
+    if (count == 0) {  // All triangles of the cell are in its inner grid.
       *edge_size = 0;
       return;
     }
     Sizes sizes;
-    if (ids.size() >= 4) {
-      for (std::size_t i = 0; i + 4 < ids.size(); i += 4) fill_four(ids.data() + i, list + i, ids.size(), sizes);
+    if (count >= 4) {
+      const auto four_from = [&](std::size_t i) -> std::array<std::uint32_t, 4> {
+        return {ids[first + i], ids[first + i + 1], ids[first + i + 2], ids[first + i + 3]};
+      };
+      for (std::size_t i = 0; i + 4 < count; i += 4) fill_four(four_from(i), list + i, count, sizes);
       // The last four may overlap those before them.
-      fill_four(&ids.back() - 3, list + ids.size() - 4, ids.size(), sizes);
+      fill_four(four_from(count - 4), list + count - 4, count, sizes);
     } else {
       std::array<std::uint32_t, 4> four;
-      four.fill(ids.back());
-      std::copy(ids.begin(), ids.end(), four.begin());
+      for (std::size_t k = 0; k < 4; ++k) four[k] = ids[first + std::min(k, count - 1)];
       std::array<Scalar, coordinates * 4> of_four;
-      fill_four(four.data(), of_four.data(), 4, sizes);
-      for (std::size_t k = 0; k < coordinates; ++k) {
-        std::copy_n(of_four.data() + 4 * k, ids.size(), list + k * ids.size());
-      }
+      fill_four(four, of_four.data(), 4, sizes);
+      for (std::size_t k = 0; k < coordinates; ++k) std::copy_n(of_four.data() + 4 * k, count, list + k * count);
     }
     constexpr Scalar largest_size = detail::KernelBound<Scalar>::largest_size;
     const Scalar edge = sizes.edge.maxCoeff();

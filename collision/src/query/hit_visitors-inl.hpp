@@ -153,7 +153,7 @@ class FirstHit {
     is_nearer = is_alone && first.t_upper < t_lower_;
     if (is_nearer) {
       keep(block, lane);
-      hwy::Prefetch(grid_->entries().data() + entry_);  // The id is needed when the path ends.
+      hwy::Prefetch(grid_->entries().address(entry_));  // The id is needed when the path ends.
       return undecided;
     }
     const bool may_come_first = first.t_lower <= t_upper_ && !(is_alone && is_best(block, lane));
