@@ -39,8 +39,9 @@ bool is_thin(CellSlab slab, CellBox box) {
   return static_cast<float>(slab.high() + 1 - slab.low()) * CellSlab::step <= of_box / 2;
 }
 
-/// Returns whether at most a quarter of some sampled lists have slabs that are not thin. Returns false for a mesh with
-/// few lists, where slabs are not worthwhile. `fit` returns the slab of a cell's list.
+/// Returns whether at most a quarter of some sampled lists have slabs that are not thin. Lists of one triangle do not
+/// count, because a flat slab holds any triangle. Returns false for a mesh with few lists, where slabs are not
+/// worthwhile. `fit` returns the slab of a cell's list.
 template <typename Fit>
 bool is_smooth(const Grid& grid, const Fit& fit) {
   constexpr std::size_t samples = 32;
@@ -59,6 +60,7 @@ bool is_smooth(const Grid& grid, const Fit& fit) {
     if (!frame.has_floats) continue;
     const std::size_t cell = top - frame.first_top;
     detail::visit_list_cells(grid, frame, cell, cell + 1, [&](const detail::ListCell& cell_of_list) {
+      if (grid.entry_count(cell_of_list.word) < 2) return;
       (is_thin(fit(frame, cell_of_list), grid.box(cell_of_list.word)) ? thin : thick) += 1;
     });
   }

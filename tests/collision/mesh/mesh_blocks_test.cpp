@@ -132,6 +132,21 @@ TYPED_TEST(MeshBlocksTest, has_slabs_of_smooth_meshes_only) {
   }
 }
 
+/// Most lists have one triangle, which fits any slab. Where there are two, they cross.
+TYPED_TEST(MeshBlocksTest, has_no_slabs_where_triangles_are_alone) {
+  Random random(11);
+  const auto mesh = scattered_triangles<TypeParam>(40, TypeParam(0.7), random);
+  const Grid grid = this->grid_of(mesh, {.resolution = {40, 40, 40}});
+  std::size_t alone = 0;
+  std::size_t together = 0;
+  for (std::size_t list = 0; list + 1 < grid.lists().size(); ++list) {
+    const CellWord word = CellWord::listing(static_cast<std::uint32_t>(list));
+    (grid.entry_count(word) == 1 ? alone : together) += 1;
+  }
+  ASSERT_GT(alone, 4 * together);
+  EXPECT_FALSE(MeshBlocks<TypeParam>(mesh.view(), grid).has_slabs());
+}
+
 TYPED_TEST(MeshBlocksTest, has_no_slabs_once_the_mesh_moves) {
   auto mesh = smooth_bowl<TypeParam>(30);
   MeshBlocks<TypeParam> blocks(mesh.view(), this->grid_of(mesh, {}));
