@@ -24,6 +24,8 @@ struct QueryStatistics {
   std::uint64_t exact_orders = 0;
   /// The number of times that exact arithmetic had to round t, u and v of a hit.
   std::uint64_t exact_roundings = 0;
+  /// The number of instances of a scene that paths came near. It is 0 for a collider.
+  std::uint64_t instances = 0;
   /// The number of paths that started too far from the grid to be clipped. They are tested against all triangles.
   std::uint64_t unclipped = 0;
 
@@ -36,6 +38,7 @@ struct QueryStatistics {
     exact_decisions += more.exact_decisions;
     exact_orders += more.exact_orders;
     exact_roundings += more.exact_roundings;
+    instances += more.instances;
     unclipped += more.unclipped;
     return *this;
   }

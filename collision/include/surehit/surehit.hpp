@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// Includes all public headers except `tbb_executor.hpp`, which needs oneTBB. `intersect` is for one triangle, and
-/// `Collider` is for a mesh.
+/// Includes all public headers except `tbb_executor.hpp`, which needs oneTBB. `intersect` is for one triangle,
+/// `Collider` is for a mesh, and `Scene` is for many placed meshes.
 
 #include "surehit/scalar.hpp"
 
@@ -15,6 +15,7 @@
 #include "surehit/path_span.hpp"
 #include "surehit/query_options.hpp"
 #include "surehit/query_statistics.hpp"
+#include "surehit/scene.hpp"
 #include "surehit/triangle.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 #include "surehit/version.hpp"

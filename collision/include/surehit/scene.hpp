@@ -1,0 +1,213 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "surehit/attributes.hpp"
+#include "surehit/box.hpp"
+#include "surehit/collider.hpp"
+#include "surehit/executor.hpp"
+#include "surehit/instance.hpp"
+#include "surehit/path.hpp"
+#include "surehit/path_span.hpp"
+#include "surehit/pose.hpp"
+#include "surehit/query_statistics.hpp"
+#include "surehit/scene_hit.hpp"
+#include "surehit/scene_query_options.hpp"
+#include "surehit/triangle.hpp"
+
+namespace surehit {
+
+namespace detail {
+/// What a scene holds behind its pointer.
+template <FloatOrDouble Scalar>
+struct SceneState;
+/// Deletes it where its type is complete.
+template <FloatOrDouble Scalar>
+struct SUREHIT_API DeleteSceneState {
+  /// Deletes the state, or does nothing if it is null.
+  void operator()(SceneState<Scalar>* state) const noexcept;
+};
+}  // namespace detail
+
+/// Many meshes, placed and moving, that are asked as one.
+///
+/// A scene holds instances. An instance is a collider with a pose, and it is the exact image of its mesh: no corner is
+/// rounded. So answers are those of exact real arithmetic on the numbers of the path, the pose, the motion and the
+/// mesh. t, u and v are rounded once. Among hits with equal exact t, the lowest instance id comes first, and then the
+/// lowest triangle id. A scene of doubles takes colliders of float and of double.
+///
+/// `add`, `remove` and the setters take effect with the next `commit`. Until then, queries answer as before. A commit
+/// costs what has changed: no triangle is looked at.
+///
+/// Queries are const and may run in many threads at the same time. All except `all_hits` are noexcept and allocate
+/// nothing. They use less than 64 KiB of stack. No query may run while the scene commits, or while one of its colliders
+/// changes.
+///
+/// A collider is shared by the instances that have it, and by its maker. It may be rebuilt. Then no query may run until
+/// the next commit, which sees the new mesh.
+template <FloatOrDouble Scalar>
+class SUREHIT_API Scene {
+ public:
+  /// A shared collider of the scene's own Scalar.
+  using ColliderPointer = std::shared_ptr<const Collider<Scalar>>;
+  /// A shared collider of floats.
+  using FloatColliderPointer = std::shared_ptr<const Collider<float>>;
+
+  /// Makes a scene without instances. Every query misses. Allocates nothing.
+  Scene() noexcept = default;
+  /// Frees all memory, and gives up its share of the colliders. No query may run.
+  ~Scene() = default;
+  /// Takes over the other scene's instances, in constant time. The other scene is then empty.
+  Scene(Scene&&) noexcept = default;
+  /// Frees what this scene has, and takes over the other one's instances. The other scene is then empty.
+  Scene& operator=(Scene&&) noexcept = default;
+
+  /// Adds an instance. Fails if the collider is null, if the pose is invalid (see `Pose`), or if there are too many
+  /// instances. May throw std::bad_alloc. After any failure, the scene is as before.
+  InstanceResult try_add(ColliderPointer collider, const Pose<Scalar>& pose = {}, const InstanceOptions& options = {});
+  /// Does the same for a mesh of floats in a scene of doubles.
+  InstanceResult try_add(FloatColliderPointer collider, const Pose<Scalar>& pose = {},
+                         const InstanceOptions& options = {}) requires std::same_as<Scalar, double>;
+
+  /// Removes an instance. Fails for a stale id.
+  InstanceResult try_remove(InstanceId id);
+  /// Sets the pose of an instance. Fails for a stale id, or for an invalid pose. Does not end its motion.
+  InstanceResult try_set_pose(InstanceId id, const Pose<Scalar>& pose);
+  /// Sets the motion of an instance. At parameter t, the instance is at its pose plus t times the motion. This is for
+  /// segments, whose t is then a time in a step. Rays and lines see the instance at its pose.
+  ///
+  /// The motion stays until it is set again. Zero ends it. Fails for a stale id, or if the motion is not finite.
+  InstanceResult try_set_motion(InstanceId id, const Vector3<Scalar>& motion);
+  /// Sets the mask of an instance. Fails for a stale id.
+  InstanceResult try_set_mask(InstanceId id, std::uint32_t mask);
+
+#if defined(__cpp_exceptions)
+  /// Adds an instance as `try_add` does. Throws the InvalidInstance that it would return.
+  InstanceId add(ColliderPointer collider, const Pose<Scalar>& pose = {}, const InstanceOptions& options = {}) {
+    return id_of(try_add(std::move(collider), pose, options));
+  }
+  /// Does the same for a mesh of floats in a scene of doubles.
+  InstanceId add(FloatColliderPointer collider, const Pose<Scalar>& pose = {},
+                 const InstanceOptions& options = {}) requires std::same_as<Scalar, double> {
+    return id_of(try_add(std::move(collider), pose, options));
+  }
+  /// Removes an instance as `try_remove` does. Throws the InvalidInstance that it would return.
+  void remove(InstanceId id) { id_of(try_remove(id)); }
+  /// Sets a pose as `try_set_pose` does. Throws the InvalidInstance that it would return.
+  void set_pose(InstanceId id, const Pose<Scalar>& pose) { id_of(try_set_pose(id, pose)); }
+  /// Sets a motion as `try_set_motion` does. Throws the InvalidInstance that it would return.
+  void set_motion(InstanceId id, const Vector3<Scalar>& motion) { id_of(try_set_motion(id, motion)); }
+  /// Sets a mask as `try_set_mask` does. Throws the InvalidInstance that it would return.
+  void set_mask(InstanceId id, std::uint32_t mask) { id_of(try_set_mask(id, mask)); }
+#endif
+
+  /// Lets all changes since the last commit take effect. No query may run at the same time. The executor spreads the
+  /// work over threads, and the result is the same. May throw std::bad_alloc. Then the committed state is as before.
+  ///
+  /// Takes time linear in the changes, and in the instances with a small constant. After many changes it sorts the
+  /// instances anew.
+  void commit(const std::optional<Executor>& executor = {});
+
+  /// Returns the number of instances, with those that are not yet committed.
+  [[nodiscard]] std::size_t instance_count() const noexcept;
+  /// Returns true if the id is that of an instance.
+  [[nodiscard]] bool contains(InstanceId id) const noexcept;
+  /// Returns the ids of all instances, in order. May throw std::bad_alloc.
+  [[nodiscard]] std::vector<InstanceId> instances() const;
+  /// Returns the pose that was set last. The id must be that of an instance, here and below.
+  [[nodiscard]] const Pose<Scalar>& pose(InstanceId id) const noexcept;
+  /// Returns the motion that was set last. It is zero if none was set.
+  [[nodiscard]] const Vector3<Scalar>& motion(InstanceId id) const noexcept;
+  /// Returns the mask that was set last.
+  [[nodiscard]] std::uint32_t mask(InstanceId id) const noexcept;
+  /// Returns `InstanceOptions::user_data`.
+  [[nodiscard]] std::uint64_t user_data(InstanceId id) const noexcept;
+  /// Returns the number of triangles of the instance's collider.
+  [[nodiscard]] std::size_t triangle_count(InstanceId id) const noexcept;
+
+  /// Returns a box around all committed instances, and around their ways during the step. It is the smallest such box
+  /// but for roundings outward. It is empty if there are no triangles.
+  [[nodiscard]] Box<Scalar> box() const noexcept;
+  /// Returns the memory that the scene has allocated, without its colliders, in bytes.
+  [[nodiscard]] std::size_t memory_bytes() const noexcept;
+
+  /// Returns the corners of a placed triangle at t = 0, as the pose that was set last places it. Each coordinate is the
+  /// exact one, rounded once to nearest. `triangle` must be below `triangle_count(id)`.
+  [[nodiscard]] Triangle<Scalar> triangle(InstanceId id, std::uint32_t triangle) const noexcept;
+  /// Returns the unit normal of a placed triangle, as `surehit::normal` returns that of a triangle: within 2 ulp(1).
+  /// It is that of the exact image, before any corner is rounded.
+  [[nodiscard]] Vector3<Scalar> normal(InstanceId id, std::uint32_t triangle) const noexcept;
+
+  /// Returns the hit with the lowest exact t, or nothing if the path misses.
+  ///
+  /// Adds its work to `statistics`, unless this is null.
+  [[nodiscard]] std::optional<SceneHit<Scalar>> first_hit(const Path<Scalar>& path,
+                                                          const SceneQueryOptions<Scalar>& options = {},
+                                                          QueryStatistics* statistics = nullptr) const noexcept;
+  /// Returns the first hit among those that the filter accepts.
+  [[nodiscard]] std::optional<SceneHit<Scalar>> first_hit(const Path<Scalar>& path, SceneHitFilter<Scalar> filter,
+                                                          const SceneQueryOptions<Scalar>& options = {},
+                                                          QueryStatistics* statistics = nullptr) const noexcept;
+
+  /// Returns true if the path meets any triangle.
+  [[nodiscard]] bool any_hit(const Path<Scalar>& path, const SceneQueryOptions<Scalar>& options = {},
+                             QueryStatistics* statistics = nullptr) const noexcept;
+  /// Returns true if the filter accepts any hit of the path.
+  [[nodiscard]] bool any_hit(const Path<Scalar>& path, SceneHitFilter<Scalar> filter,
+                             const SceneQueryOptions<Scalar>& options = {},
+                             QueryStatistics* statistics = nullptr) const noexcept;
+
+  /// Sets `hits` to one hit for each placed triangle that the path meets, in order. May throw std::bad_alloc, see
+  /// `Collider::all_hits`.
+  void all_hits(const Path<Scalar>& path, std::vector<SceneHit<Scalar>>& hits,
+                const SceneQueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const;
+  /// Sets `hits` to all hits that the filter accepts, in the same order.
+  void all_hits(const Path<Scalar>& path, std::vector<SceneHit<Scalar>>& hits, SceneHitFilter<Scalar> filter,
+                const SceneQueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const;
+
+  /// Sets `hits[i]` to the first hit of path i, with the same bits as `first_hit`. A miss is a default hit. Lengths are
+  /// as in `Collider::first_hits`.
+  void first_hits(const PathSpan<Scalar>& paths, std::span<SceneHit<Scalar>> hits,
+                  const SceneBatchOptions<Scalar>& options = {}) const noexcept;
+  /// Sets `blocked[i]` to 1 if path i has a hit, and to 0 otherwise.
+  void any_hits(const PathSpan<Scalar>& paths, std::span<std::uint8_t> blocked,
+                const SceneBatchOptions<Scalar>& options = {}) const noexcept;
+
+  /// Returns where a point that moves along the segment may stop, in front of the hit, see `Collider::last_free_point`.
+  /// A moving instance goes the same share of its way: it moves by s times its motion while the point moves to s.
+  [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
+                                                const SceneQueryOptions<Scalar>& options = {}) const noexcept;
+  /// Returns the same for the hits that the filter accepts.
+  [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
+                                                SceneHitFilter<Scalar> filter,
+                                                const SceneQueryOptions<Scalar>& options = {}) const noexcept;
+
+ private:
+#if defined(__cpp_exceptions)
+  /// Returns the id of a success, or throws the error.
+  static InstanceId id_of(const InstanceResult& result) {
+    if (!result) throw result.error();
+    return result.id();
+  }
+#endif
+  /// Returns the state, or that of an empty scene.
+  [[nodiscard]] const detail::SceneState<Scalar>& state() const noexcept;
+
+  using StatePointer = std::unique_ptr<detail::SceneState<Scalar>, detail::DeleteSceneState<Scalar>>;
+  StatePointer state_;  ///< Null before the first instance is added, and after a move from this scene.
+};
+
+extern template class SUREHIT_API Scene<float>;
+extern template class SUREHIT_API Scene<double>;
+
+using Scenef = Scene<float>;   ///< A scene in float.
+using Scened = Scene<double>;  ///< A scene in double.
+
+}  // namespace surehit
