@@ -1,6 +1,7 @@
 #include "surehit/collider.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -31,6 +32,12 @@ const Executor* address_of(const std::optional<Executor>& executor) { return exe
 
 template <typename Scalar>
 using State = detail::ColliderState<Scalar>;
+
+/// Returns another number with each call.
+std::uint64_t next_version() noexcept {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 /// A query of one path. It also has what the query needs while it runs: the floating-point environment, and a place to
 /// count.
@@ -144,6 +151,7 @@ BuildResult Collider<Scalar>::try_build(const TriangleMeshView<Scalar>& mesh, co
   built->masks.assign(options.masks.begin(), options.masks.end());
   built->grid_options = options.grid;
   built->mesh = MeshBlocks<Scalar>(mesh, built->grid, address_of(options.executor));
+  built->version = next_version();
   state_ = std::move(built);
   return {};
 }
@@ -162,6 +170,7 @@ BuildResult Collider<Scalar>::try_rebuild(const TriangleMeshView<Scalar>& mesh, 
   state_->masks.assign(options.masks.begin(), options.masks.end());
   state_->grid_options = options.grid;
   state_->box = box;
+  state_->version = next_version();
   std::swap(spare.grid, state_->grid);
   std::swap(spare.mesh, state_->mesh);
   return {};
@@ -185,6 +194,7 @@ BuildResult Collider<Scalar>::try_rebuild(const VertexView<Scalar>& vertices, co
   std::swap(spare.grid, state_->grid);
   std::swap(spare.mesh, state_->mesh);
   state_->box = box;
+  state_->version = next_version();
   return {};
 }
 
@@ -230,7 +240,7 @@ GridSummary Collider<Scalar>::grid_summary() const noexcept {
 
 template <FloatOrDouble Scalar>
 std::size_t Collider<Scalar>::memory_bytes() const noexcept {
-  const auto& [mesh, masks, box, grid, grid_options, spare, searches] = state();
+  const auto& [mesh, masks, box, grid, grid_options, spare, version, searches] = state();
   return grid.memory_bytes() + mesh.memory_bytes() + masks.capacity() * sizeof(std::uint32_t) +
          spare.grid.memory_bytes() + spare.mesh.memory_bytes() + spare.scratch.memory_bytes();
 }

@@ -11,6 +11,7 @@
 #include "support/exact_difference.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"
+#include "unit_of_cross.hpp"
 #include "walk/direction.hpp"
 
 namespace surehit {
@@ -89,6 +90,8 @@ template <typename Scalar>
   return std::fabs(t) * sum;
 }
 
+}  // namespace
+
 // Let eps = 2^-53 be the unit roundoff of double, and let n be a component of the exact unit normal.
 //
 // Each component of the cross product is rounded once, so it is off by eps of itself. This turns the vector, and moves
@@ -96,15 +99,15 @@ template <typename Scalar>
 // the quotient have one rounding each. To first order, that is (2 n (1 - n^2) + 3.5 n) eps, at most 3.6 eps for n up to
 // 1. So a double is off by less than 4 eps = 2 ulp(1). For float, one more rounding adds at most ulp(1) / 2 of float.
 template <typename Scalar>
-[[gnu::noinline]] Vector3<Scalar> unit_normal(const Triangle<Scalar>& triangle) {
-  const Vector3<double> cross = detail::exact_cross(triangle);
+Vector3<Scalar> detail::unit_of_cross(const Vector3<double>& cross) {
   const double length = std::sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
   if (length == 0) return Vector3<Scalar>::Zero();
   return {static_cast<Scalar>(cross[0] / length), static_cast<Scalar>(cross[1] / length),
           static_cast<Scalar>(cross[2] / length)};
 }
 
-}  // namespace
+template Vector3<float> detail::unit_of_cross<float>(const Vector3<double>&);
+template Vector3<double> detail::unit_of_cross<double>(const Vector3<double>&);
 
 template <FloatOrDouble Scalar>
 Vector3<Scalar> point(const std::type_identity_t<Path<Scalar>>& path, const Hit<Scalar>& hit) noexcept {
@@ -120,7 +123,7 @@ Scalar distance(const std::type_identity_t<Path<Scalar>>& path, const Hit<Scalar
 template <FloatOrDouble Scalar>
 Vector3<Scalar> normal(const Triangle<Scalar>& triangle) noexcept {
   const FloatingPointEnvironment environment;
-  return unit_normal(triangle);
+  return detail::unit_of_cross<Scalar>(detail::exact_cross(triangle));
 }
 
 #define SUREHIT_INSTANTIATE(Scalar)                                                             \

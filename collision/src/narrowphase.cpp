@@ -24,16 +24,6 @@ bool try_round(double lower, double upper, Scalar& rounded) {
   return static_cast<Scalar>(lower) == rounded;
 }
 
-/// Rounds t, u and v of a hit. Returns false if their bounds do not decide all of them.
-template <typename Scalar>
-bool try_round(const BoundedContact& bounded, Hit<Scalar>& hit) {
-  if (bounded.verdict != Verdict::hit) return false;
-  const auto [min_u, max_u] = bounded.by_det.of(bounded.u_scaled);
-  const auto [min_v, max_v] = bounded.by_det.of(bounded.v_scaled);
-  return try_round(bounded.contact.t_lower, bounded.contact.t_upper, hit.t) && try_round(min_u, max_u, hit.u) &&
-         try_round(min_v, max_v, hit.v);
-}
-
 /// Returns true if the path is certain to enter the box after parameter `limit`. The parameter of each entry has three
 /// roundings, each by 2^-53 of itself. The smallest normal number covers underflow.
 template <typename Scalar>
@@ -53,6 +43,18 @@ bool enters_after(const Path<Scalar>& path, const std::array<Scalar, 3>& low, co
 }
 
 }  // namespace
+
+template <typename Scalar>
+bool try_round(const BoundedContact& bounded, Hit<Scalar>& hit) {
+  if (bounded.verdict != Verdict::hit) return false;
+  const auto [min_u, max_u] = bounded.by_det.of(bounded.u_scaled);
+  const auto [min_v, max_v] = bounded.by_det.of(bounded.v_scaled);
+  return try_round(bounded.contact.t_lower, bounded.contact.t_upper, hit.t) && try_round(min_u, max_u, hit.u) &&
+         try_round(min_v, max_v, hit.v);
+}
+
+template bool try_round(const BoundedContact&, Hit<float>&);
+template bool try_round(const BoundedContact&, Hit<double>&);
 
 template <typename Scalar>
 bool share_axis_plane(const Triangle<Scalar>& x, const Triangle<Scalar>& y) {
@@ -85,7 +87,7 @@ bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact
   if (bounded.verdict == Verdict::miss) return false;
   found = bounded.contact;
   if (bounded.verdict == Verdict::undecided && !find_exactly(triangle, found)) return false;
-  return admits(found);
+  return admits(options_, found);
 }
 
 // The three functions with exact steps are not inlined, because their stack frames are large. The frames of the walk
@@ -102,15 +104,6 @@ template <typename Scalar>
   ++statistics_.exact_decisions;
   if (contact) found = *contact;
   return contact.has_value();
-}
-
-template <typename Scalar>
-bool Narrowphase<Scalar>::admits(const Contact& contact) const {
-  if (options_.culling == Culling::back && contact.side != Side::front) return false;
-  if (options_.culling == Culling::front && contact.side != Side::back) return false;
-  if (options_.ignore_start_contact && contact.at_start) return false;
-  if (options_.ignore_end_contact && contact.at_end) return false;
-  return true;
 }
 
 template <typename Scalar>

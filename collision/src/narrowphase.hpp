@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact.hpp"
+#include "filter/bounded_contact.hpp"
 #include "path_range.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/path.hpp"
@@ -18,6 +19,21 @@ namespace surehit::detail {
 /// meets both triangles, it meets them at the same t.
 template <typename Scalar>
 [[nodiscard]] bool share_axis_plane(const Triangle<Scalar>& x, const Triangle<Scalar>& y);
+
+/// Rounds t, u and v of a hit. Returns false if their bounds do not decide all of them.
+template <typename Scalar>
+[[nodiscard]] bool try_round(const BoundedContact& bounded, Hit<Scalar>& hit);
+
+/// Returns true if the options on contacts admit a contact: the culling, and the contacts to ignore. `Options` are
+/// those of a collider or of a scene.
+template <typename Options>
+[[nodiscard]] bool admits(const Options& options, const Contact& contact) {
+  if (options.culling == Culling::back && contact.side != Side::front) return false;
+  if (options.culling == Culling::front && contact.side != Side::back) return false;
+  if (options.ignore_start_contact && contact.at_start) return false;
+  if (options.ignore_end_contact && contact.at_end) return false;
+  return true;
+}
 
 /// A triangle that a path may meet. `Candidate` without `{}` leaves all members unset, as `Contact` does.
 template <typename Scalar>
@@ -60,8 +76,6 @@ class Narrowphase {
   [[nodiscard]] Hit<Scalar> hit(const Candidate<Scalar>& candidate) const;
 
  private:
-  /// Returns true if the options on contacts admit it: the culling, and the contacts to ignore.
-  [[nodiscard]] bool admits(const Contact& contact) const;
   /// Does the same with stages 3 and 4. It does not look at the options on contacts.
   [[nodiscard]] bool find_exactly(const Triangle<Scalar>& triangle, Contact& found) const;
   /// Does the same as `comes_before`, exactly.

@@ -20,8 +20,9 @@ struct PathRange {
   /// Makes the range that the kind of the path and the limits of the options both admit. If a limit is NaN, the range
   /// is empty.
   PathRange(const Path<Scalar>& path, const QueryOptions<Scalar>& options) : PathRange(path.kind, options) {}
-  /// Does the same for a kind of path.
-  PathRange(PathKind kind, const QueryOptions<Scalar>& options)
+  /// Does the same for a kind of path. `Options` are those of a collider or of a scene.
+  template <typename Options>
+  PathRange(PathKind kind, const Options& options)
       : first(kind != PathKind::line ? Scalar{0} : -infinity), last(kind == PathKind::segment ? Scalar{1} : infinity) {
     if (!(options.min_t <= first)) first = options.min_t;
     if (!(options.max_t >= last)) last = options.max_t;

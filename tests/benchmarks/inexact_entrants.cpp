@@ -112,6 +112,7 @@ class FirstAsComputed {
  public:
   using Kernel = AnyKernel;
   static constexpr bool wants_order = true;
+  static constexpr bool shortens = true;
 
   explicit FirstAsComputed(const Query<float>&) {}
   void begin(const Query<float>&) { reset(); }
@@ -155,6 +156,7 @@ class AnyAsComputed {
  public:
   using Kernel = AnyKernel;
   static constexpr bool wants_order = false;
+  static constexpr bool shortens = false;
 
   explicit AnyAsComputed(const Query<float>&) {}
   void begin(const Query<float>&) { reset(); }

@@ -132,7 +132,53 @@ void ClippedPath::clip_in_double(const GridFrame& frame, const Path<Scalar>& pat
     const int third = t_exponent / 3;  // One double may not hold 2^t_exponent.
     unit = {std::ldexp(1.0, third), std::ldexp(1.0, third), std::ldexp(1.0, t_exponent - 2 * third)};
   }
+  clip_scaled(frame, from, by, first_t, last_t);
+}
 
+bool MovedPath::is_precise_in(const GridFrame& frame) const noexcept {
+  bool is_precise = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double error = frame.scaled(position_error[axis]) * frame.scale[axis];
+    const double distance = std::fabs(frame.scaled(start[axis]) - frame.origin[axis]) * frame.scale[axis];
+    is_precise &=
+        error <= 0x1p-23 * frame.resolution(axis) && distance <= ClippedPath::far_widths * frame.resolution(axis);
+  }
+  return is_precise;
+}
+
+ClippedPath::ClippedPath(const GridFrame& frame, const MovedPath& path, double first_t, double last_t) noexcept {
+  tau = {{1, 1, 1}, {path.moved_t, 0, 0}};
+  std::array<double, 3> from;
+  std::array<double, 3> by;
+  double fastest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    from[axis] = frame.scaled(path.start[axis]) - frame.origin[axis];
+    by[axis] = frame.scaled(path.direction[axis]);
+    fastest = std::max(fastest, std::fabs(by[axis]) * frame.scale[axis]);
+  }
+  if (!path.is_precise_in(frame) || !(fastest <= 0x1p900)) {
+    status = Status::too_far;
+    return;
+  }
+  if (fastest > 0 && !(fastest >= 1 && fastest <= 0x1p40)) {
+    // Each unit of tau is then between 1 and 2 cells on the fastest axis.
+    const int exponent = -std::ilogb(fastest);
+    for (double& rate_on_axis : by) rate_on_axis = std::ldexp(rate_on_axis, exponent);
+    const int half = -exponent / 2;  // One double may not hold 2^-exponent.
+    tau.unit = {std::ldexp(1.0, half), std::ldexp(1.0, -exponent - half), 1};
+    tau.origin[0] = path.moved_t * tau.unit[0] * tau.unit[1];
+    if (!std::isfinite(tau.origin[0])) {
+      status = Status::too_far;
+      return;
+    }
+  }
+  clip_scaled(frame, from, by, first_t, last_t);
+}
+
+inline void ClippedPath::clip_scaled(const GridFrame& frame, std::array<double, 3>& from, std::array<double, 3>& by,
+                                     double first_t, double last_t) noexcept {
+  const auto& unit = tau.unit;
+  auto& origin = tau.origin;
   const auto at = [&](double t) { return t * unit[0] * unit[1] * unit[2] - origin[0] - origin[1]; };
   // Rounded outward: a little before the first t, and a little beyond the last t.
   double enters = at(first_t);

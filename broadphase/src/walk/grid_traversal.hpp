@@ -26,6 +26,18 @@ struct WalkParameter {
   [[nodiscard]] float beyond(double t) const noexcept;
 };
 
+/// A path that is known up to errors, and whose start was moved along it: start + (t - moved_t) direction. An instance
+/// of a scene is met by such a path, in the frame of its mesh.
+struct MovedPath {
+  std::array<double, 3> start;           ///< The point at t = `moved_t`.
+  std::array<double, 3> direction;       ///< The way from there to the point at `moved_t` + 1.
+  double moved_t = 0;                    ///< The t by which the start was moved.
+  std::array<double, 3> position_error;  ///< Inside the mesh's box, no point is off by more than this.
+
+  /// Returns true if the errors are so small that the walk through this frame misses nothing (L15).
+  [[nodiscard]] bool is_precise_in(const GridFrame& frame) const noexcept;
+};
+
 /// A path as the grid sees it: clipped to the grid, counted in finest cells, and mirrored so that it rises on every
 /// axis. It holds plain floats, so that the lanes of a vector can take them. The proof of the walk, with its lemmas L1
 /// to L12, is in WALK.md.
@@ -75,6 +87,8 @@ struct ClippedPath {
   /// Clips a path to the outermost grid. Every path misses a grid without cells.
   template <typename Scalar>
   ClippedPath(const Grid& grid, const Path<Scalar>& path, double first_t, double last_t) noexcept;
+  /// Clips a moved path to a grid that is not empty. Its numbers must be finite. It is too far if it is not precise.
+  ClippedPath(const GridFrame& frame, const MovedPath& path, double first_t, double last_t) noexcept;
   ClippedPath() = default;
 
   /// Returns true if tau is t less the last origin.
@@ -123,6 +137,9 @@ struct ClippedPath {
   /// Clips any path in double (L9).
   template <typename Scalar>
   void clip_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t, double last_t) noexcept;
+  /// Clips the path from + tau by, in the scaled frame. `tau` is set but for its last origin.
+  void clip_scaled(const GridFrame& frame, std::array<double, 3>& from, std::array<double, 3>& by, double first_t,
+                   double last_t) noexcept;
   /// Returns true if a path that is not near the grid is certain to miss it (L13).
   [[nodiscard]] bool misses_from_afar(const detail::Float4& from, const detail::Float4& stop,
                                       float last_t) const noexcept;

@@ -197,6 +197,9 @@ class SUREHIT_API Scene {
     return result.id();
   }
 #endif
+  /// Adds an instance of that one of the two colliders that is not null.
+  InstanceResult add_instance(ColliderPointer collider, FloatColliderPointer float_collider, const Pose<Scalar>& pose,
+                              const InstanceOptions& options);
   /// Returns the state, or that of an empty scene.
   [[nodiscard]] const detail::SceneState<Scalar>& state() const noexcept;
 

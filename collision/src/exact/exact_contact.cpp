@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "exact/exact_pair.hpp"
 #include "support/rounding_flags.hpp"
@@ -16,8 +17,8 @@ bool are_compact(const Scale<Scalar>& scale, const PathRange<Scalar>& range) {
          (range.first == -PathRange<Scalar>::infinity || Limit<Scalar>(range.first, scale.t_exponent).is_compact());
 }
 
-template <typename Size, typename Scalar>
-[[gnu::noinline]] std::optional<Contact> find_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+template <typename Size, typename Scalar, typename AnyTriangle>
+[[gnu::noinline]] std::optional<Contact> find_contact(const Path<Scalar>& path, const AnyTriangle& triangle,
                                                       const Scale<Scalar>& scale, const PathRange<Scalar>& range) {
   typename ExactPair<Scalar, Size>::Parameter t;
   std::optional<Contact> contact = ExactPair<Scalar, Size>(path, triangle, scale).find(range, t, nullptr);
@@ -31,8 +32,8 @@ template <typename Size, typename Scalar>
   return contact;
 }
 
-template <typename Size, typename Scalar>
-[[gnu::noinline]] void round_hit(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const Scale<Scalar>& scale,
+template <typename Size, typename Scalar, typename AnyTriangle>
+[[gnu::noinline]] void round_hit(const Path<Scalar>& path, const AnyTriangle& triangle, const Scale<Scalar>& scale,
                                  const PathRange<Scalar>& range, Hit<Scalar>& hit) {
   typename ExactPair<Scalar, Size>::Parameter t;
   Weights<Scalar> weights;
@@ -42,17 +43,15 @@ template <typename Size, typename Scalar>
   hit.v = weights.v;
 }
 
-template <typename Size, typename Scalar>
-[[gnu::noinline]] void find_parameter(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
-                                      const Scale<Scalar>& scale, const PathRange<Scalar>& range,
-                                      typename ExactPair<Scalar, Size>::Parameter& t) {
+template <typename Size, typename Scalar, typename AnyTriangle>
+[[gnu::noinline]] void find_parameter(const Path<Scalar>& path, const AnyTriangle& triangle, const Scale<Scalar>& scale,
+                                      const PathRange<Scalar>& range, typename ExactPair<Scalar, Size>::Parameter& t) {
   static_cast<void>(ExactPair<Scalar, Size>(path, triangle, scale).find(range, t, nullptr));
 }
 
-template <typename Size, typename Scalar>
-[[gnu::noinline]] int compare_contacts(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
-                                       const Triangle<Scalar>& other, const Scale<Scalar>& scale,
-                                       const PathRange<Scalar>& range) {
+template <typename Size, typename Scalar, typename AnyTriangle>
+[[gnu::noinline]] int compare_contacts(const Path<Scalar>& path, const AnyTriangle& triangle, const AnyTriangle& other,
+                                       const Scale<Scalar>& scale, const PathRange<Scalar>& range) {
   typename ExactPair<Scalar, Size>::Parameter t;
   typename ExactPair<Scalar, Size>::Parameter other_t;
   find_parameter<Size>(path, triangle, scale, range, t);
@@ -60,18 +59,32 @@ template <typename Size, typename Scalar>
   return compare(t, other_t);
 }
 
+/// The integers for any triangle of a type.
+template <typename AnyTriangle>
+struct SizeFor;
+template <typename Scalar>
+struct SizeFor<Triangle<Scalar>> {
+  using Type = AnySize<Scalar>;
+};
+template <typename Scalar>
+struct SizeFor<PlacedTriangle<Scalar>> {
+  using Type = PlacedSize<Scalar>;
+};
+template <typename AnyTriangle>
+using LargeSize = typename SizeFor<AnyTriangle>::Type;
+
 }  // namespace
 
-template <typename Scalar>
-std::optional<Contact> exact_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+template <typename Scalar, typename AnyTriangle>
+std::optional<Contact> exact_contact(const Path<Scalar>& path, const AnyTriangle& triangle,
                                      const PathRange<Scalar>& range) {
   const Scale<Scalar> scale(path, triangle);
   return are_compact(scale, range) ? find_contact<CompactSize>(path, triangle, scale, range)
-                                   : find_contact<AnySize<Scalar>>(path, triangle, scale, range);
+                                   : find_contact<LargeSize<AnyTriangle>>(path, triangle, scale, range);
 }
 
-template <typename Scalar>
-bool try_compact_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const PathRange<Scalar>& range,
+template <typename Scalar, typename AnyTriangle>
+bool try_compact_contact(const Path<Scalar>& path, const AnyTriangle& triangle, const PathRange<Scalar>& range,
                          std::optional<Contact>& contact) {
   const Scale<Scalar> scale(path, triangle);
   if (!are_compact(scale, range)) return false;
@@ -79,23 +92,24 @@ bool try_compact_contact(const Path<Scalar>& path, const Triangle<Scalar>& trian
   return true;
 }
 
-template <typename Scalar>
-void exact_rounding(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const PathRange<Scalar>& range,
+template <typename Scalar, typename AnyTriangle>
+void exact_rounding(const Path<Scalar>& path, const AnyTriangle& triangle, const PathRange<Scalar>& range,
                     Hit<Scalar>& hit) {
   const Scale<Scalar> scale(path, triangle);
   if (are_compact(scale, range)) {
     round_hit<CompactSize>(path, triangle, scale, range, hit);
   } else {
-    round_hit<AnySize<Scalar>>(path, triangle, scale, range, hit);
+    round_hit<LargeSize<AnyTriangle>>(path, triangle, scale, range, hit);
   }
 }
 
-template <typename Scalar>
-std::strong_ordering exact_order(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
-                                 const Triangle<Scalar>& other, const PathRange<Scalar>& range) {
+template <typename Scalar, typename AnyTriangle>
+std::strong_ordering exact_order(const Path<Scalar>& path, const AnyTriangle& triangle, const AnyTriangle& other,
+                                 const PathRange<Scalar>& range) {
   const Scale<Scalar> scale(path, triangle, other);
-  return (are_compact(scale, range) ? compare_contacts<CompactSize>(path, triangle, other, scale, range)
-                                    : compare_contacts<AnySize<Scalar>>(path, triangle, other, scale, range)) <=> 0;
+  return (are_compact(scale, range)
+              ? compare_contacts<CompactSize>(path, triangle, other, scale, range)
+              : compare_contacts<LargeSize<AnyTriangle>>(path, triangle, other, scale, range)) <=> 0;
 }
 
 template <typename Scalar>
@@ -124,17 +138,36 @@ Vector3<Scalar> exact_point(const Path<Scalar>& path, Scalar t) {
   return result;
 }
 
+namespace {
+
+/// Returns a path that is a point, for a scale of a triangle alone.
 template <typename Scalar>
-Vector3<double> exact_cross(const Triangle<Scalar>& triangle) {
-  using B = Bits<AnySize<Scalar>>;
-  BinaryUnit unit;
-  unit.include(triangle);
-  if (unit.exponent == std::numeric_limits<int>::max()) unit.exponent = 0;
-  Differences<AnySize<Scalar>> e1;
-  Differences<AnySize<Scalar>> e2;
-  set_difference(e1, triangle.b, triangle.a, unit);
-  set_difference(e2, triangle.c, triangle.a, unit);
-  IntVector<WideInt<B::cross>> cross;
+Path<Scalar> no_path() {
+  return Ray<Scalar>{Vector3<Scalar>::Zero(), Vector3<Scalar>::Zero()};
+}
+
+template <typename Scalar>
+const Scalar& scalar_of(const Triangle<Scalar>& triangle) {
+  return triangle.a[0];
+}
+template <typename Scalar>
+const Scalar& scalar_of(const PlacedTriangle<Scalar>& triangle) {
+  return triangle.local.a[0];
+}
+
+}  // namespace
+
+template <typename AnyTriangle>
+Vector3<double> exact_cross(const AnyTriangle& triangle) {
+  using Scalar = std::remove_cvref_t<decltype(scalar_of(triangle))>;
+  using Size = LargeSize<AnyTriangle>;
+  const Path<Scalar> path = no_path<Scalar>();
+  Differences<Size> s;
+  Differences<Size> d;
+  Differences<Size> e1;
+  Differences<Size> e2;
+  set_vectors(path, triangle, Scale<Scalar>(path, triangle), s, d, e1, e2);
+  IntVector<WideInt<Bits<Size>::cross>> cross;
   set_cross(cross, e1, e2);
   const int exponent = -std::max({cross[0].bit_length(), cross[1].bit_length(), cross[2].bit_length()});
   const auto one = WideInt<1>::power_of_two(0);
@@ -142,18 +175,44 @@ Vector3<double> exact_cross(const Triangle<Scalar>& triangle) {
           rounded_quotient<double>(cross[2], one, exponent)};
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                                   \
-  template std::optional<Contact> exact_contact(const Path<Scalar>&, const Triangle<Scalar>&,                         \
-                                                const PathRange<Scalar>&);                                            \
-  template bool try_compact_contact(const Path<Scalar>&, const Triangle<Scalar>&, const PathRange<Scalar>&,           \
-                                    std::optional<Contact>&);                                                         \
-  template void exact_rounding(const Path<Scalar>&, const Triangle<Scalar>&, const PathRange<Scalar>&, Hit<Scalar>&); \
-  template std::strong_ordering exact_order(const Path<Scalar>&, const Triangle<Scalar>&, const Triangle<Scalar>&,    \
-                                            const PathRange<Scalar>&);                                                \
-  template Vector3<Scalar> exact_point(const Path<Scalar>&, Scalar);                                                  \
-  template Vector3<double> exact_cross(const Triangle<Scalar>&);
-SUREHIT_INSTANTIATE(float)
-SUREHIT_INSTANTIATE(double)
+template <typename Scalar>
+Triangle<Scalar> exact_corners(const PlacedTriangle<Scalar>& triangle) {
+  const Path<Scalar> path = no_path<Scalar>();
+  const Scale<Scalar> scale(path, triangle);
+  const auto one = WideInt<1>::power_of_two(0);
+  const auto corner = [&](const Vector3<Scalar>& local) -> Vector3<Scalar> {
+    // S is the start less the first corner, and the start is zero here.
+    const PlacedTriangle<Scalar> from{{local, triangle.local.b, triangle.local.c}, triangle.placement};
+    Differences<PlacedSize<Scalar>> s;
+    Differences<PlacedSize<Scalar>> d;
+    Differences<PlacedSize<Scalar>> e1;
+    Differences<PlacedSize<Scalar>> e2;
+    set_vectors(path, from, scale, s, d, e1, e2);
+    for (auto& x : s) x.negate();
+    const int exponent = scale.points.exponent;
+    return {rounded_quotient<Scalar>(s[0], one, exponent), rounded_quotient<Scalar>(s[1], one, exponent),
+            rounded_quotient<Scalar>(s[2], one, exponent)};
+  };
+  return {corner(triangle.local.a), corner(triangle.local.b), corner(triangle.local.c)};
+}
+
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                                    \
+  template std::optional<Contact> exact_contact(const Path<Scalar>&, const AnyTriangle&, const PathRange<Scalar>&); \
+  template bool try_compact_contact(const Path<Scalar>&, const AnyTriangle&, const PathRange<Scalar>&,              \
+                                    std::optional<Contact>&);                                                       \
+  template void exact_rounding(const Path<Scalar>&, const AnyTriangle&, const PathRange<Scalar>&, Hit<Scalar>&);    \
+  template std::strong_ordering exact_order(const Path<Scalar>&, const AnyTriangle&, const AnyTriangle&,            \
+                                            const PathRange<Scalar>&);                                              \
+  template Vector3<double> exact_cross(const AnyTriangle&);
+SUREHIT_INSTANTIATE(float, Triangle<float>)
+SUREHIT_INSTANTIATE(double, Triangle<double>)
+SUREHIT_INSTANTIATE(float, PlacedTriangle<float>)
+SUREHIT_INSTANTIATE(double, PlacedTriangle<double>)
 #undef SUREHIT_INSTANTIATE
+
+template Vector3<float> exact_point(const Path<float>&, float);
+template Vector3<double> exact_point(const Path<double>&, double);
+template Triangle<float> exact_corners(const PlacedTriangle<float>&);
+template Triangle<double> exact_corners(const PlacedTriangle<double>&);
 
 }  // namespace surehit::detail

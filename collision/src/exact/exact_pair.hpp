@@ -25,7 +25,7 @@ struct Weights {
 /// The steps are not inlined into each other, so each stack frame ends with its step. The integers are large enough for
 /// all of double. One frame for all steps would exceed the 16 KiB of stack that a query may use.
 ///
-/// `Size` is `AnySize`, or `CompactSize` if the scale is compact.
+/// `Size` is `AnySize`, or `PlacedSize` for placed triangles, or `CompactSize` if the scale is compact.
 template <typename Scalar, typename Size>
 class ExactPair {
  public:
@@ -35,17 +35,11 @@ class ExactPair {
   using Parameter = Ratio<Int<B::parameter>>;
   using PlaneParameter = Ratio<Int<B::cross + 3>>;  ///< Its largest part is n - (U + V), see `set_weight`.
 
-  ExactPair(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const Scale<Scalar>& scale)
-      : path_(path), triangle_(triangle), scale_(scale) {
-    set_difference(s_, path.start, triangle.a, scale.points);
-    set_difference(e1_, triangle.b, triangle.a, scale.points);
-    set_difference(e2_, triangle.c, triangle.a, scale.points);
-    if (path.kind == PathKind::segment) {
-      set_difference(d_, path.toward, path.start, scale.points);
-    } else {
-      for (std::size_t i = 0; i < 3; ++i)
-        set_integer(d_[i], path.toward[static_cast<Eigen::Index>(i)], scale.direction);
-    }
+  /// `AnyTriangle` is `Triangle` or `PlacedTriangle`.
+  template <typename AnyTriangle>
+  ExactPair(const Path<Scalar>& path, const AnyTriangle& triangle, const Scale<Scalar>& scale)
+      : path_(path), corners_(local_corners(triangle)), t_exponent_(scale.t_exponent) {
+    set_vectors(path, triangle, scale, s_, d_, e1_, e2_);
   }
 
   /// Returns the first contact, or nothing if there is none. Sets `t` to its exact parameter. Sets the weights unless
@@ -88,17 +82,17 @@ class ExactPair {
     Contact contact = {};
     contact.at_start = path_.has_start() && first.num.sign() <= 0 && last.num.sign() >= 0;
     if (path_.has_end()) {
-      const Limit<Scalar> end(1, scale_.t_exponent);
+      const Limit<Scalar> end(1, t_exponent_);
       contact.at_end = end.compare(first) <= 0 && end.compare(last) >= 0;
     }
-    if (range.last < PathRange<Scalar>::infinity && Limit<Scalar>(range.last, scale_.t_exponent).compare(first) > 0) {
+    if (range.last < PathRange<Scalar>::infinity && Limit<Scalar>(range.last, t_exponent_).compare(first) > 0) {
       return std::nullopt;
     }
     if (range.first == -PathRange<Scalar>::infinity) {
       t.set(first.num, first.den);
       return contact;
     }
-    const Limit<Scalar> begin(range.first, scale_.t_exponent);
+    const Limit<Scalar> begin(range.first, t_exponent_);
     if (begin.compare(last) < 0) return std::nullopt;
     if (begin.compare(first) < 0) {
       begin.store(t);
@@ -276,14 +270,15 @@ class ExactPair {
     return result;
   }
 
-  /// The two extreme corners of a degenerate triangle, in lexicographic order. They are indices into a, b, c.
+  /// The two extreme corners of a degenerate triangle, in lexicographic order. They are indices into a, b, c. A pose
+  /// may exchange the two, but no other corner becomes extreme. So those of the mesh's triangle are as good.
   struct Span {
     int min = 0;  ///< The first corner in that order.
     int max = 0;  ///< The last corner in that order.
   };
 
   Span span() const {
-    const Vector3<Scalar>* corners[] = {&triangle_.a, &triangle_.b, &triangle_.c};
+    const Vector3<Scalar>* corners[] = {&corners_.a, &corners_.b, &corners_.c};
     const auto before = [](const Vector3<Scalar>& x, const Vector3<Scalar>& y) {
       return x[0] != y[0] ? x[0] < y[0] : x[1] != y[1] ? x[1] < y[1] : x[2] < y[2];
     };
@@ -450,8 +445,8 @@ class ExactPair {
   }
 
   const Path<Scalar>& path_;
-  const Triangle<Scalar>& triangle_;
-  const Scale<Scalar>& scale_;
+  const Triangle<Scalar>& corners_;
+  const int t_exponent_;
   Differences<Size> d_;
   Differences<Size> e1_;
   Differences<Size> e2_;

@@ -18,6 +18,17 @@ struct AnySize {
   using Int = WideInt<B>;
 };
 
+/// The integers for any coordinates of placed triangles: sums of products with the entries of a pose. These are between
+/// 2^-64 and 2^64, and so is the share of a motion that is not below 2^-64.
+template <typename Scalar>
+struct PlacedSize {
+  static constexpr int max_exponent = std::numeric_limits<Scalar>::max_exponent + 68;
+  static constexpr int min_exponent = Decomposed<Scalar>::min_exponent - 64 - std::numeric_limits<Scalar>::digits;
+  static constexpr int coordinate = max_exponent - min_exponent;
+  template <int B>
+  using Int = WideInt<B>;
+};
+
 /// The integers for coordinates that are not too far from each other in size. Most coordinates of a game are.
 struct CompactSize {
   static constexpr int coordinate = 40;  ///< The most bits with which every term fits in 127 bits.
@@ -26,7 +37,7 @@ struct CompactSize {
 };
 
 /// The maximum number of bits of each term of the exact stage. Coordinates are integers here, in units of `BinaryUnit`.
-/// `Size` is `AnySize` or `CompactSize`.
+/// `Size` is one of the three above.
 template <typename Size>
 struct Bits {
   static constexpr int coordinate = Size::coordinate;

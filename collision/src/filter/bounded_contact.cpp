@@ -26,6 +26,49 @@ BoundedVector cross(const BoundedVector& x, const BoundedVector& y) {
 
 Bounded dot(const BoundedVector& x, const BoundedVector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
+/// The vectors of a pair.
+struct PairVectors {
+  BoundedVector s, d, e1, e2;
+};
+
+template <typename Scalar>
+BoundedVector direction_of_path(const Path<Scalar>& path) {
+  return path.has_end() ? difference<Scalar>(path.toward, path.start)
+                        : BoundedVector{exact(path.toward[0]), exact(path.toward[1]), exact(path.toward[2])};
+}
+
+template <typename Scalar>
+PairVectors vectors_of(const Path<Scalar>& path, const Triangle<Scalar>& triangle) {
+  return {difference<Scalar>(path.start, triangle.a), direction_of_path(path),
+          difference<Scalar>(triangle.b, triangle.a), difference<Scalar>(triangle.c, triangle.a)};
+}
+
+/// Returns the vectors of a placed triangle, with the path as the instance sees it.
+template <typename Scalar>
+PairVectors vectors_of(const Path<Scalar>& path, const PlacedTriangle<Scalar>& triangle) {
+  const auto& [local, placement, share] = triangle;
+  const auto image = [&](const BoundedVector& x) {
+    BoundedVector y;
+    for (std::size_t row = 0; row < 3; ++row) {
+      const auto entry = [&](Eigen::Index column) {
+        return exact(placement.pose.linear(static_cast<Eigen::Index>(row), column));
+      };
+      y[row] = entry(0) * x[0] + entry(1) * x[1] + entry(2) * x[2];
+    }
+    return y;
+  };
+  const BoundedVector from_origin = difference<Scalar>(path.start, placement.pose.translation);
+  const BoundedVector corner = image({exact(local.a[0]), exact(local.a[1]), exact(local.a[2])});
+  PairVectors vectors{from_origin, direction_of_path(path), image(difference<Scalar>(local.b, local.a)),
+                      image(difference<Scalar>(local.c, local.a))};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    vectors.s[axis] = from_origin[axis] - corner[axis];
+    if (!placement.moves || !path.has_end()) continue;
+    vectors.d[axis] = vectors.d[axis] - exact(share) * exact(placement.motion[static_cast<Eigen::Index>(axis)]);
+  }
+  return vectors;
+}
+
 /// The determinants. The signs of the last five decide.
 struct Determinants {
   Bounded det;
@@ -121,15 +164,9 @@ BoundedContact double_contact(const Path<Scalar>& path, const Triangle<Scalar>& 
                 path, range);
 }
 
-template <typename Scalar>
-BoundedContact bounded_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
-                               const PathRange<Scalar>& range) {
-  const BoundedVector d = path.kind == PathKind::segment
-                              ? difference<Scalar>(path.toward, path.start)
-                              : BoundedVector{exact(path.toward[0]), exact(path.toward[1]), exact(path.toward[2])};
-  const BoundedVector e1 = difference<Scalar>(triangle.b, triangle.a);
-  const BoundedVector e2 = difference<Scalar>(triangle.c, triangle.a);
-  const BoundedVector s = difference<Scalar>(path.start, triangle.a);
+template <typename Scalar, typename AnyTriangle>
+BoundedContact bounded_contact(const Path<Scalar>& path, const AnyTriangle& triangle, const PathRange<Scalar>& range) {
+  const auto [s, d, e1, e2] = vectors_of(path, triangle);
   const BoundedVector p = cross(d, e2);
   const BoundedVector q = cross(s, e1);
 
@@ -165,5 +202,7 @@ template BoundedContact double_contact(const Path<float>&, const Triangle<float>
 template BoundedContact double_contact(const Path<double>&, const Triangle<double>&, const PathRange<double>&);
 template BoundedContact bounded_contact(const Path<float>&, const Triangle<float>&, const PathRange<float>&);
 template BoundedContact bounded_contact(const Path<double>&, const Triangle<double>&, const PathRange<double>&);
+template BoundedContact bounded_contact(const Path<float>&, const PlacedTriangle<float>&, const PathRange<float>&);
+template BoundedContact bounded_contact(const Path<double>&, const PlacedTriangle<double>&, const PathRange<double>&);
 
 }  // namespace surehit::detail

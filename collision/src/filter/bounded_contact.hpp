@@ -5,6 +5,7 @@
 #include "contact.hpp"
 #include "filter/bounded.hpp"
 #include "path_range.hpp"
+#include "scene/placement.hpp"
 #include "surehit/path.hpp"
 #include "surehit/triangle.hpp"
 #include "verdict.hpp"
@@ -42,9 +43,10 @@ template <typename Scalar>
                                             const PathRange<Scalar>& range);
 
 /// The third stage: the same with running error bounds, which exact operations do not enlarge. A path in the triangle's
-/// plane stays undecided. So does any pair that double cannot decide with certainty.
-template <typename Scalar>
-[[nodiscard]] BoundedContact bounded_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
+/// plane stays undecided. So does any pair that double cannot decide with certainty. `AnyTriangle` is `Triangle` or
+/// `PlacedTriangle`.
+template <typename Scalar, typename AnyTriangle>
+[[nodiscard]] BoundedContact bounded_contact(const Path<Scalar>& path, const AnyTriangle& triangle,
                                              const PathRange<Scalar>& range);
 
 }  // namespace surehit::detail

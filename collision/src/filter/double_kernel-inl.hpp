@@ -38,6 +38,12 @@ HWY_INLINE Vectors<D> directions_of(PathKind kind, const Vectors<D>& start, cons
   return kind == PathKind::segment ? difference<D>(toward, start) : toward;
 }
 
+/// How much the sizes of a path's start and direction grow, because its numbers have errors (I8).
+template <class D>
+struct PathSlack {
+  hn::Vec<D> start, direction;
+};
+
 /// The determinants of Möller and Trumbore, for a path and a triangle in each lane. Each has its product of sizes,
 /// which gives its error bound (K4 in kernel_bound.hpp). If a size is above `largest_size`, the radius is infinite or
 /// NaN.
@@ -47,14 +53,18 @@ class DoubleDeterminants {
   using Bound = KernelBound<double>;
 
  public:
+  /// The path's numbers are exact if there is no slack.
+  template <typename... Slack>
   HWY_INLINE DoubleDeterminants(D d, const Vectors<D>& start, const Vectors<D>& direction, const Vectors<D>& a,
-                                const Vectors<D>& b, const Vectors<D>& c)
+                                const Vectors<D>& b, const Vectors<D>& c, const Slack&... slack)
       : d_(d) {
     const Vectors<D> e1 = difference<D>(b, a);
     const Vectors<D> e2 = difference<D>(c, a);
     const Vectors<D> s = difference<D>(start, a);
     d_size = size(direction);
-    const V e1_size = size(e1), e2_size = size(e2), s_size = size(s);
+    V s_size = size(s);
+    ((d_size = hn::Add(d_size, slack.direction), s_size = hn::Add(s_size, slack.start)), ...);
+    const V e1_size = size(e1), e2_size = size(e2);
     const Vectors<D> p = cross(direction, e2);
     const Vectors<D> q = cross(s, e1);
     det = dot(e1, p);

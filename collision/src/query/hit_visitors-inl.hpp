@@ -93,9 +93,11 @@ HWY_NOINLINE bool visit_one_by_one(const CandidateBlock<Scalar, AnyPath>& block,
   if constexpr (Visitor::wants_order) {
     if (visitor.take_tie(block, lanes, shorter)) return shorter;
   }
-  const Path<Scalar>& path = block.path;  // A Path that is made here lives as long as this reference.
+  // A Path that is made here lives as long as this reference.
+  const typename Visitor::AnyPath& path = block.path;
   OpenLanes open = {lanes, 0};
-  if constexpr (std::is_same_v<Scalar, float>) open = look_again(block, path, lanes, visitor, shorter);
+  if constexpr (std::is_same_v<typename Visitor::AnyPath, Path<float>>)
+    open = look_again(block, path, lanes, visitor, shorter);
   const typename Visitor::Narrowphase narrowphase(path, block.query.options, block.range, block.query.statistics);
   for (; open.lanes != 0 && !visitor.is_done(); open.lanes &= open.lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(open.lanes));
@@ -126,7 +128,9 @@ class FirstHit {
  public:
   using Kernel = BlockKernel<Scalar>;
   using Narrowphase = detail::Narrowphase<Scalar>;
+  using AnyPath = Path<Scalar>;              ///< The paths that the narrowphase takes.
   static constexpr bool wants_order = true;  ///< It needs `CandidateBlock::first`.
+  static constexpr bool shortens = true;     ///< Nothing beyond `limit()` counts.
 
   explicit FirstHit(const Query<Scalar>& query) : trusts_kernel_(counts_every_hit(query)) {}
   /// Forgets the hit, and begins with another query.
@@ -280,7 +284,9 @@ class AnyHit {
  public:
   using Kernel = BlockKernel<Scalar>;
   using Narrowphase = detail::Narrowphase<Scalar>;
+  using AnyPath = Path<Scalar>;  ///< The paths that the narrowphase takes.
   static constexpr bool wants_order = false;
+  static constexpr bool shortens = false;
 
   explicit AnyHit(const Query<Scalar>&) {}
   /// Begins with another query.
@@ -315,7 +321,9 @@ class AllHits {
  public:
   using Kernel = BlockKernel<Scalar>;
   using Narrowphase = detail::Narrowphase<Scalar>;
+  using AnyPath = Path<Scalar>;  ///< The paths that the narrowphase takes.
   static constexpr bool wants_order = false;
+  static constexpr bool shortens = false;
 
   /// Takes nothing. Returns all lanes that are not certain misses.
   template <typename AnyPath>

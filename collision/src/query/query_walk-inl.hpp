@@ -26,6 +26,7 @@
 #include "misses_box.hpp"
 #include "narrowphase.hpp"
 #include "query/query.hpp"
+#include "scene/placed_path.hpp"
 #include "walk/grid_traversal.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -46,14 +47,31 @@ struct KernelInput {
   KernelInput(const Path<Scalar>& any_path, const PathRange<Scalar>& range, const GridFrame& frame)
       : path(any_path, frame), weights(range) {}
   KernelInput(const KernelPath<Scalar>& any_path, const PathRange<Scalar>& range) : path(any_path), weights(range) {}
+  /// A placed path has the same form in all frames of a mesh.
+  template <typename SceneScalar>
+  KernelInput(const PlacedPath<SceneScalar>& any_path, const PathRange<Scalar>& range, const GridFrame&)
+      : path(any_path.template kernel_path<Scalar>()), weights(range) {}
   KernelPath<Scalar> path;       ///< The path.
   RangeWeights<Scalar> weights;  ///< The weights of its range.
 };
 
+/// Clips a path to a frame.
+template <typename Scalar>
+HWY_INLINE ClippedPath clipped_to(const GridFrame& frame, const Path<Scalar>& path, const PathRange<Scalar>& range) {
+  return {frame, path, range.first, range.last};
+}
+/// Does the same for a placed path, which has a range of its own.
+template <typename Scalar, typename SceneScalar>
+HWY_INLINE ClippedPath clipped_to(const GridFrame& frame, const PlacedPath<SceneScalar>& path,
+                                  const PathRange<Scalar>&) {
+  const PathRange<SceneScalar>& range = path.scene_path.range;
+  return {frame, path.moved, range.first, range.last};
+}
+
 /// Gives the visitor the triangles of a list that the path may meet. Returns true if the path is shorter now, or if the
-/// visitor is done.
-template <typename Scalar, typename Visitor>
-HWY_INLINE bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& range, const Path<Scalar>& path,
+/// visitor is done. Here and below, `AnyPath` is a `Path` or a `PlacedPath`.
+template <typename Scalar, typename AnyPath, typename Visitor>
+HWY_INLINE bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& range, const AnyPath& path,
                            const KernelInput<Scalar>& input, const TriangleList<Scalar>& list, Visitor& visitor) {
   using Kernel = typename Visitor::Kernel;
   query.statistics.candidates += list.count;
@@ -69,9 +87,8 @@ HWY_INLINE bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& 
     }
     if (verdicts.possible == 0) continue;
     query.statistics.undecided += static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
-    shorter |=
-        visit(CandidateBlock<Scalar, Path<Scalar>>{query, range, path, list, input.path.reach, from, verdicts, first},
-              visitor);
+    shorter |= visit(CandidateBlock<Scalar, AnyPath>{query, range, path, list, input.path.reach, from, verdicts, first},
+                     visitor);
     if (visitor.is_done()) return true;
   }
   return shorter;
@@ -81,10 +98,11 @@ HWY_INLINE bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& 
 template <typename Scalar>
 class AtOnce {
  public:
-  AtOnce(const Path<Scalar>& path, const PathRange<Scalar>& range, const GridFrame& frame)
-      : input_(path, range, frame) {}
+  template <typename AnyPath>
+  AtOnce(const AnyPath& path, const PathRange<Scalar>& range, const GridFrame& frame) : input_(path, range, frame) {}
   /// Returns the input that the constructor made.
-  const KernelInput<Scalar>& get(const Path<Scalar>&, const PathRange<Scalar>&, const GridFrame&) const {
+  template <typename AnyPath>
+  const KernelInput<Scalar>& get(const AnyPath&, const PathRange<Scalar>&, const GridFrame&) const {
     return input_;
   }
 
@@ -96,9 +114,11 @@ class AtOnce {
 template <typename Scalar>
 class OnDemand {
  public:
-  OnDemand(const Path<Scalar>&, const PathRange<Scalar>&, const GridFrame&) {}
+  template <typename AnyPath>
+  OnDemand(const AnyPath&, const PathRange<Scalar>&, const GridFrame&) {}
   /// Makes the input if there is none, and returns it.
-  const KernelInput<Scalar>& get(const Path<Scalar>& path, const PathRange<Scalar>& range, const GridFrame& frame) {
+  template <typename AnyPath>
+  const KernelInput<Scalar>& get(const AnyPath& path, const PathRange<Scalar>& range, const GridFrame& frame) {
     if (!input_) input_.emplace(path, range, frame);
     return *input_;
   }
@@ -115,14 +135,14 @@ HWY_INLINE bool is_long(float min_cells, const Grid& grid, const ClippedPath& cl
   return way >= min_cells * static_cast<float>(grid.frame().division) && way < 0x1p20F;
 }
 
-template <typename Scalar, typename Visitor>
-void walk_inner(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
+template <typename Scalar, typename AnyPath, typename Visitor>
+void walk_inner(const Query<Scalar>& query, const AnyPath& path, const PathRange<Scalar>& range,
                 const KernelInput<Scalar>& input, CellWord word, Visitor& visitor);
 
 /// Gives the visitor the triangles that the path may meet in a cell with a list. Returns true if the path is shorter
 /// now, or if the visitor is done.
-template <typename Scalar, typename Visitor>
-HWY_INLINE bool visit_cell(const Query<Scalar>& query, const PathRange<Scalar>& range, const Path<Scalar>& path,
+template <typename Scalar, typename AnyPath, typename Visitor>
+HWY_INLINE bool visit_cell(const Query<Scalar>& query, const PathRange<Scalar>& range, const AnyPath& path,
                            const KernelInput<Scalar>& input, CellWord word, Visitor& visitor) {
   const bool shorter = visit_list(query, range, path, input, list_of(query, word), visitor);
   if (!word.has_inner_grid() || visitor.is_done()) return shorter;
@@ -212,8 +232,8 @@ HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const Pat
 #endif
 
 /// Gives the visitor all triangles of the mesh, until the visitor is done.
-template <typename Scalar, typename Visitor>
-HWY_NOINLINE void visit_all(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
+template <typename Scalar, typename AnyPath, typename Visitor>
+HWY_NOINLINE void visit_all(const Query<Scalar>& query, const AnyPath& path, const PathRange<Scalar>& range,
                             Visitor& visitor) {
   ++query.statistics.unclipped;
   query.statistics.candidates += query.mesh.triangle_count();
@@ -226,11 +246,11 @@ HWY_NOINLINE void visit_all(const Query<Scalar>& query, const Path<Scalar>& path
 
 /// Walks the path cell by cell through a frame from tau `enters` on, until the visitor is done. Gives the visitor the
 /// triangles that the path may meet. `When` is `AtOnce` or `OnDemand`.
-template <typename When, typename Scalar, typename Visitor>
-HWY_INLINE void walk_frame(const GridFrame& frame, float enters, const Query<Scalar>& query, const Path<Scalar>& path,
+template <typename When, typename Scalar, typename AnyPath, typename Visitor>
+HWY_INLINE void walk_frame(const GridFrame& frame, float enters, const Query<Scalar>& query, const AnyPath& path,
                            const PathRange<Scalar>& range, const ClippedPath& clipped, When& when, Visitor& visitor) {
   GridTraversal traversal(query.grid, frame, clipped, enters);
-  if constexpr (Visitor::wants_order) {
+  if constexpr (Visitor::shortens) {
     if (&frame != &query.grid.frame()) traversal.shorten(visitor.limit());
   }
   for (; !traversal.at_end(); traversal.advance()) {
@@ -239,7 +259,7 @@ HWY_INLINE void walk_frame(const GridFrame& frame, float enters, const Query<Sca
     if (query.mesh.has_slabs() && !traversal.meets(query.mesh.slab(traversal.word()))) continue;
     const KernelInput<Scalar>& input = when.get(path, range, frame);
     const bool shorter = visit_cell(query, range, path, input, traversal.word(), visitor);
-    if constexpr (Visitor::wants_order) {
+    if constexpr (Visitor::shortens) {
       if (shorter) traversal.shorten(visitor.limit());
     } else if (visitor.is_done()) {
       return;
@@ -249,11 +269,11 @@ HWY_INLINE void walk_frame(const GridFrame& frame, float enters, const Query<Sca
 
 /// Walks the path through the inner grid of a cell, until the visitor is done. A path that is too far away to be
 /// clipped meets all lists of the inner grid.
-template <typename Scalar, typename Visitor>
-HWY_NOINLINE void walk_inner(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
+template <typename Scalar, typename AnyPath, typename Visitor>
+HWY_NOINLINE void walk_inner(const Query<Scalar>& query, const AnyPath& path, const PathRange<Scalar>& range,
                              const KernelInput<Scalar>& input, CellWord word, Visitor& visitor) {
   const GridFrame& frame = query.grid.inner_frame(word);
-  const ClippedPath clipped(frame, path, range.first, range.last);
+  const ClippedPath clipped = clipped_to(frame, path, range);
   if (clipped.status == ClippedPath::Status::miss) return;
   if (clipped.status == ClippedPath::Status::too_far) {
     const std::size_t tops = std::size_t{frame.cells[0]} * frame.cells[1] * frame.cells[2];

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+
+#include "scene/placement.hpp"
+#include "surehit/box.hpp"
+
+namespace surehit::detail {
+
+/// A vector of doubles.
+using Doubles = std::array<double, 3>;
+
+/// The mesh's frame of an instance, as paths need it. It holds numbers of double with error bounds. POSES.md derives
+/// them, and the code cites its lemmas.
+struct InstanceFrame {
+  std::array<Doubles, 3> inverse = {};  ///< The rows of the inverse of the pose's matrix.
+  double inverse_error = 0;             ///< No entry of `inverse` is off by more than this share of itself.
+  Doubles anchor = {};                  ///< The middle of the mesh's box.
+  Doubles half_size = {};               ///< Half of the mesh's box, rounded up.
+  Doubles placed_anchor = {};           ///< Where the anchor is at t = 0.
+  Doubles placed_anchor_rest = {};      ///< What `placed_anchor` leaves out.
+  Doubles placed_anchor_error = {};     ///< The sum of both is off by at most this.
+  double radius = 0;                    ///< No point of the instance is farther than this from the placed anchor.
+  Doubles low = {};                     ///< The low corner of a box around the instance and its way.
+  Doubles high = {};                    ///< The high corner.
+  bool is_usable = false;               ///< If false, each triangle of the instance must be decided exactly.
+  bool is_mirrored = false;             ///< True if the determinant of the pose's matrix is negative.
+
+  /// Computes all of it. The mesh's box must not be empty, and the pose must be valid.
+  template <typename Scalar>
+  static InstanceFrame of(const Placement<Scalar>& placement, const Box<double>& mesh_box);
+};
+
+/// Returns true if the exact determinant of the matrix is 0. Each entry must be 0, or between 2^-64 and 2^64 in size.
+template <typename Scalar>
+[[nodiscard]] bool is_singular(const typename Pose<Scalar>::Matrix3& matrix);
+
+}  // namespace surehit::detail

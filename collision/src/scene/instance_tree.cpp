@@ -1,0 +1,254 @@
+#include "scene/instance_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/rounding_flags.hpp"
+
+namespace surehit::detail {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr InstanceBox no_box = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+
+void extend(InstanceBox& box, const InstanceBox& by) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(box.low[axis], by.low[axis]);
+    box.high[axis] = std::max(box.high[axis], by.high[axis]);
+  }
+}
+
+/// Returns half of the surface of a box. It is NaN or infinite for boxes without bounds.
+double surface(const InstanceBox& box) {
+  const double x = box.high[0] - box.low[0];
+  const double y = box.high[1] - box.low[1];
+  const double z = box.high[2] - box.low[2];
+  return x < 0 ? 0 : x * y + y * z + z * x;
+}
+
+double middle(const InstanceBox& box, std::size_t axis) {
+  const double sum = box.low[axis] + box.high[axis];
+  return std::isfinite(sum) ? sum / 2 : 0;  // A box without bounds may be anywhere.
+}
+
+/// Some instances of the tree, and their box.
+struct Group {
+  std::uint32_t first;
+  std::uint32_t last;
+  InstanceBox box;
+};
+
+/// Splits groups of instances.
+class Splitter {
+ public:
+  Splitter(std::vector<std::uint32_t>& order, std::span<const InstanceBox> boxes) : order_(order), boxes_(boxes) {}
+
+  [[nodiscard]] Group group(std::uint32_t first, std::uint32_t last) const {
+    Group group = {first, last, no_box};
+    for (std::uint32_t i = first; i < last; ++i) extend(group.box, boxes_[order_[i]]);
+    return group;
+  }
+
+  /// Splits a group of at least two instances, where the surfaces of both parts, each times its instances, are least.
+  /// If `evenly`, or if nothing parts them, each part has half of the instances.
+  [[nodiscard]] std::array<Group, 2> split(const Group& group, bool evenly) {
+    Doubles low = {infinity, infinity, infinity};
+    Doubles high = {-infinity, -infinity, -infinity};
+    for (std::uint32_t i = group.first; i < group.last; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double at = middle(boxes_[order_[i]], axis);
+        low[axis] = std::min(low[axis], at);
+        high[axis] = std::max(high[axis], at);
+      }
+    }
+    std::size_t axis = 0;
+    for (std::size_t other = 1; other < 3; ++other) {
+      if (high[other] - low[other] > high[axis] - low[axis]) axis = other;
+    }
+    std::uint32_t middle_at = group.first;
+    const double size = high[axis] - low[axis];
+    if (!evenly && size > 0 && std::isfinite(size)) middle_at = part_by_bins(group, axis, low[axis], size);
+    if (middle_at == group.first || middle_at == group.last) {
+      middle_at = group.first + (group.last - group.first) / 2;
+      std::nth_element(
+          order_.begin() + group.first, order_.begin() + middle_at, order_.begin() + group.last,
+          [&](std::uint32_t x, std::uint32_t y) { return middle(boxes_[x], axis) < middle(boxes_[y], axis); });
+    }
+    return {this->group(group.first, middle_at), this->group(middle_at, group.last)};
+  }
+
+ private:
+  static constexpr std::size_t bins = 16;
+
+  /// Brings the instances of the better part to the front, and returns where the other part begins.
+  std::uint32_t part_by_bins(const Group& group, std::size_t axis, double low, double size) {
+    struct Bin {
+      InstanceBox box = no_box;
+      std::uint32_t count = 0;
+    };
+    std::array<Bin, bins> bin;
+    const auto bin_of = [&](std::uint32_t slot) {
+      const double share = (middle(boxes_[slot], axis) - low) / size;
+      return std::min(static_cast<std::size_t>(share * bins), bins - 1);
+    };
+    for (std::uint32_t i = group.first; i < group.last; ++i) {
+      Bin& of = bin[bin_of(order_[i])];
+      extend(of.box, boxes_[order_[i]]);
+      ++of.count;
+    }
+    std::array<double, bins> after = {};  // The cost of the bins from one on.
+    Bin sum;
+    for (std::size_t i = bins - 1; i > 0; --i) {
+      extend(sum.box, bin[i].box);
+      sum.count += bin[i].count;
+      after[i] = surface(sum.box) * sum.count;
+    }
+    sum = Bin();
+    double best = infinity;
+    std::size_t best_bin = 0;
+    for (std::size_t i = 1; i < bins; ++i) {
+      extend(sum.box, bin[i - 1].box);
+      sum.count += bin[i - 1].count;
+      const double cost = surface(sum.box) * sum.count + after[i];
+      if (cost < best) {
+        best = cost;
+        best_bin = i;
+      }
+    }
+    if (best_bin == 0) return group.first;
+    const auto other = std::partition(order_.begin() + group.first, order_.begin() + group.last,
+                                      [&](std::uint32_t slot) { return bin_of(slot) < best_bin; });
+    return static_cast<std::uint32_t>(other - order_.begin());
+  }
+
+  std::vector<std::uint32_t>& order_;
+  std::span<const InstanceBox> boxes_;
+};
+
+float round_down(double x) {
+  const auto nearest = static_cast<float>(x);
+  return double{nearest} <= x ? nearest : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+void InstanceTree::set_frame(std::span<const InstanceBox> boxes) noexcept {
+  // The boxes without bounds do not count.
+  InstanceBox all = no_box;
+  box_ = no_box;
+  for (const Node& node : nodes_) {
+    for (const std::uint32_t child : node.child) {
+      if (child == no_child || (child & instance_bit) == 0) continue;
+      const InstanceBox& box = boxes[child & ~instance_bit];
+      extend(box_, box);
+      bool is_bounded = true;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        is_bounded &= std::fabs(box.low[axis]) <= 0x1p1000 && std::fabs(box.high[axis]) <= 0x1p1000;
+      }
+      if (is_bounded) extend(all, box);
+    }
+  }
+  double size = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    origin_[axis] = all.low[axis] <= all.high[axis] ? all.low[axis] : 0;
+    if (all.low[axis] <= all.high[axis]) size = std::max(size, all.high[axis] - all.low[axis]);
+  }
+  scale_ = size > 0x1p-1000 ? std::ldexp(1.0, -std::ilogb(size) - 1) : 1;
+}
+
+void InstanceTree::refit(std::span<const InstanceBox> boxes) noexcept {
+  set_frame(boxes);
+  cost_ = 0;
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    Node& node = nodes_[i];
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      const std::uint32_t child = node.child[lane];
+      if (child == no_child) continue;
+      double cost = 0;
+      std::array<double, 3> sides;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        float& low = node.low[axis][lane];
+        float& high = node.high[axis][lane];
+        if ((child & instance_bit) != 0) {
+          const InstanceBox& box = boxes[child & ~instance_bit];
+          // Two roundings, of the difference and of this margin.
+          const auto margin = [&](double x) { return (std::fabs(x) + std::fabs(origin_[axis])) * scale_ * 0x1p-51; };
+          low = round_down((box.low[axis] - origin_[axis]) * scale_ - margin(box.low[axis]));
+          high = -round_down(-((box.high[axis] - origin_[axis]) * scale_ + margin(box.high[axis])));
+          if (std::isnan(low)) low = -std::numeric_limits<float>::infinity();
+          if (std::isnan(high)) high = std::numeric_limits<float>::infinity();
+        } else {
+          const Node& below = nodes_[child];
+          low = *std::min_element(below.low[axis].begin(), below.low[axis].end());
+          high = *std::max_element(below.high[axis].begin(), below.high[axis].end());
+        }
+        sides[axis] = double{high} - double{low};
+      }
+      cost = sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
+      if (std::isfinite(cost)) cost_ += cost;
+    }
+  }
+}
+
+void InstanceTree::build(std::span<const std::uint32_t> slots, std::span<const InstanceBox> boxes) {
+  nodes_.clear();
+  if (slots.empty()) return;
+  std::vector<std::uint32_t> order(slots.begin(), slots.end());
+  Splitter splitter(order, boxes);
+  struct Task {
+    Group group;
+    std::uint32_t node;
+    std::uint32_t depth;
+  };
+  std::vector<Task> tasks;
+  constexpr float far = std::numeric_limits<float>::infinity();
+  Node empty;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    empty.low[axis].fill(far);
+    empty.high[axis].fill(-far);
+  }
+  empty.child.fill(no_child);
+  nodes_.push_back(empty);
+  tasks.push_back({splitter.group(0, static_cast<std::uint32_t>(order.size())), 0, 0});
+  while (!tasks.empty()) {
+    const Task task = tasks.back();
+    tasks.pop_back();
+    std::array<Group, width> groups = {task.group};
+    std::size_t count = 1;
+    while (count < width) {
+      // The group with the largest surface is split next.
+      std::size_t largest = width;
+      double largest_cost = -1;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (groups[i].last - groups[i].first < 2) continue;
+        double cost = surface(groups[i].box);
+        if (!std::isfinite(cost)) cost = std::numeric_limits<double>::max();
+        if (cost > largest_cost) {
+          largest_cost = cost;
+          largest = i;
+        }
+      }
+      if (largest == width) break;
+      const auto [left, right] = splitter.split(groups[largest], task.depth >= max_depth / 2);
+      groups[largest] = left;
+      groups[count++] = right;
+    }
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const Group& group = groups[lane];
+      if (group.last - group.first == 1) {
+        nodes_[task.node].child[lane] = order[group.first] | instance_bit;
+        continue;
+      }
+      const auto child = static_cast<std::uint32_t>(nodes_.size());
+      nodes_[task.node].child[lane] = child;
+      nodes_.push_back(empty);
+      tasks.push_back({group, child, task.depth + 1});
+    }
+  }
+  refit(boxes);
+  built_cost_ = cost_;
+}
+
+}  // namespace surehit::detail

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene/instance_frame.hpp"
+
+namespace surehit::detail {
+
+/// A box of doubles.
+struct InstanceBox {
+  Doubles low;   ///< The low corner.
+  Doubles high;  ///< The high corner.
+};
+
+/// A tree of boxes around the instances of a scene. Each node has up to eight children. Coordinates are floats in a
+/// frame of the tree: (x - origin) scale. Boxes are rounded outward.
+class InstanceTree {
+ public:
+  static constexpr std::size_t width = 8;  ///< The maximum number of children of a node.
+  /// The maximum number of nodes on a way down. Beyond it, instances are split in halves by number.
+  static constexpr std::size_t max_depth = 48;
+
+  /// A child is a node, or an instance if this bit is set.
+  static constexpr std::uint32_t instance_bit = std::uint32_t{1} << 31;
+  /// A child that is not there. Its box is empty.
+  static constexpr std::uint32_t no_child = ~std::uint32_t{0};
+
+  struct alignas(32) Node {
+    std::array<std::array<float, width>, 3> low;   ///< The low corners of the children's boxes, by axis.
+    std::array<std::array<float, width>, 3> high;  ///< The high corners.
+    std::array<std::uint32_t, width> child;        ///< The children.
+  };
+
+  /// Sorts these instances into a tree. `boxes` has the box of each slot. The executor is not needed. May throw
+  /// std::bad_alloc.
+  void build(std::span<const std::uint32_t> slots, std::span<const InstanceBox> boxes);
+  /// Fits the boxes of the tree to new boxes of the same slots.
+  void refit(std::span<const InstanceBox> boxes) noexcept;
+
+  [[nodiscard]] bool is_empty() const { return nodes_.empty(); }
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  [[nodiscard]] const Doubles& origin() const { return origin_; }
+  [[nodiscard]] double scale() const { return scale_; }
+  /// Returns the box of all instances, in the scene's unit of length.
+  [[nodiscard]] const InstanceBox& box() const { return box_; }
+  /// Returns true if the boxes have grown so much that a new tree would be faster.
+  [[nodiscard]] bool is_worn() const { return cost_ > 1.5 * built_cost_; }
+  [[nodiscard]] std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node); }
+
+ private:
+  /// Sets the frame from the box of all instances.
+  void set_frame(std::span<const InstanceBox> boxes) noexcept;
+
+  std::vector<Node> nodes_;  ///< Each node comes before its children.
+  Doubles origin_ = {};
+  double scale_ = 1;
+  InstanceBox box_ = {};
+  double cost_ = 0;        ///< The sum of the surfaces of all boxes, over that of the first one.
+  double built_cost_ = 0;  ///< The same when the tree was built.
+};
+
+}  // namespace surehit::detail
