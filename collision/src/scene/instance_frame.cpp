@@ -136,6 +136,7 @@ InstanceFrame InstanceFrame::of(const Placement<Scalar>& placement, const Box<do
     frame.anchor[row] = mesh_box.low[i] / 2 + mesh_box.high[i] / 2;
     const double half = std::max(mesh_box.high[i] - frame.anchor[row], frame.anchor[row] - mesh_box.low[i]);
     frame.half_size[row] = half * (1 + 0x1p-50) + std::numeric_limits<double>::denorm_min();
+    frame.largest_half_size = std::max(frame.largest_half_size, frame.half_size[row]);
   }
   // I2
   for (std::size_t row = 0; row < 3; ++row) {

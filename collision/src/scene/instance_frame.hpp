@@ -17,6 +17,7 @@ struct InstanceFrame {
   double inverse_error = 0;             ///< No entry of `inverse` is off by more than this share of itself.
   Doubles anchor = {};                  ///< The middle of the mesh's box.
   Doubles half_size = {};               ///< Half of the mesh's box, rounded up.
+  double largest_half_size = 0;         ///< The largest component of `half_size`.
   Doubles placed_anchor = {};           ///< Where the anchor is at t = 0.
   Doubles placed_anchor_rest = {};      ///< What `placed_anchor` leaves out.
   Doubles placed_anchor_error = {};     ///< The sum of both is off by at most this.

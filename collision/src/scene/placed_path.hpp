@@ -66,83 +66,140 @@ class PlacedPath {
   [[nodiscard]] KernelPath<MeshScalar> kernel_path() const;
 
  private:
+  /// The path before it is brought into the frame of the mesh.
+  struct World {
+    Doubles way;          ///< D, less the motion.
+    Doubles way_rest;     ///< What `way` leaves out.
+    Doubles way_error;    ///< The sum of both is off by at most this.
+    Doubles middle;       ///< The point at `moved_t`, less the placed anchor.
+    Doubles error;        ///< It is off by at most this, besides its rounding.
+    double length = 0;    ///< The square of the length of `way`.
+    double distance = 0;  ///< The distance from the start to the placed anchor. Its parts on the axes are added.
+  };
+
   [[gnu::always_inline]] Status place(const InstanceFrame& frame) {
-    constexpr double eps = 0x1p-53;
     if (!frame.is_usable) return Status::rough;
-    const bool moves = placement.moves && scene_path.path.has_end();
-    Doubles from;       // The start, less the placed anchor.
-    Doubles way;        // D, less the motion.
-    Doubles way_rest;   // What `way` leaves out.
-    Doubles way_error;  // The sum of both is off by at most this.
-    double along = 0;
+    World world;
+    const double along = set_way(frame, world);
+    // I5
+    moved.moved_t = clamped(world.length > 0 ? along / world.length : 0);
+    if (!(std::fabs(moved.moved_t) <= 0x1p500 && world.length <= 0x1p1000 && world.distance <= 0x1p500)) {
+      return Status::rough;
+    }
+    const double square = set_middle(frame, world);
+    const double margin = frame.radius * (1 + 0x1p-20) + world.distance * 0x1p-44;
+    if (square > margin * margin) return Status::beside;
+    set_moved(frame, world);
+    if (reach > 16 * frame.largest_half_size) [[unlikely]]
+      return move_again(frame, world);
+    return reach <= 0x1p400 && direction_error <= 0x1p400 ? Status::near : Status::rough;
+  }
+
+  /// Moves the start to where the path is nearest to the anchor in the frame of the mesh. A pose that is nearly
+  /// singular can bring a near point far away.
+  [[gnu::noinline]] Status move_again(const InstanceFrame& frame, World& world) {
+    double back = 0;
     double length = 0;
-    double distance = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      from[axis] = scene_path.start[axis] - frame.placed_anchor[axis];
+      const double way = moved.direction[axis];
+      back += (moved.start[axis] - frame.anchor[axis]) * way;
+      length += way * way;
+    }
+    const double t = clamped(moved.moved_t - (length > 0 ? back / length : 0));
+    if (!(std::fabs(t) <= 0x1p500 && length <= 0x1p1000)) return Status::rough;
+    // I6
+    const double margin =
+        2 * start_error + reach * (0x1p-36 + (length > 0 ? 8 * direction_error / std::sqrt(length) : 0));
+    moved.moved_t = t;
+    set_middle(frame, world);
+    set_moved(frame, world);
+    double square = 0;
+    double radius = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double offset = moved.start[axis] - frame.anchor[axis];
+      square += offset * offset;
+      radius += frame.half_size[axis] * frame.half_size[axis];
+    }
+    const double limit = std::sqrt(radius) * (1 + 0x1p-20) + margin + 2 * start_error;
+    if (square > limit * limit) return Status::beside;
+    return reach <= 0x1p400 && direction_error <= 0x1p400 ? Status::near : Status::rough;
+  }
+
+  [[nodiscard]] double clamped(double t) const {
+    return std::min(std::max(t, double{scene_path.range.first}), double{scene_path.range.last});
+  }
+
+  /// Sets the direction and the two distances. Returns the product of the direction and the way to the anchor.
+  [[gnu::always_inline]] double set_way(const InstanceFrame& frame, World& world) const {
+    const bool moves = placement.moves && scene_path.path.has_end();
+    double along = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double from = scene_path.start[axis] - frame.placed_anchor[axis];
       auto [high, low] = scene_path.direction[axis];
-      way_error[axis] = 0;
+      world.way_error[axis] = 0;
       if (moves) {  // I4
         const double motion = placement.motion[static_cast<Eigen::Index>(axis)];
         const double product = motion * scene_path.share;
         const DoublePair sum = exact_difference(high, product);
         low += sum[1] - std::fma(motion, scene_path.share, -product);
-        way_error[axis] = (std::fabs(high) + std::fabs(product)) * 0x1p-100 + 0x1p-1000;
+        world.way_error[axis] = (std::fabs(high) + std::fabs(product)) * 0x1p-100 + 0x1p-1000;
         high = sum[0] + low;
         low = (sum[0] - high) + low;
       }
-      way[axis] = high;
-      way_rest[axis] = low;
-      along -= from[axis] * high;
-      length += high * high;
-      distance += std::fabs(from[axis]);
+      world.way[axis] = high;
+      world.way_rest[axis] = low;
+      along -= from * high;
+      world.length += high * high;
+      world.distance += std::fabs(from);
     }
-    // I5
-    double t = length > 0 ? along / length : 0;
-    t = std::min(std::max(t, double{scene_path.range.first}), double{scene_path.range.last});
-    if (!(std::fabs(t) <= 0x1p500 && length <= 0x1p1000 && distance <= 0x1p500)) return Status::rough;
-    Doubles center;        // The point of the path at t, less the placed anchor.
-    Doubles center_error;  // It is off by at most this, besides its rounding.
+    return along;
+  }
+
+  /// Sets the point at `moved_t` (I6). Returns the square of its distance to the anchor.
+  [[gnu::always_inline]] double set_middle(const InstanceFrame& frame, World& world) const {
+    const double t = moved.moved_t;
     double square = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {  // I6
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto [high, low] = exact_difference(scene_path.start[axis], frame.placed_anchor[axis]);
-      const double step = t * way[axis];
+      const double step = t * world.way[axis];
       const DoublePair sum = exact_difference(high, -step);
-      const double rest = sum[1] + low + std::fma(t, way[axis], -step) + t * way_rest[axis];
-      center[axis] = sum[0] + (rest - frame.placed_anchor_rest[axis]);
-      center_error[axis] = (std::fabs(high) + std::fabs(step)) * 0x1p-98 + std::fabs(t) * way_error[axis] +
-                           frame.placed_anchor_error[axis] + 0x1p-990;
-      square += center[axis] * center[axis];
+      const double rest = sum[1] + low + std::fma(t, world.way[axis], -step) + t * world.way_rest[axis];
+      world.middle[axis] = sum[0] + (rest - frame.placed_anchor_rest[axis]);
+      world.error[axis] = (std::fabs(high) + std::fabs(step)) * 0x1p-98 + std::fabs(t) * world.way_error[axis] +
+                          frame.placed_anchor_error[axis] + 0x1p-990;
+      square += world.middle[axis] * world.middle[axis];
     }
-    const double margin = frame.radius * (1 + 0x1p-20) + distance * 0x1p-44;
-    if (square > margin * margin) return Status::beside;
-    // I7
+    return square;
+  }
+
+  /// Brings the path into the frame of the mesh, and bounds the errors (I7).
+  [[gnu::always_inline]] void set_moved(const InstanceFrame& frame, const World& world) {
+    constexpr double eps = 0x1p-53;
     const double share = frame.inverse_error + 8 * eps;
-    moved.moved_t = t;
     Doubles offset;
-    double largest_start = 0;
     Doubles errors;
     Doubles direction_errors;
     std::size_t fastest = 0;
+    start_error = direction_error = reach = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Doubles& row = frame.inverse[axis];
-      double size = 0, rest = 0, way_size = 0, way_errors = 0;
-      offset[axis] = row[0] * center[0] + row[1] * center[1] + row[2] * center[2];
-      moved.direction[axis] = row[0] * way[0] + row[1] * way[1] + row[2] * way[2];
+      double size = 0, rest = 0, way_size = 0, way_rest = 0;
+      offset[axis] = row[0] * world.middle[0] + row[1] * world.middle[1] + row[2] * world.middle[2];
+      moved.direction[axis] = row[0] * world.way[0] + row[1] * world.way[1] + row[2] * world.way[2];
       for (std::size_t column = 0; column < 3; ++column) {
         const double entry = std::fabs(row[column]);
-        size += entry * std::fabs(center[column]);
-        rest += entry * center_error[column];
-        way_size += entry * std::fabs(way[column]);
-        way_errors += entry * way_error[column];
+        size += entry * std::fabs(world.middle[column]);
+        rest += entry * world.error[column];
+        way_size += entry * std::fabs(world.way[column]);
+        way_rest += entry * world.way_error[column];
       }
       moved.start[axis] = frame.anchor[axis] + offset[axis];
       errors[axis] =
           share * size + 2 * rest + eps * (std::fabs(moved.start[axis]) + std::fabs(offset[axis])) + 0x1p-900;
-      direction_errors[axis] = share * way_size + 2 * way_errors + 0x1p-900;
+      direction_errors[axis] = share * way_size + 2 * way_rest + 0x1p-900;
       start_error = std::max(start_error, errors[axis]);
       direction_error = std::max(direction_error, direction_errors[axis]);
       reach = std::max(reach, (std::fabs(offset[axis]) + frame.half_size[axis]) * (1 + 0x1p-40));
-      largest_start = std::max(largest_start, std::fabs(moved.start[axis]));
       if (std::fabs(moved.direction[axis]) > std::fabs(moved.direction[fastest])) fastest = axis;
     }
     reach += start_error;
@@ -150,12 +207,11 @@ class PlacedPath {
     // Inside the box, t is at most this far from `moved_t`. A path that hardly moves is decided exactly.
     const double time = speed > 0
                             ? (std::fabs(offset[fastest]) + errors[fastest] + 2 * frame.half_size[fastest]) / speed
-                        : length > 0 ? std::numeric_limits<double>::infinity()
-                                     : 0;
+                        : world.length > 0 ? std::numeric_limits<double>::infinity()
+                                           : 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       moved.position_error[axis] = errors[axis] + (time > 0 ? time * direction_errors[axis] : 0);
     }
-    return reach <= 0x1p400 && direction_error <= 0x1p400 ? Status::near : Status::rough;
   }
 };
 
