@@ -132,6 +132,8 @@ InstanceFrame InstanceFrame::of(const Placement<Scalar>& placement, const Box<do
   }
   double farthest = 0;
   for (std::size_t row = 0; row < 3; ++row) {
+    const Doubles& entries = frame.inverse[row];
+    frame.row_size[row] = (std::fabs(entries[0]) + std::fabs(entries[1]) + std::fabs(entries[2])) * (1 + 0x1p-50);
     const auto i = static_cast<Eigen::Index>(row);
     frame.anchor[row] = mesh_box.low[i] / 2 + mesh_box.high[i] / 2;
     const double half = std::max(mesh_box.high[i] - frame.anchor[row], frame.anchor[row] - mesh_box.low[i]);
@@ -152,8 +154,10 @@ InstanceFrame InstanceFrame::of(const Placement<Scalar>& placement, const Box<do
       size += std::fabs(product);
       reach += std::fabs(m[row][column]) * frame.half_size[column];
     }
-    frame.placed_anchor[row] = sum[0] + sum[1];
-    frame.placed_anchor_rest[row] = (sum[0] - frame.placed_anchor[row]) + sum[1];
+    sum = exact_difference(sum[0], -sum[1]);
+    frame.placed_anchor[row] = sum[0];
+    frame.placed_anchor_rest[row] = sum[1];
+    frame.anchor_slack += std::fabs(sum[0]) * 0x1p-50 + std::numeric_limits<double>::min();
     frame.placed_anchor_error[row] = size * 0x1p-100 + 0x1p-1000;
     // I3
     reach = (reach + frame.placed_anchor_error[row]) * (1 + 0x1p-48) + std::numeric_limits<double>::min();

@@ -14,6 +14,7 @@ using Doubles = std::array<double, 3>;
 /// them, and the code cites its lemmas.
 struct InstanceFrame {
   std::array<Doubles, 3> inverse = {};  ///< The rows of the inverse of the pose's matrix.
+  Doubles row_size = {};                ///< The sum of the sizes of each row of `inverse`, rounded up.
   double inverse_error = 0;             ///< No entry of `inverse` is off by more than this share of itself.
   Doubles anchor = {};                  ///< The middle of the mesh's box.
   Doubles half_size = {};               ///< Half of the mesh's box, rounded up.
@@ -21,6 +22,7 @@ struct InstanceFrame {
   Doubles placed_anchor = {};           ///< Where the anchor is at t = 0.
   Doubles placed_anchor_rest = {};      ///< What `placed_anchor` leaves out.
   Doubles placed_anchor_error = {};     ///< The sum of both is off by at most this.
+  double anchor_slack = 0;              ///< More than the sum of all components of `placed_anchor_rest`.
   double radius = 0;                    ///< No point of the instance is farther than this from the placed anchor.
   Doubles low = {};                     ///< The low corner of a box around the instance and its way.
   Doubles high = {};                    ///< The high corner.

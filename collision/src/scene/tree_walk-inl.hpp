@@ -55,7 +55,6 @@ struct TreePath {
 
 template <typename Scalar>
 inline TreePath::TreePath(const InstanceTree& tree, const ScenePath<Scalar>& path) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   double along = 0;
   double length = 0;
   Doubles from;
@@ -81,14 +80,14 @@ inline TreePath::TreePath(const InstanceTree& tree, const ScenePath<Scalar>& pat
                                 std::fabs(step) + std::fabs(start[axis]));
   }
   moved_t = t;
-  int exponent = largest > 0 && largest < infinity ? -std::ilogb(largest) : 0;
-  inverse_unit = std::ldexp(1.0, -exponent);
+  const double power = inverse_power(largest);
+  inverse_unit = 1 / power;
   double size = 0;
   for (const double x : start) size = std::max(size, std::fabs(x));
   const double slack = error * 0x1p-49 + (size + 2) * 0x1p-19;
   const bool is_known = slack < 0x1p60 && largest <= 0x1p900 && (largest == 0 || largest >= 0x1p-900);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto rate = static_cast<float>(std::ldexp(way[axis], exponent));
+    const auto rate = static_cast<float>(way[axis] * power);
     falls[axis] = rate < 0;
     const bool is_still = std::fabs(rate) < 0x1p-60F;
     inverse[axis] = is_still ? 0x1p90F : 1 / rate;
