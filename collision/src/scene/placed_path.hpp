@@ -118,9 +118,10 @@ class PlacedPath {
     }
     const double t = clamped(moved.moved_t - (length > 0 ? back / length : 0));
     if (!(std::fabs(t) <= 0x1p500 && length <= 0x1p1000)) return Status::rough;
-    // I6
-    const double margin =
-        2 * start_error + reach * (0x1p-36 + (length > 0 ? 8 * direction_error / std::sqrt(length) : 0));
+    // I5
+    const double speed = std::sqrt(length);
+    const double margin = 2 * start_error + speed * std::fabs(t) * 0x1p-50 +
+                          reach * (0x1p-36 + (length > 0 ? 8 * direction_error / speed : 0));
     moved.moved_t = t;
     set_middle(frame, world);
     set_moved(frame, world);

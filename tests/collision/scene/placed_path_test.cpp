@@ -1,0 +1,291 @@
+#include "scene/placed_path.hpp"
+
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "support/case_count.hpp"
+#include "support/random.hpp"
+#include "support/scalars.hpp"
+#include "support/scene_drawer.hpp"
+
+namespace surehit::test {
+namespace {
+
+using detail::InstanceFrame;
+using detail::PathRange;
+using ExactVector = std::array<mpq_class, 3>;
+using ExactMatrix = std::array<ExactVector, 3>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <typename Vector>
+ExactVector exact(const Vector& x) {
+  return {mpq_class(double{x[0]}), mpq_class(double{x[1]}), mpq_class(double{x[2]})};
+}
+
+ExactVector operator+(const ExactVector& x, const ExactVector& y) { return {x[0] + y[0], x[1] + y[1], x[2] + y[2]}; }
+ExactVector operator-(const ExactVector& x, const ExactVector& y) { return {x[0] - y[0], x[1] - y[1], x[2] - y[2]}; }
+ExactVector operator*(const mpq_class& t, const ExactVector& x) { return {t * x[0], t * x[1], t * x[2]}; }
+ExactVector operator*(const ExactMatrix& m, const ExactVector& x) {
+  ExactVector y;
+  for (std::size_t i = 0; i < 3; ++i) y[i] = m[i][0] * x[0] + m[i][1] * x[1] + m[i][2] * x[2];
+  return y;
+}
+
+ExactMatrix inverse(const ExactMatrix& m) {
+  ExactMatrix n;
+  mpq_class det;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ExactVector& x = m[(i + 1) % 3];
+    const ExactVector& y = m[(i + 2) % 3];
+    for (std::size_t j = 0; j < 3; ++j) n[j][i] = x[(j + 1) % 3] * y[(j + 2) % 3] - x[(j + 2) % 3] * y[(j + 1) % 3];
+    if (i == 0) det = m[0][0] * n[0][0] + m[0][1] * n[1][0] + m[0][2] * n[2][0];
+  }
+  for (ExactVector& row : n) row = (1 / det) * row;
+  return n;
+}
+
+/// Returns the share of a bound that an error takes up.
+double share_of(const mpq_class& error, double bound) {
+  if (error == 0 || bound == infinity) return 0;
+  return bound > 0 ? mpq_class(abs(error) / mpq_class(bound)).get_d() : infinity;
+}
+
+double largest_share(const ExactVector& error, double bound) {
+  return std::max({share_of(error[0], bound), share_of(error[1], bound), share_of(error[2], bound)});
+}
+
+/// A path, an instance and the box of its mesh. All of their numbers are exact.
+template <typename Scalar>
+struct Case {
+  detail::Placement<Scalar> placement;
+  Box<double> box;
+  Path<Scalar> path;
+  PathRange<Scalar> range;
+  Scalar share = 1;
+
+  ExactMatrix matrix;
+  ExactMatrix inverse_matrix;
+  ExactVector direction;  ///< D in the frame of the scene.
+
+  void set_exact() {
+    for (Eigen::Index i = 0; i < 3; ++i) matrix[static_cast<std::size_t>(i)] = exact(placement.pose.linear.row(i));
+    inverse_matrix = inverse(matrix);
+    direction = path.has_end() ? exact(path.toward) - exact(path.start) : exact(path.toward);
+    if (path.has_end()) direction = direction - mpq_class(double{share}) * exact(placement.motion);
+  }
+  /// Returns the path at t in the frame of the mesh.
+  [[nodiscard]] ExactVector local_at(const mpq_class& t) const {
+    return inverse_matrix * (exact(path.start) + t * direction - exact(placement.pose.translation));
+  }
+  /// Returns the part of the range in which the path is in the box.
+  [[nodiscard]] std::optional<std::array<mpq_class, 2>> in_box() const {
+    std::optional<mpq_class> first;
+    std::optional<mpq_class> last;
+    if (range.first > -PathRange<Scalar>::infinity) first = double{range.first};
+    if (range.last < PathRange<Scalar>::infinity) last = double{range.last};
+    const ExactVector start = local_at(0);
+    const ExactVector way = inverse_matrix * direction;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const mpq_class low(box.low[static_cast<Eigen::Index>(axis)]);
+      const mpq_class high(box.high[static_cast<Eigen::Index>(axis)]);
+      if (way[axis] == 0) {
+        if (start[axis] < low || start[axis] > high) return std::nullopt;
+        continue;
+      }
+      mpq_class enters = (low - start[axis]) / way[axis];
+      mpq_class leaves = (high - start[axis]) / way[axis];
+      if (enters > leaves) std::swap(enters, leaves);
+      if (!first || *first < enters) first = enters;
+      if (!last || *last > leaves) last = leaves;
+    }
+    if (!first || !last || *first > *last) return std::nullopt;
+    return std::array{*first, *last};
+  }
+};
+
+/// Returns a number of [low, high).
+double real(Random& random, double low, double high) { return low + (high - low) * random.unit<double>(); }
+
+/// Draws an instance near the origin or far away, and a path that comes near it in half of all cases.
+template <typename Scalar>
+Case<Scalar> draw_case(Random& random) {
+  const auto number = [&](double size) { return static_cast<Scalar>(real(random, -size, size)); };
+  const auto vector = [&](double size) { return Vector3<Scalar>(number(size), number(size), number(size)); };
+  const double far = random.one_in(3) ? std::exp2(real(random, 0, std::is_same_v<Scalar, float> ? 20 : 40)) : 0;
+  SceneFamily family = all_scene_families[random.below(all_scene_families.size() - 1)];
+  Case<Scalar> drawn{{}, {}, Segment<Scalar>{}, PathRange<Scalar>(0, 1)};
+  drawn.placement.pose = draw_pose<Scalar>(family, random);
+  drawn.placement.pose.translation += vector(far);
+  if (random.one_in(2)) {
+    drawn.placement.motion = vector(random.one_in(2) ? 1 : 1 + far);
+    drawn.placement.moves = true;
+    if (random.one_in(3)) drawn.share = std::max(static_cast<Scalar>(std::exp2(-real(random, 0, 60))), Scalar(0x1p-64));
+  }
+  const double size = std::exp2(real(random, -10, 10));
+  const Vector3<Scalar> middle = vector(random.one_in(2) ? 0 : 100 * size);
+  const Vector3<Scalar> one = middle + vector(size);
+  const Vector3<Scalar> other = random.one_in(8) ? one : Vector3<Scalar>(middle + vector(size));
+  drawn.box.extend(one.template cast<double>());
+  drawn.box.extend(other.template cast<double>());
+  // The path leads through a point near the mesh.
+  const Vector3<double> inside = (drawn.box.low + drawn.box.high) / 2 + vector(size).template cast<double>();
+  const Vector3<double> target = drawn.placement.pose.linear.template cast<double>() * inside +
+                                 drawn.placement.pose.translation.template cast<double>();
+  const double reach = size * std::exp2(real(random, -5, 25));
+  const Vector3<double> way = vector(reach).template cast<double>();
+  const double before = real(random, -0.5, 1.5);
+  const Vector3<Scalar> start = (target - before * way).template cast<Scalar>();
+  const Vector3<Scalar> end = (target + (1 - before) * way).template cast<Scalar>();
+  const std::size_t kind = random.below(3);
+  if (kind == 0) drawn.path = Segment<Scalar>{start, random.one_in(20) ? start : end};
+  if (kind == 1) drawn.path = Ray<Scalar>{start, end - start};
+  if (kind == 2) drawn.path = Line<Scalar>{start, end - start};
+  drawn.range = PathRange<Scalar>(drawn.path, QueryOptions<Scalar>{});
+  if (random.one_in(4)) drawn.range.last = static_cast<Scalar>(real(random, 0, 1));
+  drawn.set_exact();
+  return drawn;
+}
+
+/// The largest shares that errors took up of their bounds.
+struct Shares {
+  double inverse = 0, anchor = 0, start = 0, direction = 0, position = 0, reach = 0;
+};
+
+template <typename Scalar>
+class PlacedPathOf : public testing::Test {};
+TYPED_TEST_SUITE(PlacedPathOf, Scalars);
+
+template <typename Scalar>
+void expect_frame(const Case<Scalar>& drawn, const InstanceFrame& frame, Shares& shares) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const mpq_class error = drawn.inverse_matrix[i][j] - mpq_class(frame.inverse[i][j]);
+      shares.inverse = std::max(shares.inverse, share_of(error, frame.inverse_error * std::fabs(frame.inverse[i][j])));
+    }
+    mpq_class anchor(double{drawn.placement.pose.translation[axis]});
+    for (std::size_t j = 0; j < 3; ++j) anchor += drawn.matrix[i][j] * mpq_class(frame.anchor[j]);
+    anchor -= mpq_class(frame.placed_anchor[i]) + mpq_class(frame.placed_anchor_rest[i]);
+    shares.anchor = std::max(shares.anchor, share_of(anchor, frame.placed_anchor_error[i]));
+  }
+  const ExactVector motion = exact(drawn.placement.motion);
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    ExactVector local;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      local[i] = (corner >> i & 1) != 0 ? drawn.box.high[axis] : drawn.box.low[axis];
+    }
+    const ExactVector placed = drawn.matrix * local + exact(drawn.placement.pose.translation);
+    mpq_class square;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (const mpq_class& at : {placed[i], mpq_class(placed[i] + motion[i])}) {
+        EXPECT_TRUE(frame.low[i] == -infinity || mpq_class(frame.low[i]) <= at);
+        EXPECT_TRUE(frame.high[i] == infinity || mpq_class(frame.high[i]) >= at);
+      }
+      const mpq_class off = placed[i] - mpq_class(frame.placed_anchor[i]) - mpq_class(frame.placed_anchor_rest[i]);
+      square += off * off;
+    }
+    if (frame.is_usable) EXPECT_TRUE(square <= mpq_class(frame.radius) * mpq_class(frame.radius));
+  }
+  EXPECT_EQ(frame.is_mirrored, exact_determinant(drawn.placement.pose) < 0);
+}
+
+template <typename Scalar>
+void expect_path(const Case<Scalar>& drawn, const detail::PlacedPath<Scalar>& placed, Shares& shares) {
+  const mpq_class moved_t(placed.moved.moved_t);
+  const ExactVector start = drawn.local_at(moved_t);
+  const ExactVector way = drawn.inverse_matrix * drawn.direction;
+  const ExactVector start_off = start - exact(placed.moved.start);
+  const ExactVector way_off = way - exact(placed.moved.direction);
+  shares.start = std::max(shares.start, largest_share(start_off, placed.start_error));
+  shares.direction = std::max(shares.direction, largest_share(way_off, placed.direction_error));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    for (const double corner : {drawn.box.low[axis], drawn.box.high[axis]}) {
+      shares.reach = std::max(shares.reach, share_of(start[i] - mpq_class(corner), placed.reach));
+    }
+  }
+  if (const auto inside = drawn.in_box()) {
+    for (const mpq_class& t : *inside) {
+      const ExactVector off = start_off + (t - moved_t) * way_off;
+      for (std::size_t i = 0; i < 3; ++i) {
+        shares.position = std::max(shares.position, share_of(off[i], placed.moved.position_error[i]));
+      }
+    }
+  }
+}
+
+/// The kernel's sizes must include the errors of its path (I8).
+template <typename MeshScalar, typename Scalar>
+void expect_kernel_path(const Case<Scalar>& drawn, const detail::PlacedPath<Scalar>& placed) {
+  const auto kernel = placed.template kernel_path<MeshScalar>();
+  if (std::isinf(kernel.d_size)) return;
+  const double eps = std::numeric_limits<MeshScalar>::epsilon() / 2;
+  const auto& d = placed.moved.direction;
+  const mpq_class scale(detail::inverse_power(std::max({std::fabs(d[0]), std::fabs(d[1]), std::fabs(d[2])})));
+  const ExactVector start = drawn.local_at(mpq_class(placed.moved.moved_t));
+  const ExactVector way = scale * (drawn.inverse_matrix * drawn.direction);
+  mpq_class start_off, way_off, s_size, d_size;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    start_off = std::max(start_off, mpq_class(abs(start[i] - mpq_class(double{kernel.start[i]}))));
+    way_off = std::max(way_off, mpq_class(abs(way[i] - mpq_class(double{kernel.d[i]}))));
+    d_size = std::max(d_size, mpq_class(std::fabs(double{kernel.d[i]})));
+    for (const double corner : {drawn.box.low[axis], drawn.box.high[axis]}) {
+      s_size = std::max(s_size, mpq_class(abs(mpq_class(double{kernel.start[i]}) - mpq_class(corner))));
+    }
+  }
+  EXPECT_TRUE(mpq_class(double{kernel.reach}) >= s_size + start_off / mpq_class(8 * eps));
+  EXPECT_TRUE(mpq_class(double{kernel.d_size}) >= d_size + way_off / mpq_class(8 * eps));
+}
+
+TYPED_TEST(PlacedPathOf, IsNeverFartherOffThanItsBounds) {
+  Random random(20261125);
+  Shares shares;
+  std::size_t near = 0;
+  std::size_t beside = 0;
+  const std::size_t cases = case_count(20000);
+  for (std::size_t i = 0; i < cases; ++i) {
+    const Case<TypeParam> drawn = draw_case<TypeParam>(random);
+    const InstanceFrame frame = InstanceFrame::of(drawn.placement, drawn.box);
+    expect_frame(drawn, frame, shares);
+    const detail::ScenePath<TypeParam> scene_path(drawn.path, drawn.range, drawn.share);
+    const detail::PlacedPath<TypeParam> placed(scene_path, drawn.placement, frame);
+    using Status = typename detail::PlacedPath<TypeParam>::Status;
+    if (placed.status == Status::beside) {
+      ++beside;
+      EXPECT_FALSE(drawn.in_box()) << "a path that comes to the mesh is called beside it";
+    }
+    if (placed.status != Status::near) continue;
+    ++near;
+    expect_path(drawn, placed, shares);
+    expect_kernel_path<TypeParam>(drawn, placed);
+    if constexpr (std::is_same_v<TypeParam, double>) expect_kernel_path<float>(drawn, placed);
+    if (testing::Test::HasFailure()) FAIL() << "case " << i;
+  }
+  for (const double share :
+       {shares.inverse, shares.anchor, shares.start, shares.direction, shares.position, shares.reach}) {
+    EXPECT_LE(share, 1);
+  }
+  // A bound that is far too large would hide a mistake in its derivation.
+  EXPECT_GT(shares.inverse, 0.05);
+  EXPECT_GT(shares.start, 0.01);
+  EXPECT_GT(shares.direction, 0.01);
+  EXPECT_GT(shares.reach, 0.9);
+  EXPECT_GT(near, cases / 4);
+  EXPECT_GT(beside, cases / 20);
+  testing::Test::RecordProperty(
+      "shares", testing::PrintToString(std::array{shares.inverse, shares.anchor, shares.start, shares.direction,
+                                                  shares.position, shares.reach}));
+}
+
+}  // namespace
+}  // namespace surehit::test
