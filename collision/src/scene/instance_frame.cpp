@@ -118,6 +118,7 @@ InstanceFrame InstanceFrame::of(const Placement<Scalar>& placement, const Box<do
   const double det_share = cofactors.det_error / std::fabs(cofactors.det);
   const bool is_accurate = det_share <= 0x1p-45;
   frame.is_usable = true;
+  frame.moves = placement.moves;
   frame.inverse_error = is_accurate ? 8 * eps + 2 * det_share : eps;
   if (is_accurate) {
     frame.is_mirrored = cofactors.det < 0;

@@ -78,6 +78,7 @@ class PlacedPath {
  private:
   /// The path before it is brought into the frame of the mesh.
   struct World {
+    Doubles from;         ///< The start, less the placed anchor, rounded.
     Doubles way;          ///< D, less the motion.
     Doubles way_rest;     ///< What `way` leaves out.
     Doubles way_error;    ///< The sum of both is off by at most this.
@@ -92,14 +93,18 @@ class PlacedPath {
     World world;
     const double along = set_way(frame, world);
     // I5
-    moved.moved_t = clamped(world.length > 0 ? along / world.length : 0);
-    if (!(std::fabs(moved.moved_t) <= 0x1p500 && world.length <= 0x1p1000 && world.distance <= 0x1p500)) {
-      return Status::rough;
+    const double t = clamped(world.length > 0 ? along / world.length : 0);
+    if (!(std::fabs(t) <= 0x1p500 && world.length <= 0x1p1000 && world.distance <= 0x1p500)) return Status::rough;
+    double square = 0;
+    double margin = frame.radius * (1 + 0x1p-20) + frame.anchor_slack + world.distance * 0x1p-44;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double off = world.from[axis] + t * world.way[axis];
+      square += off * off;
+      margin += std::fabs(t) * world.way_error[axis];
     }
-    const double square = set_middle(frame, world);
-    const double margin = frame.radius * (1 + 0x1p-20) + frame.anchor_slack + world.distance * 0x1p-44 +
-                          4 * (world.error[0] + world.error[1] + world.error[2]);
     if (square > margin * margin) return Status::beside;
+    moved.moved_t = t;
+    set_middle(frame, world);
     set_moved(frame, world);
     if (reach > 16 * frame.largest_half_size) [[unlikely]]
       return move_again(frame, world);
@@ -143,10 +148,10 @@ class PlacedPath {
 
   /// Sets the direction and the two distances. Returns the product of the direction and the way to the anchor.
   [[gnu::always_inline]] double set_way(const InstanceFrame& frame, World& world) const {
-    const bool moves = placement.moves && scene_path.path.has_end();
+    const bool moves = frame.moves && scene_path.path.has_end();
     double along = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double from = scene_path.start[axis] - frame.placed_anchor[axis];
+      world.from[axis] = scene_path.start[axis] - frame.placed_anchor[axis];
       auto [high, low] = scene_path.direction[axis];
       world.way_error[axis] = 0;
       if (moves) {  // I4
@@ -161,17 +166,16 @@ class PlacedPath {
       }
       world.way[axis] = high;
       world.way_rest[axis] = low;
-      along -= from * high;
+      along -= world.from[axis] * high;
       world.length += high * high;
-      world.distance += std::fabs(from);
+      world.distance += std::fabs(world.from[axis]);
     }
     return along;
   }
 
-  /// Sets the point at `moved_t` (I6). Returns the square of its distance to the anchor.
-  [[gnu::always_inline]] double set_middle(const InstanceFrame& frame, World& world) const {
+  /// Sets the point at `moved_t` (I6).
+  [[gnu::always_inline]] void set_middle(const InstanceFrame& frame, World& world) const {
     const double t = moved.moved_t;
-    double square = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto [high, low] = exact_difference(scene_path.start[axis], frame.placed_anchor[axis]);
       const double step = t * world.way[axis];
@@ -180,9 +184,7 @@ class PlacedPath {
       world.middle[axis] = sum[0] + (rest - frame.placed_anchor_rest[axis]);
       world.error[axis] = (std::fabs(high) + std::fabs(step)) * 0x1p-98 + std::fabs(t) * world.way_error[axis] +
                           frame.placed_anchor_error[axis] + 0x1p-990;
-      square += world.middle[axis] * world.middle[axis];
     }
-    return square;
   }
 
   /// Brings the path into the frame of the mesh, and bounds the errors (I7).

@@ -15,8 +15,8 @@ namespace surehit::detail {
 /// An instance of a committed scene, as its narrowphase needs it.
 template <typename Scalar>
 struct PlacedInstance {
-  Placement<Scalar> placement;  ///< Where it is.
   InstanceFrame frame;          ///< The frame of its mesh.
+  Placement<Scalar> placement;  ///< Where it is.
 };
 
 /// A triangle of an instance that a path meets.

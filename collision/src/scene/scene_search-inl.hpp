@@ -218,7 +218,8 @@ HWY_INLINE void search_scene(const SceneQuery<Scalar>& query, const ScenePath<Sc
                              const SceneNarrowphase<Scalar>& narrowphase, Keep& keep) {
   ++query.statistics.paths;
   if (path.range.is_empty() || query.tree.is_empty() || !is_finite(path.path)) return;
-  walk_tree(query.tree, path, keep, [&](std::uint32_t index) {
+  const auto prefetch = [&](std::uint32_t index) { hwy::Prefetch(&query.instances[index]); };
+  walk_tree(query.tree, path, keep, prefetch, [&](std::uint32_t index) {
     if (!query.takes_part(index)) return;
     const CommittedInstance<Scalar>& instance = query.instances[index];
     const PlacedPath<Scalar> placed(path, instance.placed.placement, instance.placed.frame);

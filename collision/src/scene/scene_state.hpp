@@ -23,13 +23,13 @@ struct InstanceMesh {
   std::uint64_t version = 0;                     ///< The version of the mesh. No two meshes have the same one.
 };
 
-/// An instance, as queries see it.
+/// An instance, as queries see it. What most paths need lies in the first cache line.
 template <typename Scalar>
-struct CommittedInstance {
-  PlacedInstance<Scalar> placed;  ///< Where it is.
-  InstanceMesh<Scalar> mesh;      ///< The mesh.
+struct alignas(64) CommittedInstance {
   std::uint32_t mask = 0;         ///< The mask. It is 0 if there is no instance at this index.
   std::uint32_t generation = 0;   ///< The generation of the id.
+  PlacedInstance<Scalar> placed;  ///< Where it is.
+  InstanceMesh<Scalar> mesh;      ///< The mesh.
   bool is_in_tree = false;        ///< True if there is an instance, and its mesh has triangles.
 };
 

@@ -7,6 +7,7 @@
 #define SUREHIT_TREE_WALK_INL
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -111,10 +112,11 @@ inline TreePath::TreePath(const InstanceTree& tree, const ScenePath<Scalar>& pat
 }
 
 /// Calls `visit(index)` for each instance whose box the path may meet, roughly in the order of the path, until `keep`
-/// is done. Instances that lie beyond `keep.limit()` are left out.
-template <typename Scalar, typename Keep, typename Visit>
+/// is done. Instances that lie beyond `keep.limit()` are left out. Calls `prefetch(index)` some time before.
+template <typename Scalar, typename Keep, typename Fetch, typename Visit>
 HWY_INLINE void walk_tree(const InstanceTree& tree, const ScenePath<Scalar>& scene_path, const Keep& keep,
-                          const Visit& visit) {
+                          const Fetch& prefetch, const Visit& visit) {
+  using Node = InstanceTree::Node;
   const hn::CappedTag<float, InstanceTree::width> d;
   const std::size_t lanes = hn::Lanes(d);
   const TreePath path(tree, scene_path);
@@ -136,7 +138,7 @@ HWY_INLINE void walk_tree(const InstanceTree& tree, const ScenePath<Scalar>& sce
       if constexpr (Keep::shortens) last = std::min(last, path.beyond(keep.limit()));
       continue;
     }
-    const InstanceTree::Node& node = tree.nodes()[next.child];
+    const Node& node = tree.nodes()[next.child];
     const std::size_t before = count;
     for (std::size_t from = 0; from < InstanceTree::width; from += lanes) {
       auto enters = hn::Set(d, path.first);
@@ -157,6 +159,15 @@ HWY_INLINE void walk_tree(const InstanceTree& tree, const ScenePath<Scalar>& sce
         const auto lane = static_cast<std::size_t>(std::countr_zero(met));
         const std::uint32_t child = node.child[from + lane];
         if (child == InstanceTree::no_child) continue;
+        if ((child & InstanceTree::instance_bit) != 0) {
+          prefetch(child & ~InstanceTree::instance_bit);
+        } else {
+          const Node* const below = &tree.nodes()[child];
+          hwy::Prefetch(below->low.data());
+          hwy::Prefetch(below->low.data() + 2);
+          hwy::Prefetch(below->high.data() + 1);
+          hwy::Prefetch(below->child.data());
+        }
         // The nearest child comes last, and is taken first.
         std::size_t place = count++;
         if constexpr (Keep::shortens) {
