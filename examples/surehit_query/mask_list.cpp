@@ -1,7 +1,6 @@
 #include "surehit_query/mask_list.hpp"
 
 #include <charconv>
-#include <string_view>
 
 #include "mesh_io/input_error.hpp"
 #include "mesh_io/read_file.hpp"
@@ -11,17 +10,6 @@ namespace surehit::example {
 namespace {
 
 constexpr std::uint32_t all_bits = ~std::uint32_t{0};
-
-std::uint32_t parse_mask(std::string_view text) {
-  const bool is_hex = text.starts_with("0x") || text.starts_with("0X");
-  const std::string_view digits = text.substr(is_hex ? 2 : 0);
-  std::uint32_t mask = 0;
-  const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), mask, is_hex ? 16 : 10);
-  if (error != std::errc{} || rest != digits.data() + digits.size()) {
-    throw InputError(quoted(text) + " is no mask of 32 bits");
-  }
-  return mask;
-}
 
 std::vector<std::uint32_t> parse_masks(std::string_view text) {
   std::vector<std::uint32_t> masks;
@@ -38,14 +26,25 @@ std::vector<std::uint32_t> parse_masks(std::string_view text) {
   return masks;
 }
 
+}  // namespace
+
+std::uint32_t parse_mask(std::string_view text) {
+  const bool is_hex = text.starts_with("0x") || text.starts_with("0X");
+  const std::string_view digits = text.substr(is_hex ? 2 : 0);
+  std::uint32_t mask = 0;
+  const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), mask, is_hex ? 16 : 10);
+  if (error != std::errc{} || rest != digits.data() + digits.size()) {
+    throw InputError(quoted(text) + " is no mask of 32 bits");
+  }
+  return mask;
+}
+
 void check_is_there(const std::optional<std::uint32_t>& id, std::size_t count, const std::string& kind) {
   if (id && *id >= count) {
     throw InputError("--ignore-" + kind + ": there is no " + kind + " " + std::to_string(*id) + " among " +
                      std::to_string(count) + ", which count from 0");
   }
 }
-
-}  // namespace
 
 std::vector<std::uint32_t> read_masks(const std::string& path) {
   try {

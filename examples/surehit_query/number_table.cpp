@@ -1,7 +1,6 @@
 #include "surehit_query/number_table.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 #include "command_line/progress_bar.hpp"
 #include "mesh_io/input_error.hpp"
@@ -11,19 +10,6 @@
 
 namespace surehit::example {
 namespace {
-
-/// The numbers of one line, commas replaced by the fields that they part: an empty one is an error, not a number less.
-void split_at_commas(std::string_view line, std::vector<std::string_view>& part,
-                     std::vector<std::string_view>& fields) {
-  fields.clear();
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    split(line.substr(begin, end - begin), part);
-    if (part.empty()) throw InputError("a number is missing beside a comma");
-    fields.insert(fields.end(), part.begin(), part.end());
-    begin = end + 1;
-  }
-}
 
 template <typename Scalar>
 NumberTable<Scalar> parse_number_table(std::string_view text, std::size_t columns) {
@@ -48,6 +34,18 @@ NumberTable<Scalar> parse_number_table(std::string_view text, std::size_t column
 }
 
 }  // namespace
+
+void split_at_commas(std::string_view line, std::vector<std::string_view>& part,
+                     std::vector<std::string_view>& fields) {
+  fields.clear();
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    split(line.substr(begin, end - begin), part);
+    if (part.empty()) throw InputError("a number is missing beside a comma");
+    fields.insert(fields.end(), part.begin(), part.end());
+    begin = end + 1;
+  }
+}
 
 template <typename Scalar>
 NumberTable<Scalar> read_number_table(const std::string& path, std::size_t columns) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace surehit::example {
@@ -15,6 +16,10 @@ struct NumberTable {
   [[nodiscard]] std::size_t rows() const { return numbers.size() / columns; }
   [[nodiscard]] const Scalar* row(std::size_t index) const { return numbers.data() + index * columns; }
 };
+
+/// Splits a line at white space and at commas. Throws InputError where there is nothing on one side of a comma. `part`
+/// is room for the work, so that lines need no new one.
+void split_at_commas(std::string_view line, std::vector<std::string_view>& part, std::vector<std::string_view>& fields);
 
 /// Reads a row from each line of a file, or of standard input if it is `-`. White space, or a comma with or without it,
 /// separates numbers. Lines that begin with # and blank lines are skipped. Throws InputError, which names the file and
