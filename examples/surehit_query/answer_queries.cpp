@@ -1,7 +1,6 @@
 #include "surehit_query/answer_queries.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <future>
@@ -10,15 +9,12 @@
 #include <vector>
 
 #include "command_line/output_file.hpp"
-#include "command_line/program.hpp"
 #include "command_line/progress_bar.hpp"
-#include "mesh_io/input_error.hpp"
-#include "mesh_io/parse_number.hpp"
-#include "mesh_io/read_mesh.hpp"
-#include "surehit_query/exact_ties.hpp"
+#include "surehit_query/asked_mesh.hpp"
+#include "surehit_query/asked_scene.hpp"
 #include "surehit_query/hit_text.hpp"
-#include "surehit_query/mask_list.hpp"
 #include "surehit_query/number_table.hpp"
+#include "surehit_query/query_limits.hpp"
 #include "surehit_query/statistics_text.hpp"
 
 namespace surehit::example {
@@ -70,34 +66,11 @@ Shape shape_at(const Scalar* numbers) {
   return {point_at(numbers), point_at(numbers + 3)};
 }
 
-template <typename Scalar>
-Scalar parse_limit(const char* option, const std::string& text) {
-  try {
-    const auto limit = parse_number_or_non_finite<Scalar>(text);
-    if (std::isnan(limit)) throw InputError(example::quoted(text) + " is not a number");
-    return limit;
-  } catch (const InputError& error) {
-    throw error.at(option);
-  }
-}
-
-template <typename Scalar>
-QueryOptions<Scalar> options_of(const QueryRequest& request) {
-  QueryOptions<Scalar> options;
-  options.min_t = parse_limit<Scalar>("--min-t", request.min_t);
-  options.max_t = parse_limit<Scalar>("--max-t", request.max_t);
-  options.culling = request.culling;
-  options.mask = request.mask;
-  options.ignored_triangle = request.ignored_triangle.value_or(no_triangle);
-  options.ignore_start_contact = request.ignore_start_contact;
-  options.ignore_end_contact = request.ignore_end_contact;
-  return options;
-}
-
 MoreColumns columns_of(const QueryRequest& request) { return {request.wants_points, request.wants_normals}; }
 
 template <typename Shape, typename Scalar>
-void answer_pairs(const QueryRequest& request, const QueryOptions<Scalar>& options) {
+void answer_pairs(const QueryRequest& request) {
+  const auto options = limits_of<QueryOptions<Scalar>>(request);
   const auto table = read_number_table<Scalar>(request.input_path, 15);
   const MoreColumns columns = columns_of(request);
   write_answers(request, "hit,t,u,v,side" + columns.names() + "\n", table.rows(),
@@ -111,7 +84,8 @@ void answer_pairs(const QueryRequest& request, const QueryOptions<Scalar>& optio
                     if (const auto hit = intersect(path, triangle, options)) {
                       lines += '1';
                       append_contact(*hit, lines);
-                      columns.append(path, *hit, triangle, lines);
+                      columns.append(
+                          path, *hit, [&] { return normal(triangle); }, lines);
                     } else {
                       lines += "0,,,,";
                       columns.append_none(lines);
@@ -122,50 +96,31 @@ void answer_pairs(const QueryRequest& request, const QueryOptions<Scalar>& optio
                 });
 }
 
-/// A mesh file made ready to be asked.
-template <typename Scalar>
-struct ReadCollider {
-  Collider<Scalar> collider;
-  std::vector<std::uint32_t> ids;  ///< what the output calls each triangle; empty where that is its own id
-};
-
-template <typename Scalar>
-ReadCollider<Scalar> read_collider(const QueryRequest& request) {
-  Mesh<Scalar> mesh = read_mesh<Scalar>(request.mesh_path);
-  for (const std::string& warning : mesh.warnings) warn("surehit-query", request.mesh_path + ": " + warning);
-  const std::vector<std::uint32_t> masks = masks_of(request, mesh);
-  Collider<Scalar> collider;
-  if (const BuildResult built = collider.try_build(mesh.view(), {.masks = masks}); !built) {
-    throw InputError(request.mesh_path + ": " + built.error().what());
-  }
-  if (request.ids == IdKind::triangle) mesh.faces.clear();
-  return {std::move(collider), std::move(mesh.faces)};
-}
-
-template <typename Shape, typename Scalar>
-class MeshQueries {
+/// Asks an `AskedMesh` or an `AskedScene`.
+template <typename Shape, typename Scalar, typename Asked>
+class Queries {
  public:
-  MeshQueries(const QueryRequest& request, const QueryOptions<Scalar>& options)
+  explicit Queries(const QueryRequest& request)
       : request_(request),
-        options_(options),
         columns_(columns_of(request)),
-        mesh_(read_collider<Scalar>(request)),
+        asked_(request),
         table_(read_number_table<Scalar>(request.input_path, 6)) {}
 
   void answer() const {
-    const std::string id = request_.ids == IdKind::face ? "face" : "triangle";
+    const std::string ids = asked_.id_columns();
     if (request_.question == Question::first) {
-      write(id + ",t,u,v,side" + columns_.names() + (request_.wants_free_points ? ",free_x,free_y,free_z\n" : "\n"),
-            &MeshQueries::first_hits);
+      write(ids + ",t,u,v,side" + columns_.names() + (request_.wants_free_points ? ",free_x,free_y,free_z\n" : "\n"),
+            &Queries::first_hits);
     } else if (request_.question == Question::any) {
-      write("hit\n", &MeshQueries::any_hits);
+      write("hit\n", &Queries::any_hits);
     } else {
-      write("path," + id + ",t,u,v,side,tie" + columns_.names() + "\n", &MeshQueries::all_hits);
+      write("path," + ids + ",t,u,v,side,tie" + columns_.names() + "\n", &Queries::all_hits);
     }
   }
 
  private:
-  using Answers = AnsweredBlock (MeshQueries::*)(std::size_t, std::size_t) const;
+  using Answer = typename Asked::Answer;
+  using Answers = AnsweredBlock (Queries::*)(std::size_t, std::size_t) const;
 
   void write(std::string_view header, Answers answers) const {
     const QueryStatistics statistics = write_answers(request_, header, table_.rows(), std::bind_front(answers, this));
@@ -178,63 +133,64 @@ class MeshQueries {
     return paths;
   }
 
-  /// Appends the id, the contact and then whatever `append_between` does, before the columns that may be asked for.
+  /// Appends the ids, the contact and then whatever `append_between` does, before the columns that may be asked for.
   template <typename AppendBetween>
-  void append_hit(const Shape& path, const Hit<Scalar>& hit, AppendBetween append_between, std::string& lines) const {
-    append_number(mesh_.ids.empty() ? hit.triangle : mesh_.ids[hit.triangle], lines);
+  void append_hit(const Shape& path, const Answer& hit, AppendBetween append_between, std::string& lines) const {
+    asked_.append_ids(hit, lines);
     append_contact(hit, lines);
     append_between();
-    columns_.append(path, hit, mesh_.collider.triangle(hit.triangle), lines);
+    columns_.append(
+        path, hit, [&] { return asked_.normal(hit); }, lines);
   }
 
   [[nodiscard]] AnsweredBlock first_hits(std::size_t begin, std::size_t end) const {
-    std::vector<Hit<Scalar>> hits(end - begin);
-    const std::vector<Shape> asked = paths(begin, end);
+    std::vector<Answer> hits(end - begin);
+    const std::vector<Shape> shapes = paths(begin, end);
     AnsweredBlock answered;
     std::string& lines = answered.lines;
-    mesh_.collider.first_hits(asked, hits, {.options = options_, .statistics = &answered.statistics});
+    asked_.target().first_hits(shapes, hits, {.options = asked_.options(), .statistics = &answered.statistics});
     for (std::size_t i = 0; i < hits.size(); ++i) {
       if (hits[i].triangle == no_triangle) {
-        lines += "-1,,,,";
+        lines += asked_.no_ids();
+        lines += ",,,,";
         columns_.append_none(lines);
       } else {
         append_hit(
-            asked[i], hits[i], [] {}, lines);
+            shapes[i], hits[i], [] {}, lines);
       }
-      append_free_point(asked[i], hits[i], lines);
+      append_free_point(shapes[i], hits[i], lines);
       lines += '\n';
     }
     return answered;
   }
 
   /// A step that meets nothing may end where it would.
-  void append_free_point(const Segment<Scalar>& segment, const Hit<Scalar>& hit, std::string& lines) const {
+  void append_free_point(const Segment<Scalar>& segment, const Answer& hit, std::string& lines) const {
     if (!request_.wants_free_points) return;
     const bool is_free = hit.triangle == no_triangle;
-    append_vector(is_free ? segment.end : mesh_.collider.last_free_point(segment, hit, options_), lines);
+    append_vector(is_free ? segment.end : asked_.target().last_free_point(segment, hit, asked_.options()), lines);
   }
   /// Only a segment is a step.
   template <typename Other>
-  void append_free_point(const Other&, const Hit<Scalar>&, std::string&) const {}
+  void append_free_point(const Other&, const Answer&, std::string&) const {}
 
   [[nodiscard]] AnsweredBlock any_hits(std::size_t begin, std::size_t end) const {
     std::vector<std::uint8_t> blocked(end - begin);
-    const std::vector<Shape> asked = paths(begin, end);
+    const std::vector<Shape> shapes = paths(begin, end);
     AnsweredBlock answered;
-    mesh_.collider.any_hits(asked, blocked, {.options = options_, .statistics = &answered.statistics});
+    asked_.target().any_hits(shapes, blocked, {.options = asked_.options(), .statistics = &answered.statistics});
     for (const std::uint8_t hit : blocked) answered.lines += hit != 0 ? "1\n" : "0\n";
     return answered;
   }
 
   [[nodiscard]] AnsweredBlock all_hits(std::size_t begin, std::size_t end) const {
-    const ExactTies<Scalar> exact_ties(mesh_.collider, options_);
-    std::vector<Hit<Scalar>> hits;
+    std::vector<Answer> hits;
     AnsweredBlock answered;
     std::string& lines = answered.lines;
     for (std::size_t i = begin; i < end; ++i) {
       const auto path = shape_at<Shape>(table_.row(i));
-      mesh_.collider.all_hits(path, hits, options_, &answered.statistics);
-      const std::vector<std::uint8_t> ties = exact_ties.find(path, hits);
+      asked_.target().all_hits(path, hits, asked_.options(), &answered.statistics);
+      const std::vector<std::uint8_t> ties = asked_.ties(path, hits);
       for (std::size_t j = 0; j < hits.size(); ++j) {
         append_number(i, lines);
         lines += ',';
@@ -247,19 +203,19 @@ class MeshQueries {
   }
 
   const QueryRequest& request_;
-  QueryOptions<Scalar> options_;
   MoreColumns columns_;
-  ReadCollider<Scalar> mesh_;
+  Asked asked_;
   NumberTable<Scalar> table_;
 };
 
 template <typename Shape, typename Scalar>
 void answer_shapes(const QueryRequest& request) {
-  const auto options = options_of<Scalar>(request);
   if (request.question == Question::pair) {
-    answer_pairs<Shape>(request, options);
+    answer_pairs<Shape, Scalar>(request);
+  } else if (request.scene_path.empty()) {
+    Queries<Shape, Scalar, AskedMesh<Scalar>>(request).answer();
   } else {
-    MeshQueries<Shape, Scalar>(request, options).answer();
+    Queries<Shape, Scalar, AskedScene<Scalar>>(request).answer();
   }
 }
 

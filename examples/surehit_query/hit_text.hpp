@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <string>
 #include <surehit/hit.hpp>
-#include <surehit/triangle.hpp>
-#include <surehit/triangle_mesh_view.hpp>
 
 namespace surehit::example {
 
@@ -51,7 +49,6 @@ void append_vector(const Vector3<Scalar>& vector, std::string& text) {
   }
 }
 
-/// The unit normal of a triangle that is in no mesh.
 /// The columns that a user may ask for behind those of every hit: the point, and the normal of the triangle.
 class MoreColumns {
  public:
@@ -61,10 +58,11 @@ class MoreColumns {
     return std::string(has_points_ ? ",x,y,z" : "") + (has_normals_ ? ",nx,ny,nz" : "");
   }
 
-  template <typename Shape, typename Scalar>
-  void append(const Shape& path, const Hit<Scalar>& hit, const Triangle<Scalar>& triangle, std::string& text) const {
+  /// Asks for the normal only if the user does.
+  template <typename Shape, typename Scalar, typename Normal>
+  void append(const Shape& path, const Hit<Scalar>& hit, const Normal& normal, std::string& text) const {
     if (has_points_) append_vector(point(path, hit), text);
-    if (has_normals_) append_vector(normal(triangle), text);
+    if (has_normals_) append_vector(normal(), text);
   }
 
   void append_none(std::string& text) const { text.append((has_points_ ? 3 : 0) + (has_normals_ ? 3 : 0), ','); }

@@ -33,16 +33,32 @@ void add_choice(CLI::App& command, const std::string& name, Choice& choice, cons
       ->default_str(names.front());
 }
 
+/// A scene takes the place of the mesh. Then `check` looks at MESH and FILE.
+void add_scene(CLI::App& command, QueryRequest& request, CLI::Option& mesh, CLI::Option& file) {
+  const auto choose = [&](const std::string& path) {
+    request.scene_path = path;
+    mesh.required(false);
+    file.required(false);
+  };
+  command
+      .add_option_function<std::string>("--scene", choose,
+                                        "Ask the meshes that this file places, instead of MESH; - is standard input")
+      ->type_name("SCENE");
+}
+
 CLI::App& add_command(CLI::App& app, QueryRequest& request, Question question, const std::string& name,
                       const std::string& description) {
   CLI::App& command = *app.add_subcommand(name, description);
   command.callback([&request, question] { request.question = question; });
+  CLI::Option* mesh = nullptr;
   if (question != Question::pair) {
-    command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off")->required()->type_name("");
+    mesh = command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off; none with --scene");
+    mesh->required()->type_name("");
   }
-  command.add_option("FILE", request.input_path, "The paths, one a line; - is standard input")
-      ->required()
-      ->type_name("");
+  CLI::Option* const file =
+      command.add_option("FILE", request.input_path, "The paths, one a line; - is standard input");
+  file->required()->type_name("");
+  if (mesh != nullptr) add_scene(command, request, *mesh, *file);
   add_choice<ScalarKind>(command, "--scalar", request.scalar,
                          {{"float", ScalarKind::single_precision}, {"double", ScalarKind::double_precision}},
                          "The type that all numbers are read to and answers rounded to");
@@ -84,10 +100,17 @@ void add_mesh_filters(CLI::App& command, QueryRequest& request) {
       .add_option("--masks", request.masks_path,
                   "A file with a mask a line, for each triangle or for each face; without it all bits are set")
       ->type_name("FILE");
-  command.add_option("--mask", request.mask, "Ask only the triangles whose mask shares a bit with this one")
+  command
+      .add_option("--mask", request.mask,
+                  "Ask only the triangles, or in a scene the instances, whose mask shares a bit with this one")
       ->type_name("BITS")
       ->default_str("0xffffffff");
-  command.add_option("--ignore-triangle", request.ignored_triangle, "Leave out this triangle")->type_name("ID");
+  command.add_option("--ignore-instance", request.ignored_instance, "Leave out this instance of the scene")
+      ->type_name("ID");
+  command
+      .add_option("--ignore-triangle", request.ignored_triangle,
+                  "Leave out this triangle; in a scene, leave out nothing else of the ignored instance")
+      ->type_name("ID");
   command.add_option("--ignore-face", request.ignored_face, "Leave out all triangles of this face")->type_name("ID");
   command.add_flag("--statistics", request.wants_statistics,
                    "Then say on standard error, as CSV, what the queries did: cells walked, candidate triangles, how "
@@ -106,6 +129,14 @@ void add_more_columns(CLI::App& command, QueryRequest& request) {
 
 constexpr const char* paths_of_a_mesh = "FILE: 6 numbers a line: p, then q or the direction.\n";
 
+constexpr const char* scenes =
+    "SCENE: a text file with one instance a line: a mesh file, the 12 numbers of its pose, and if need be\n"
+    "motion X Y Z and mask BITS. The pose is m00 m01 m02 m0  m10 m11 m12 m1  m20 m21 m22 m2: a corner v of the\n"
+    "mesh is exactly at M v + m. At t of a segment, the instance has moved by t (X, Y, Z). Mesh files are\n"
+    "relative to the scene file. Names with white space or commas stand in \"quotation marks\". In the output, the\n"
+    "column instance is before that of ids. It counts the lines that place a mesh, from 0. A miss has -1 in both.\n"
+    "Of equal exact t, the least instance comes first, and then the least triangle.\n";
+
 constexpr const char* meshes =
     "MESH: OBJ, PLY, STL or OFF, told apart by the ending of its name; PLY and STL may be binary. Lines end in\n"
     "\\n, \\r\\n or \\r. Colors, normals and texture coordinates are passed over. Refused, with the line or the\n"
@@ -113,8 +144,8 @@ constexpr const char* meshes =
     "are not finite where a face uses them, and whatever else is not wholly understood.\n"
     "Polygons are cut into triangles by exact decisions: convex ones as fans of their first corner, others by\n"
     "cutting ears off; one whose outline crosses itself is refused. Ids count from 0 in the order of the file.\n"
-    "Warnings are lines on standard error: no triangles, float too coarse for the file, unused vertices that\n"
-    "are not finite. examples/mesh_io/README.md has a table of formats and dialects.";
+    "Warnings are lines on standard error: no triangles, no instances, float too coarse for the file, unused\n"
+    "vertices that are not finite. examples/mesh_io/README.md has a table of formats and dialects.";
 
 void describe(CLI::App& app, QueryRequest& request) {
   request.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u);
@@ -145,12 +176,12 @@ void describe(CLI::App& app, QueryRequest& request) {
   first.footer(std::string(paths_of_a_mesh) +
                "Output: triangle,t,u,v,side, one line a path; a miss is -1,,,,. Of equal exact t the least triangle "
                "wins.\n" +
-               meshes);
+               scenes + meshes);
 
   CLI::App& any = add_command(app, request, Question::any, "any", "Does each path meet the mesh at all?");
   add_limits(any, request);
   add_mesh_filters(any, request);
-  any.footer(std::string(paths_of_a_mesh) + "Output: hit, one line a path: 1 or 0.\n" + meshes);
+  any.footer(std::string(paths_of_a_mesh) + "Output: hit, one line a path: 1 or 0.\n" + scenes + meshes);
 
   CLI::App& all =
       add_command(app, request, Question::all, "all", "Where does each path meet the mesh, every triangle?");
@@ -161,11 +192,31 @@ void describe(CLI::App& app, QueryRequest& request) {
   all.footer(std::string(paths_of_a_mesh) +
              "Output: path,triangle,t,u,v,side,tie, one line a hit, in order along the path; paths count from 0. tie "
              "is 1\nwhere another hit of the path has the very same exact t, else 0.\n" +
-             meshes);
+             scenes + meshes);
+}
+
+/// Whatever else is said of a scene fits it. A single name beside it is that of the paths.
+void check_scene(QueryRequest& request) {
+  if (request.scene_path.empty()) {
+    if (request.ignored_instance) throw CLI::ValidationError("--ignore-instance", "only a scene has instances");
+    return;
+  }
+  if (!request.input_path.empty()) throw CLI::ValidationError("--scene", "there is a MESH beside it");
+  if (request.mesh_path.empty()) throw CLI::RequiredError("FILE");
+  request.input_path = std::exchange(request.mesh_path, {});
+  if (!request.masks_path.empty()) throw CLI::ValidationError("--masks", "a scene takes none");
+  if (request.ignored_face) throw CLI::ValidationError("--ignore-face", "a scene takes none");
+  if (request.ignored_triangle && !request.ignored_instance) {
+    throw CLI::ValidationError("--ignore-triangle", "a scene takes it with --ignore-instance alone");
+  }
+  if (request.scene_path == "-" && request.input_path == "-") {
+    throw CLI::ValidationError("--scene", "standard input cannot be FILE too");
+  }
 }
 
 /// What no single option can know.
-void check(const QueryRequest& request) {
+void check(QueryRequest& request) {
+  check_scene(request);
   if (request.wants_free_points && request.path != PathKind::segment) {
     throw CLI::ValidationError("--free-points", "only a segment has them");
   }

@@ -19,7 +19,8 @@ enum class IdKind : std::uint8_t { triangle, face };
 /// What the command line asks for. Limits of t stay texts until it is known what they are rounded to.
 struct QueryRequest {
   Question question = Question::pair;
-  std::string mesh_path;  ///< none for `pair`
+  std::string mesh_path;   ///< none for `pair`, and none for a scene
+  std::string scene_path;  ///< none where empty
   std::string input_path;
   std::string output_path = "-";
   ScalarKind scalar = ScalarKind::single_precision;
@@ -32,10 +33,11 @@ struct QueryRequest {
   bool ignore_start_contact = false;
   bool ignore_end_contact = false;
 
-  // These narrow a mesh, so `pair` has none of them.
+  // These narrow a mesh or a scene, so `pair` has none of them. The mask is that of instances in a scene.
   std::uint32_t mask = ~std::uint32_t{0};
   std::string masks_path;  ///< none where empty
-  std::optional<std::uint32_t> ignored_triangle;
+  std::optional<std::uint32_t> ignored_instance;
+  std::optional<std::uint32_t> ignored_triangle;  ///< in a scene, of the ignored instance
   std::optional<std::uint32_t> ignored_face;
 
   IdKind ids = IdKind::triangle;

@@ -1,8 +1,8 @@
 // surehit-query in this process. The first line of the bytes are its arguments, parted by single spaces; what follows
 // is the mesh file that they name, up to a line --, and then the paths, in the file `paths` and on standard input.
-// Whatever that makes, the program ends as it documents: 0 without a word on standard error, but for statistics where
-// they are asked for; 2 with one line there, and no output; 1 where the output cannot be written. Warnings of the mesh
-// may come before, each kind once.
+// After another line -- comes the file `scene`, which may place the mesh too. Whatever that makes, the program ends as
+// it documents: 0 without a word on standard error, but for statistics where they are asked for; 2 with one line there,
+// and no output; 1 where the output cannot be written. Warnings of the mesh may come before, each kind once.
 
 #include <stdio.h>
 
@@ -79,10 +79,11 @@ std::string cut_before(std::string_view mark, std::string_view& text) {
   return part;
 }
 
-/// Takes the warnings off the front. There are three kinds, and one of what a reader passes over.
+/// Takes the warnings off the front. A mesh has three kinds, and one of what a reader passes over. A scene has one.
 std::string without_warnings(std::string text, std::size_t& warnings) {
-  constexpr std::string_view mark = "surehit-query: warning: mesh.";
-  while (text.starts_with(mark)) {
+  constexpr std::string_view mesh_mark = "surehit-query: warning: mesh.";
+  constexpr std::string_view scene_mark = "surehit-query: warning: scene: ";
+  while (text.starts_with(mesh_mark) || text.starts_with(scene_mark)) {
     text.erase(0, text.find('\n') + 1);
     ++warnings;
   }
@@ -110,12 +111,17 @@ void check(std::string_view text) {
 
   std::vector<std::string> arguments = split_arguments(cut_before("\n", text));
   const std::string mesh = cut_before("\n--\n", text);
-  const std::string paths(text);
+  const std::string paths = cut_before("\n--\n", text);
+  const std::string scene(text);
   static_cast<void>(folder.write("paths", paths));
   static_cast<void>(folder.write("masks", paths));
+  static_cast<void>(folder.write("scene", scene));
+  std::size_t max_warnings = 1;
   for (const char* name : {"mesh.obj", "mesh.off", "mesh.ply", "mesh.stl"}) {
-    if (std::find(arguments.begin(), arguments.end(), name) != arguments.end()) {
+    if (std::find(arguments.begin(), arguments.end(), name) != arguments.end() ||
+        scene.find(name) != std::string::npos) {
       static_cast<void>(folder.write(name, mesh));
+      max_warnings += 4;
     }
   }
   const std::size_t files = folder.file_count();
@@ -134,7 +140,7 @@ void check(std::string_view text) {
   const auto tell = [&](const std::string& finding) {
     stop_at("exit status " + std::to_string(status) + ": " + finding + "\noutput: " + output + "\nerror: " + error);
   };
-  if (warnings > 4) tell("more warnings than there are kinds of them");
+  if (warnings > max_warnings) tell("more warnings than there are kinds of them");
   if (status == 0) {
     const bool wants_statistics = std::any_of(arguments.begin(), arguments.end(),
                                               [](const std::string& argument) { return argument.starts_with("--s"); });
