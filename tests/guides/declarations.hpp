@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <surehit/surehit.hpp>
@@ -42,6 +43,12 @@ inline const auto feet = surehit::VertexViewf::strided(agents[0].foot.data(), ag
 
 inline std::vector<surehit::Hitf> hits(steps.size());
 inline std::vector<std::uint8_t> blocked(agents.size());
+
+// What is placed in scenes.
+inline const auto crate_mesh = std::make_shared<surehit::Colliderf>(surehit::TriangleMeshViewf(vertices, triangles));
+inline constexpr std::array<float, 4> turn = {0, 0.70710678F, 0, 0.70710678F};  // by a right angle about y
+inline constexpr std::uint32_t solid = 1;
+inline std::vector<surehit::SceneHitf> scene_hits(steps.size());
 
 // A job system that does all tasks on this thread.
 inline const auto jobs = [](std::size_t count, const surehit::Executor::Task& task) {
