@@ -18,20 +18,6 @@ class EmbreeContender : public Contender {
   EmbreeScene scene_;
 };
 
-RTCRay ray_along(const Segmentf& segment) {
-  const Vector3f direction = segment.end - segment.start;
-  RTCRay ray = {};
-  ray.org_x = segment.start.x();
-  ray.org_y = segment.start.y();
-  ray.org_z = segment.start.z();
-  ray.dir_x = direction.x();
-  ray.dir_y = direction.y();
-  ray.dir_z = direction.z();
-  ray.tfar = 1;
-  ray.mask = ~0u;
-  return ray;
-}
-
 class EmbreeSingle : public EmbreeContender {
  public:
   using EmbreeContender::EmbreeContender;

@@ -16,6 +16,20 @@ FlushedDenormals::FlushedDenormals() : control_(_mm_getcsr()) {
 
 FlushedDenormals::~FlushedDenormals() { _mm_setcsr(control_); }
 
+RTCRay ray_along(const Segmentf& segment) {
+  const Vector3f direction = segment.end - segment.start;
+  RTCRay ray = {};
+  ray.org_x = segment.start.x();
+  ray.org_y = segment.start.y();
+  ray.org_z = segment.start.z();
+  ray.dir_x = direction.x();
+  ray.dir_y = direction.y();
+  ray.dir_z = direction.z();
+  ray.tfar = 1;
+  ray.mask = ~0u;
+  return ray;
+}
+
 EmbreeScene::EmbreeScene(EmbreeMode mode) : mode_(mode), device_(rtcNewDevice("threads=1,set_affinity=0")) {
   throw_on_error();
   const auto count = [](void* bytes, ssize_t change, bool) {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <surehit/path.hpp>
 #include <surehit/triangle_mesh_view.hpp>
 
 namespace surehit::benchmark {
@@ -19,6 +20,9 @@ class FlushedDenormals {
  private:
   unsigned control_;
 };
+
+/// Returns the ray whose t goes from 0 at the start to 1 at the end.
+[[nodiscard]] RTCRay ray_along(const Segmentf& segment);
 
 struct EmbreeMode {
   bool robust;

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "support/instruction_sets.hpp"
 #include "tables.hpp"
 #include "uneven_scenes.hpp"
+#include "world.hpp"
 
 namespace surehit::benchmark {
 namespace {
@@ -33,6 +35,7 @@ const std::vector<TableKind>& all_tables() {
       {"threads", measure_threads, false},
       {"exactness", measure_exactness},
       {"statistics", measure_statistics},
+      {"scene", measure_worlds},
   };
   return tables;
 }
@@ -42,6 +45,7 @@ struct Words {
   std::vector<std::string> tables;
   std::vector<std::string> meshes;
   std::vector<std::string> sets;
+  std::vector<std::string> worlds;
   std::vector<std::string> contenders;
   std::string folder;
   std::vector<std::string> z_up;
@@ -82,6 +86,7 @@ void describe(CLI::App& app, Words& words, Request& request) {
   add_choice(app, "--set", words.sets, "Only these path sets",
              names_of(all_path_sets, [](PathSet set) { return name_of(set); }))
       ->type_name("NAME");
+  add_choice(app, "--scene", words.worlds, "Only these scenes of table scene", world_names())->type_name("NAME");
   app.add_option("--contender", words.contenders, "Besides surehit only contenders whose name has one of these in it")
       ->type_name("TEXT");
   add_choice(app, "--instruction-set", words.instruction_set, "What surehit runs on; the others choose by themselves",
@@ -117,6 +122,7 @@ void shrink(const CLI::App& app, Request& request) {
   set("--paths", request.paths, 64);
   set("--largest", request.largest, 4000);
   request.tick_paths = {64, 128};
+  request.detail = 0.05f;
 }
 
 void read_scenes(const Words& words, Request& request) {
@@ -138,13 +144,18 @@ void choose(const Words& words, Request& request) {
   for (const PathSet set : all_path_sets) {
     if (is_among(name_of(set), words.sets)) request.sets.push_back(set);
   }
-  for (Entrant& entrant : all_entrants()) {
-    const auto has = [&](const std::string& text) { return entrant.name().find(text) != std::string::npos; };
-    if (entrant.is_ours() || words.contenders.empty() ||
-        std::any_of(words.contenders.begin(), words.contenders.end(), has)) {
-      request.entrants.push_back(std::move(entrant));
-    }
+  for (const std::string& name : world_names()) {
+    if (is_among(name, words.worlds)) request.worlds.push_back(name);
   }
+  const auto copy_chosen = [&](const auto& all, auto& chosen) {
+    std::copy_if(all.begin(), all.end(), std::back_inserter(chosen), [&](const auto& entrant) {
+      const auto has = [&](const std::string& text) { return entrant.name().find(text) != std::string::npos; };
+      return entrant.is_ours() || words.contenders.empty() ||
+             std::any_of(words.contenders.begin(), words.contenders.end(), has);
+    });
+  };
+  copy_chosen(all_entrants(), request.entrants);
+  copy_chosen(all_world_entrants(), request.world_entrants);
 }
 
 std::int64_t target_of(const std::string& instruction_set) {

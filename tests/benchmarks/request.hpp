@@ -7,6 +7,7 @@
 #include "entrants.hpp"
 #include "path_set.hpp"
 #include "scene.hpp"
+#include "world_entrants.hpp"
 
 namespace surehit::benchmark {
 
@@ -20,6 +21,9 @@ struct Request {
   std::vector<Scene> scenes;
   std::vector<PathSet> sets;
   std::vector<Entrant> entrants;
+  std::vector<std::string> worlds;
+  std::vector<WorldEntrant> world_entrants;
+  float detail = 1;  ///< of the worlds
 };
 
 }  // namespace surehit::benchmark

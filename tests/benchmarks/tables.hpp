@@ -20,4 +20,7 @@ void measure_exactness(const Request& request, Report& report);
 /// How often the filter is undecided and exact arithmetic is needed, and what that takes.
 void measure_statistics(const Request& request, Report& report);
 
+/// Worlds of many instances: queries, wrong decisions, an instance beside its collider, and commits of moved instances.
+void measure_worlds(const Request& request, Report& report);
+
 }  // namespace surehit::benchmark

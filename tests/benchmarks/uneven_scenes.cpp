@@ -81,9 +81,8 @@ Index scaled(Index pieces, float detail) {
   return std::max<Index>(2, static_cast<Index>(static_cast<float>(pieces) * detail));
 }
 
-/// Adds a bumpy ball of 70,000 triangles of about the same size: a cube, blown up.
-void add_blob(Mesh& mesh, const Vector3d& centre, double radius, float detail) {
-  const Index pieces = scaled(76, detail);
+/// Adds a bumpy ball of triangles of about the same size: a cube, blown up, with this many pieces along each edge.
+void add_ball(Mesh& mesh, const Vector3d& centre, double radius, Index pieces) {
   for (int face = 0; face < 6; ++face) {
     const int axis = face / 2;
     const double sign = face % 2 == 0 ? 1 : -1;
@@ -96,6 +95,11 @@ void add_blob(Mesh& mesh, const Vector3d& centre, double radius, float detail) {
       return Vector3d(centre + radius * (0.7 + 0.3 * rough_noise(4 * direction, 3)) * direction);
     });
   }
+}
+
+/// Adds one of 70,000 triangles.
+void add_blob(Mesh& mesh, const Vector3d& centre, double radius, float detail) {
+  add_ball(mesh, centre, radius, scaled(76, detail));
 }
 
 void add_box(Mesh& mesh, const Vector3d& centre, double half_edge) {
@@ -273,6 +277,12 @@ std::vector<UnevenScene> all_scenes() {
 }
 
 }  // namespace
+
+example::Mesh<float> bumpy_ball(double radius, std::uint32_t pieces) {
+  Mesh mesh;
+  add_ball(mesh, Vector3d::Zero(), radius, pieces);
+  return mesh;
+}
 
 std::vector<std::string> uneven_scene_names() {
   std::vector<std::string> names;

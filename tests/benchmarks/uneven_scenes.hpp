@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,5 +14,8 @@ namespace surehit::benchmark {
 
 /// Builds the mesh of that name. `detail` is 1, or less for a quick look. Has the same bits on every platform.
 [[nodiscard]] Scene uneven_scene(const std::string& name, float detail);
+
+/// Builds a bumpy ball about the origin, of 12 pieces² triangles. Has the same bits on every platform.
+[[nodiscard]] example::Mesh<float> bumpy_ball(double radius, std::uint32_t pieces);
 
 }  // namespace surehit::benchmark

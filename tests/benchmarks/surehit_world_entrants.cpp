@@ -1,0 +1,67 @@
+#include <surehit/scene.hpp>
+
+#include "world_entrants.hpp"
+
+namespace surehit::benchmark {
+namespace {
+
+class SurehitWorld : public WorldContender {
+ public:
+  void build(const World& world) override {
+    std::vector<std::shared_ptr<const Colliderf>> colliders;
+    for (const auto& mesh : world.meshes) colliders.push_back(std::make_shared<Colliderf>(mesh.view()));
+    scene_ = {};
+    ids_.clear();
+    for (const auto& [mesh, pose] : world.instances) ids_.push_back(scene_.add(colliders[mesh], pose));
+    scene_.commit();
+  }
+
+  void move(std::span<const Posef> poses) override {
+    for (std::size_t i = 0; i < poses.size(); ++i) scene_.set_pose(ids_[i], poses[i]);
+    scene_.commit();
+  }
+
+ protected:
+  Scenef scene_;
+
+ private:
+  std::vector<InstanceId> ids_;
+};
+
+class SurehitWorldBatch : public SurehitWorld {
+ public:
+  void first(const PathBatch& paths, std::span<Hitf> hits) override {
+    hits_.resize(paths.size());
+    scene_.first_hits(paths.segments(), hits_);
+    for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = hits_[i];
+  }
+
+  void any(const PathBatch& paths, std::span<std::uint8_t> blocked) override {
+    scene_.any_hits(paths.segments(), blocked);
+  }
+
+ private:
+  std::vector<SceneHitf> hits_;
+};
+
+class SurehitWorldSingle : public SurehitWorld {
+ public:
+  void first(const PathBatch& paths, std::span<Hitf> hits) override {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      hits[i] = scene_.first_hit(paths.segments()[i]).value_or(SceneHitf{});
+    }
+  }
+
+  void any(const PathBatch& paths, std::span<std::uint8_t> blocked) override {
+    for (std::size_t i = 0; i < paths.size(); ++i) blocked[i] = scene_.any_hit(paths.segments()[i]) ? 1 : 0;
+  }
+};
+
+}  // namespace
+
+std::vector<WorldEntrant> surehit_world_entrants() {
+  return {{Entrant::our_library, "batch", [] { return std::make_unique<SurehitWorldBatch>(); }},
+          {Entrant::our_library, "single", [] { return std::make_unique<SurehitWorldSingle>(); }}};
+}
+
+}  // namespace surehit::benchmark
