@@ -325,6 +325,43 @@ def ticks(figures):
     return markdown(header, rows)
 
 
+def scenes(figures):
+    rows = []
+    for scene in figures.values("mesh", table="scene", run=TABLES):
+        for paths in figures.values("paths", table="scene", mesh=scene, run=TABLES):
+            if not paths:
+                continue  # those are commits
+
+            def median(question, contender, measure):
+                return figures.median(
+                    table="scene", mesh=scene, paths=paths, question=question, contender=contender, measure=measure
+                )
+
+            cells = [scene, paths]
+            for question in CLOSEST, ANY:
+                cells.append(number(median(question, OURS[0], "ns per path")) + " ns")
+                cells += [number(median(question, f"{MEDIUM} x1", f"over {ours}")) for ours in OURS]
+            wrong_counts = [median(ANY, f"{mode} x1", "wrong decisions") for mode in (MEDIUM, ROBUST)]
+            rows.append([*cells, " / ".join(f"{count:.0f}" for count in wrong_counts)])
+    return markdown(
+        ["scene", "paths", "closest: batch", "÷ batch", "÷ single calls", "any: batch", "÷ batch", "÷ single calls"]
+        + ["wrong, fast / robust"],
+        rows,
+    )
+
+
+def commits(figures):
+    rows = []
+    for scene in figures.values("mesh", table="scene", measure="commit ns", run=TABLES):
+
+        def median(contender, measure):
+            return figures.median(table="scene", mesh=scene, contender=contender, measure=measure)
+
+        rows.append([scene, f"{number(median('surehit', 'commit ns') / 1e6)} ms",
+                     number(median(LOW, "commit over surehit"))])  # fmt: skip
+    return markdown(["scene", "commit", "÷ low"], rows)
+
+
 def growth(figures):
     exponent = "growth exponent of "
     rows = []
@@ -438,7 +475,7 @@ def summaries(_):
 BLOCKS_OF_README = [wrong, summaries]
 BLOCKS_OF_FIGURES = [
     machine, summary, all_batches, all_batches_on_avx2, all_single_calls, all_doubles, all_builds, queries, ranges,
-    instruction_sets, builds, ticks, growth, threads, exactness, bounds,
+    instruction_sets, builds, ticks, scenes, commits, growth, threads, exactness, bounds,
 ]  # fmt: skip
 BLOCKS = {block.__name__: block for block in [*BLOCKS_OF_README, *BLOCKS_OF_FIGURES, pages]}
 
