@@ -5,20 +5,13 @@
 #include <cstdint>
 #include <optional>
 
+#include "support/integer_pair.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/path.hpp"
 #include "surehit/query_options.hpp"
 #include "surehit/triangle.hpp"
 
 namespace surehit::test {
-
-/// Where a path first meets a triangle, in rationals.
-struct ExactContact {
-  mpq_class t;
-  mpq_class u;
-  mpq_class v;
-  Side side;
-};
 
 /// The first contact of one path and one triangle by the meaning of a query alone: an independent judge that shares
 /// nothing with the library but the types of its arguments. Masks and ids say nothing here. Call it in the default
