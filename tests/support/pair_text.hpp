@@ -8,6 +8,8 @@
 #include "surehit/hit.hpp"
 #include "surehit/path.hpp"
 #include "surehit/query_options.hpp"
+#include "surehit/scene_hit.hpp"
+#include "surehit/scene_query_options.hpp"
 #include "surehit/triangle.hpp"
 
 namespace surehit::test {
@@ -51,6 +53,26 @@ template <typename Scalar>
 void write(std::ostream& out, const Hit<Scalar>& hit) {
   out << "{.t = " << hit.t << ", .u = " << hit.u << ", .v = " << hit.v << ", .triangle = " << hit.triangle
       << ", .side = Side(" << static_cast<int>(hit.side) << ")}";
+}
+
+inline void write(std::ostream& out, InstanceId id) { out << '{' << id.index << ", " << id.generation << '}'; }
+
+template <typename Scalar>
+void write(std::ostream& out, const SceneHit<Scalar>& hit) {
+  write<Scalar>(out, static_cast<const Hit<Scalar>&>(hit));
+  out << " of instance ";
+  write(out, hit.instance);
+}
+
+template <typename Scalar>
+void write(std::ostream& out, const SceneQueryOptions<Scalar>& options) {
+  out << "{.min_t = " << options.min_t << ", .max_t = " << options.max_t << ", .culling = Culling("
+      << static_cast<int>(options.culling) << "), .mask = " << options.mask
+      << ", .instance_mask = " << options.instance_mask << ", .ignored_instance = ";
+  write(out, options.ignored_instance);
+  out << ", .ignored_triangle = " << options.ignored_triangle
+      << ", .ignore_start_contact = " << options.ignore_start_contact
+      << ", .ignore_end_contact = " << options.ignore_end_contact << '}';
 }
 
 /// With hex floats, so that a failure can be pasted into a test of its own without losing a bit.
