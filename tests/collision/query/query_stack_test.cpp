@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
-#include <ucontext.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -10,21 +8,13 @@
 #include <type_traits>
 #include <vector>
 
+#include "collision/painted_stack.hpp"
 #include "collision/unit_triangles.hpp"
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
 #include "surehit/intersect.hpp"
 
-// How much stack a function takes is the compiler's doing: the promise is for optimized builds, and sanitizers keep
-// their own red zones there.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // GCC
-#define SUREHIT_TEST_SANITIZED 1
-#elif defined(__has_feature)  // Clang, and what other headers define in its place
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define SUREHIT_TEST_SANITIZED 1
-#endif
-#endif
-#if defined(__OPTIMIZE__) && !defined(SUREHIT_TEST_SANITIZED)
+#if defined(SUREHIT_TEST_PROMISES_STACK)
 
 namespace surehit::test {
 namespace {
@@ -33,38 +23,6 @@ constexpr std::size_t promised_bytes = 16 * 1024;
 /// Batches walk many paths at once.
 template <typename Scalar>
 constexpr std::size_t promised_bytes_of_batches = (std::is_same_v<Scalar, float> ? 32 : 48) * 1024;
-constexpr std::uint64_t paint = 0x5aa5c33c0ff0a55a;
-
-/// A stack of its own for a call, painted so that one sees how deep the call went.
-class PaintedStack {
- public:
-  std::size_t bytes_used_by(const std::function<void()>& call) {
-    call();  // the dynamic linker takes stack of its own when it first binds a symbol
-    const std::size_t around = used_by([] {});
-    return used_by(call) - around;
-  }
-
- private:
-  std::size_t used_by(const std::function<void()>& call) {
-    std::fill(stack_.begin(), stack_.end(), paint);
-    ucontext_t caller;
-    ucontext_t callee;
-    getcontext(&callee);
-    callee.uc_stack.ss_sp = stack_.data();
-    callee.uc_stack.ss_size = stack_.size() * sizeof paint;
-    callee.uc_link = &caller;
-    current = &call;
-    makecontext(&callee, run, 0);
-    swapcontext(&caller, &callee);
-    const auto touched = std::find_if(stack_.begin(), stack_.end(), [](std::uint64_t word) { return word != paint; });
-    return static_cast<std::size_t>(stack_.end() - touched) * sizeof paint;
-  }
-
-  static void run() { (*current)(); }
-
-  static inline const std::function<void()>* current = nullptr;
-  std::vector<std::uint64_t> stack_ = std::vector<std::uint64_t>(16 * promised_bytes / sizeof paint);
-};
 
 template <typename Scalar>
 class QueryStack : public testing::Test {
