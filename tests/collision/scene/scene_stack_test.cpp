@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "collision/painted_stack.hpp"
+#include "support/scalars.hpp"
+#include "unit_scenes.hpp"
+
+#if defined(SUREHIT_TEST_PROMISES_STACK)
+
+namespace surehit::test {
+namespace {
+
+constexpr std::size_t promised_bytes = 64 * 1024;
+
+/// Scenes whose numbers are as long as they get: the least and the largest in one pair, and in one pose.
+template <typename Scalar>
+class SceneStack : public testing::Test {
+ protected:
+  using Limits = std::numeric_limits<Scalar>;
+  static constexpr Scalar tiny = Limits::denorm_min();
+  static constexpr Scalar huge = Limits::max();
+
+  SceneStack() {
+    const Vector3<Scalar> long_vector{huge, tiny, -huge / 3};
+    GeneratedMesh<Scalar> mesh;
+    mesh.add({{-huge, -huge, tiny}, {huge, -huge, tiny}, {tiny, huge, tiny}});
+    mesh.add({{-huge, -huge, -huge}, {huge, tiny, huge}, {tiny, huge, huge / 3}});
+    mesh.add({{-huge, tiny, tiny}, {tiny, tiny, tiny}, {huge, tiny, tiny}});
+    mesh.add({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    const auto collider = std::make_shared<Collider<Scalar>>(mesh.view());
+    auto wide = with_rows<Scalar>({Scalar(0x1p64F), Scalar(0x1p-64F), Scalar(0.3)},
+                                  {Scalar(-0x1p-64F), Scalar(0.7), Scalar(0x1p64F)},
+                                  {Scalar(0.1), Scalar(-0x1p64F), Scalar(0x1.fp-64F)});
+    for (const Pose<Scalar>& pose : {Pose<Scalar>{}, Pose<Scalar>::translated(long_vector), wide}) {
+      scene_.add(collider, pose);
+      scene_.set_motion(scene_.add(collider, pose), {tiny, huge, 1});
+    }
+    wide.translation = long_vector;
+    scene_.set_motion(scene_.add(collider, wide), long_vector);
+    scene_.commit();
+  }
+
+  static std::vector<Segment<Scalar>> segments() {
+    const Vector3<Scalar> middle{tiny, tiny, tiny};
+    return {{{huge / 3, huge / 5, huge}, {-huge / 7, tiny, -huge}},
+            {{-huge, huge / 3, tiny}, {huge, -huge / 5, tiny}},
+            {middle, middle},
+            {{-huge, tiny, tiny}, {huge, tiny, tiny}},
+            {{Scalar(0.25), Scalar(0.25), 1}, {Scalar(0.25), Scalar(0.25), -1}},
+            {{0, 0, 0}, {1, 1, 0}}};
+  }
+
+  void expect_within_promise(const std::string& name, const std::function<void()>& call) {
+    const std::size_t bytes = stack_.bytes_used_by(call);
+    testing::Test::RecordProperty(name, std::to_string(bytes));
+    EXPECT_LT(bytes, promised_bytes) << name;
+  }
+
+  Scene<Scalar> scene_;
+
+ private:
+  PaintedStack stack_;
+};
+TYPED_TEST_SUITE(SceneStack, Scalars, ScalarNames);
+
+TYPED_TEST(SceneStack, of_single_queries) {
+  const auto odd = [](const SceneHit<TypeParam>& hit) { return hit.instance.index % 2 == 1; };
+  int number = 0;
+  for (const auto& segment : this->segments()) {
+    for (const Path<TypeParam>& path : std::vector<Path<TypeParam>>{segment, Ray<TypeParam>{segment.start, segment.end},
+                                                                    Line<TypeParam>{segment.start, segment.end}}) {
+      const std::string name = std::to_string(number++);
+      const auto& scene = this->scene_;
+      this->expect_within_promise("first_" + name, [&] { static_cast<void>(scene.first_hit(path)); });
+      this->expect_within_promise("first_odd_" + name, [&] { static_cast<void>(scene.first_hit(path, odd)); });
+      this->expect_within_promise("any_" + name, [&] { static_cast<void>(scene.any_hit(path, odd)); });
+    }
+    for (const TypeParam t : {TypeParam(0.5), TypeParam(0x1p-60F)}) {
+      this->expect_within_promise("last_free_point_" + std::to_string(number++), [&] {
+        static_cast<void>(this->scene_.last_free_point(segment, SceneHit<TypeParam>{{.t = t, .triangle = 0}, {0, 0}}));
+      });
+    }
+  }
+}
+
+TYPED_TEST(SceneStack, of_batches) {
+  const auto segments = this->segments();
+  std::vector<SceneHit<TypeParam>> hits(segments.size());
+  std::vector<std::uint8_t> blocked(segments.size());
+  this->expect_within_promise("first_hits", [&] { this->scene_.first_hits(segments, hits); });
+  this->expect_within_promise("any_hits", [&] { this->scene_.any_hits(segments, blocked); });
+}
+
+TYPED_TEST(SceneStack, of_triangles_and_normals) {
+  for (const InstanceId id : this->scene_.instances()) {
+    this->expect_within_promise("triangle_" + std::to_string(id.index),
+                                [&] { static_cast<void>(this->scene_.triangle(id, 1)); });
+    this->expect_within_promise("normal_" + std::to_string(id.index),
+                                [&] { static_cast<void>(this->scene_.normal(id, 1)); });
+  }
+}
+
+}  // namespace
+}  // namespace surehit::test
+
+#endif
