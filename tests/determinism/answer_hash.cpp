@@ -4,25 +4,39 @@
 
 #include "answers.hpp"
 #include "hard_questions.hpp"
+#include "hard_scene.hpp"
 
 namespace {
 
 /// Prints the hash of the answers; whether it is the published one.
+bool is_published(const char* name, std::uint64_t hash, std::uint64_t published) {
+  std::printf("%s: %016" PRIx64 ", %s\n", name, hash, hash == published ? "as published" : "NOT THE PUBLISHED ONE");
+  return hash == published;
+}
+
 template <typename Scalar>
 bool answers_are_published(const char* name) {
   const surehit::test::HardQuestions<Scalar> hard;
   const surehit::Collider<Scalar> collider = hard.collider();
   const std::uint64_t hash = surehit::test::Answers<Scalar>(collider, hard.questions).hash();
-  const bool published = hash == surehit::test::published_hash<Scalar>;
-  std::printf("%s: %016" PRIx64 ", %s\n", name, hash, published ? "as published" : "NOT THE PUBLISHED ONE");
-  return published;
+  return is_published(name, hash, surehit::test::published_hash<Scalar>);
+}
+
+template <typename Scalar>
+bool scene_answers_are_published(const char* name) {
+  const surehit::test::HardScene<Scalar> hard;
+  const surehit::Scene<Scalar> scene = hard.scene();
+  const std::uint64_t hash = surehit::test::SceneAnswers<Scalar>(scene, hard.paths).hash();
+  return is_published(name, hash, surehit::test::published_scene_hash<Scalar>);
 }
 
 }  // namespace
 
-/// The answers to the hard questions, of a library that somebody else has compiled.
+/// The answers to the hard questions, and about the hard scene, of a library that somebody else has compiled.
 int main() {
   const bool floats = answers_are_published<float>("float");
   const bool doubles = answers_are_published<double>("double");
-  return floats && doubles ? 0 : 1;
+  const bool float_scenes = scene_answers_are_published<float>("scene of floats");
+  const bool double_scenes = scene_answers_are_published<double>("scene of doubles");
+  return floats && doubles && float_scenes && double_scenes ? 0 : 1;
 }
