@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds surehit and its examples, runs the two that draw, and says where the pictures are.
+# Builds surehit and its examples, runs the three that draw, and says where the pictures are.
 set -euo pipefail
 
 if [[ $# -gt 0 ]]; then
@@ -27,5 +27,8 @@ stage "line_of_sight: what can be seen from one point of a level"
 stage "game_physics: fast points in a room of thin walls"
 "$programs/game_physics/game_physics" -o "$pictures/game_physics.png"
 
+stage "moving_platforms: bullets and debris among lifts, doors and a train"
+"$programs/moving_platforms/moving_platforms" -o "$pictures/moving_platforms.png"
+
 stage "Done. The pictures:"
-ls -1 "$pictures/line_of_sight.png" "$pictures/game_physics.png"
+ls -1 "$pictures/line_of_sight.png" "$pictures/game_physics.png" "$pictures/moving_platforms.png"
