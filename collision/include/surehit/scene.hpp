@@ -132,8 +132,8 @@ class SUREHIT_API Scene {
   /// Returns the number of triangles of the instance's collider.
   [[nodiscard]] std::size_t triangle_count(InstanceId id) const noexcept;
 
-  /// Returns a box around all committed instances, and around their ways during the step. It is the smallest such box
-  /// but for roundings outward. It is empty if there are no triangles.
+  /// Returns a box around all committed instances, and around their ways during the step. It holds the images of their
+  /// meshes' boxes, so it may be larger than needed for turned instances. It is empty if there are no triangles.
   [[nodiscard]] Box<Scalar> box() const noexcept;
   /// Returns the memory that the scene has allocated, without its colliders, in bytes.
   [[nodiscard]] std::size_t memory_bytes() const noexcept;

@@ -73,8 +73,10 @@ void set_integer(CompactInt<B>& out, Scalar x, const BinaryUnit& unit) {
 template <typename Size>
 using Differences = IntVector<typename Size::template Int<Bits<Size>::difference>>;
 
+/// It is not inlined, because each copy of it would take stack.
 template <typename Int, typename Scalar>
-void set_difference(IntVector<Int>& out, const Vector3<Scalar>& x, const Vector3<Scalar>& y, const BinaryUnit& unit) {
+[[gnu::noinline]] void set_difference(IntVector<Int>& out, const Vector3<Scalar>& x, const Vector3<Scalar>& y,
+                                      const BinaryUnit& unit) {
   Int subtrahend;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
@@ -204,6 +206,12 @@ template <int B, typename Scalar>
 struct Factor<WideInt<B>, Scalar> {
   using Entry = WideInt<128 + std::numeric_limits<Scalar>::digits>;
   using Coordinate = WideInt<AnySize<Scalar>::coordinate + 1>;
+  using Share = WideInt<1 - Decomposed<Scalar>::min_exponent>;  // A share is at most 1.
+  static Share share(Scalar x, const BinaryUnit& unit) {
+    Share out;
+    set_integer(out, x, unit);
+    return out;
+  }
   static Entry entry(Scalar x, const BinaryUnit& unit) {
     Entry out;
     set_integer(out, x, unit);
@@ -223,6 +231,7 @@ struct Factor<CompactInt<B>, Scalar> {
   static std::int64_t entry(Scalar x, const BinaryUnit& unit) {
     return static_cast<std::int64_t>(std::ldexp(double{x}, -unit.exponent));
   }
+  static std::int64_t share(Scalar x, const BinaryUnit& unit) { return entry(x, unit); }
   static std::int64_t coordinate(Scalar x, Scalar y, const BinaryUnit& unit) { return entry(x, unit) - entry(y, unit); }
 };
 
@@ -255,7 +264,7 @@ template <typename Int, typename Scalar>
   set_direction(d, path, scale);
   if (path.kind == PathKind::segment && triangle.placement.moves) {
     const int exponent = units.motion.exponent + units.share.exponent - scale.points.exponent;
-    const auto share = Factor<Int, Scalar>::entry(triangle.share, units.share);
+    const auto share = Factor<Int, Scalar>::share(triangle.share, units.share);
     for (std::size_t i = 0; i < 3; ++i) {
       const Scalar motion = triangle.placement.motion[static_cast<Eigen::Index>(i)];
       add_product(d[i], share, Factor<Int, Scalar>::coordinate(motion, 0, units.motion), exponent, true);

@@ -18,12 +18,14 @@ struct AnySize {
   using Int = WideInt<B>;
 };
 
-/// The integers for any coordinates of placed triangles: sums of products with the entries of a pose. These are between
-/// 2^-64 and 2^64, and so is the share of a motion that is not below 2^-64.
+/// The integers for any coordinates of placed triangles: sums of products with the entries of a pose, which are between
+/// 2^-64 and 2^64, and of a motion with a share of at most 1.
 template <typename Scalar>
 struct PlacedSize {
   static constexpr int max_exponent = std::numeric_limits<Scalar>::max_exponent + 68;
-  static constexpr int min_exponent = Decomposed<Scalar>::min_exponent - 64 - std::numeric_limits<Scalar>::digits;
+  static constexpr int min_exponent =
+      Decomposed<Scalar>::min_exponent +
+      std::min(-64 - std::numeric_limits<Scalar>::digits, Decomposed<Scalar>::min_exponent);
   static constexpr int coordinate = max_exponent - min_exponent;
   template <int B>
   using Int = WideInt<B>;

@@ -111,8 +111,7 @@ template <typename Scalar>
   const Path<Scalar> path = segment;
   if (!detail::is_finite(path) || !std::isfinite(hit.t)) return segment.start;
   const Scalar ulp = std::nextafter(hit.t, std::numeric_limits<Scalar>::infinity()) - hit.t;
-  // The exact stage takes shares of a motion from 2^-64 on.
-  for (Scalar back = ulp; hit.t - back >= Scalar(0x1p-64); back *= 2) {
+  for (Scalar back = ulp; hit.t - back > 0; back *= 2) {
     const Scalar s = hit.t - back;
     const Segment<Scalar> free{segment.start, detail::exact_point(path, s)};
     SceneQueryOptions<Scalar> shortened = options;
