@@ -149,7 +149,7 @@ TYPED_TEST(PlacedTriangleOf, box_of_translated_instances_is_the_smallest) {
   const auto moving = scene.add(collider, Pose<TypeParam>::translated({-5, 0, 0}));
   scene.set_motion(moving, {0, -7, 100});
   scene.commit();
-  const TypeParam few = 8 * std::numeric_limits<TypeParam>::epsilon();
+  const TypeParam few = 256 * std::numeric_limits<TypeParam>::epsilon();
   const auto box = scene.box();
   EXPECT_TRUE(box.low.isApprox(Vector3<TypeParam>{-5, -7, 0}, few)) << box.low;
   EXPECT_TRUE(box.high.isApprox(Vector3<TypeParam>{11, 21, 102}, few)) << box.high;
