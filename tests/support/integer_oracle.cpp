@@ -87,9 +87,9 @@ struct IntegerContact {
 
 /// Coordinates and their differences are Narrow, products of them Wide.
 template <typename Narrow, typename Wide>
-class IntegerPair {
+class NarrowPair {
  public:
-  IntegerPair(const DyadicPair& pair, PathKind kind)
+  NarrowPair(const DyadicPair& pair, PathKind kind)
       : has_start_(kind != PathKind::line), has_end_(kind == PathKind::segment) {
     const auto point = [&](std::size_t i) {
       NarrowVector scaled;
@@ -290,13 +290,13 @@ bool is_right(const Path<Scalar>& path, const Triangle<Scalar>& triangle, const 
   const DyadicPair dyadic(path, triangle);
   if constexpr (sizeof(Scalar) == sizeof(float)) {
     if (dyadic.bits() <= max_bits_across) {
-      IntegerPair<std::int64_t, Int128> pair(dyadic, path.kind);
+      NarrowPair<std::int64_t, Int128> pair(dyadic, path.kind);
       if (!pair.is_in_plane() || dyadic.bits() <= max_bits_in_plane) {
         if (const auto agreement = agree(pair.contact(), answer)) return *agreement;
       }
     }
   }
-  return *agree(IntegerPair<mpz_class, mpz_class>(dyadic, path.kind).contact(), answer);
+  return *agree(NarrowPair<mpz_class, mpz_class>(dyadic, path.kind).contact(), answer);
 }
 
 template bool is_right(const Path<float>&, const Triangle<float>&, const std::optional<Hit<float>>&);
