@@ -25,6 +25,10 @@
 namespace surehit {
 
 namespace detail {
+/// A type of which nothing can be made.
+struct NoCollider {
+  NoCollider() = delete;
+};
 /// What a scene holds behind its pointer.
 template <FloatOrDouble Scalar>
 struct SceneState;
@@ -57,8 +61,9 @@ class SUREHIT_API Scene {
  public:
   /// A shared collider of the scene's own Scalar.
   using ColliderPointer = std::shared_ptr<const Collider<Scalar>>;
-  /// A shared collider of floats.
-  using FloatColliderPointer = std::shared_ptr<const Collider<float>>;
+  /// A shared collider of floats, for a scene of doubles. In a scene of floats, nothing is of this type.
+  using FloatColliderPointer =
+      std::conditional_t<std::same_as<Scalar, double>, std::shared_ptr<const Collider<float>>, detail::NoCollider>;
 
   /// Makes a scene without instances. Every query misses. Allocates nothing.
   Scene() noexcept = default;
@@ -74,7 +79,7 @@ class SUREHIT_API Scene {
   InstanceResult try_add(ColliderPointer collider, const Pose<Scalar>& pose = {}, const InstanceOptions& options = {});
   /// Does the same for a mesh of floats in a scene of doubles.
   InstanceResult try_add(FloatColliderPointer collider, const Pose<Scalar>& pose = {},
-                         const InstanceOptions& options = {}) requires std::same_as<Scalar, double>;
+                         const InstanceOptions& options = {});
 
   /// Removes an instance. Fails for a stale id.
   InstanceResult try_remove(InstanceId id);
@@ -94,8 +99,7 @@ class SUREHIT_API Scene {
     return id_of(try_add(std::move(collider), pose, options));
   }
   /// Does the same for a mesh of floats in a scene of doubles.
-  InstanceId add(FloatColliderPointer collider, const Pose<Scalar>& pose = {},
-                 const InstanceOptions& options = {}) requires std::same_as<Scalar, double> {
+  InstanceId add(FloatColliderPointer collider, const Pose<Scalar>& pose = {}, const InstanceOptions& options = {}) {
     return id_of(try_add(std::move(collider), pose, options));
   }
   /// Removes an instance as `try_remove` does. Throws the InvalidInstance that it would return.
@@ -198,8 +202,8 @@ class SUREHIT_API Scene {
   }
 #endif
   /// Adds an instance of that one of the two colliders that is not null.
-  InstanceResult add_instance(ColliderPointer collider, FloatColliderPointer float_collider, const Pose<Scalar>& pose,
-                              const InstanceOptions& options);
+  InstanceResult add_instance(ColliderPointer collider, std::shared_ptr<const Collider<float>> float_collider,
+                              const Pose<Scalar>& pose, const InstanceOptions& options);
   /// Returns the state, or that of an empty scene.
   [[nodiscard]] const detail::SceneState<Scalar>& state() const noexcept;
 

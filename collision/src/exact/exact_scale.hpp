@@ -201,9 +201,9 @@ void add_product(CompactInt<Out>& out, std::int64_t a, std::int64_t b, int expon
 
 /// The integers of one number, of the sizes that `add_product` multiplies.
 template <typename Int, typename Scalar>
-struct Factor;
+struct PlacedFactor;
 template <int B, typename Scalar>
-struct Factor<WideInt<B>, Scalar> {
+struct PlacedFactor<WideInt<B>, Scalar> {
   using Entry = WideInt<128 + std::numeric_limits<Scalar>::digits>;
   using Coordinate = WideInt<AnySize<Scalar>::coordinate + 1>;
   using Share = WideInt<1 - Decomposed<Scalar>::min_exponent>;  // A share is at most 1.
@@ -227,7 +227,7 @@ struct Factor<WideInt<B>, Scalar> {
   }
 };
 template <int B, typename Scalar>
-struct Factor<CompactInt<B>, Scalar> {
+struct PlacedFactor<CompactInt<B>, Scalar> {
   static std::int64_t entry(Scalar x, const BinaryUnit& unit) {
     return static_cast<std::int64_t>(std::ldexp(double{x}, -unit.exponent));
   }
@@ -242,11 +242,11 @@ void add_image(IntVector<Int>& out, const PlacedTriangle<Scalar>& triangle, cons
   if (units.linear.is_empty() || units.corners.is_empty()) return;
   const int exponent = units.linear.exponent + units.corners.exponent - points.exponent;
   for (Eigen::Index column = 0; column < 3; ++column) {
-    const auto coordinate = Factor<Int, Scalar>::coordinate(x[column], y[column], units.corners);
+    const auto coordinate = PlacedFactor<Int, Scalar>::coordinate(x[column], y[column], units.corners);
     for (std::size_t row = 0; row < 3; ++row) {
       const Scalar entry = triangle.placement.pose.linear(static_cast<Eigen::Index>(row), column);
       if (entry == 0) continue;
-      add_product(out[row], Factor<Int, Scalar>::entry(entry, units.linear), coordinate, exponent, subtract);
+      add_product(out[row], PlacedFactor<Int, Scalar>::entry(entry, units.linear), coordinate, exponent, subtract);
     }
   }
 }
@@ -264,10 +264,10 @@ template <typename Int, typename Scalar>
   set_direction(d, path, scale);
   if (path.kind == PathKind::segment && triangle.placement.moves) {
     const int exponent = units.motion.exponent + units.share.exponent - scale.points.exponent;
-    const auto share = Factor<Int, Scalar>::share(triangle.share, units.share);
+    const auto share = PlacedFactor<Int, Scalar>::share(triangle.share, units.share);
     for (std::size_t i = 0; i < 3; ++i) {
       const Scalar motion = triangle.placement.motion[static_cast<Eigen::Index>(i)];
-      add_product(d[i], share, Factor<Int, Scalar>::coordinate(motion, 0, units.motion), exponent, true);
+      add_product(d[i], share, PlacedFactor<Int, Scalar>::coordinate(motion, 0, units.motion), exponent, true);
     }
   }
   for (Int& x : e1) x = Int();

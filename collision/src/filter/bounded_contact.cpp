@@ -46,7 +46,8 @@ PairVectors vectors_of(const Path<Scalar>& path, const Triangle<Scalar>& triangl
 /// Returns the vectors of a placed triangle, with the path as the instance sees it.
 template <typename Scalar>
 PairVectors vectors_of(const Path<Scalar>& path, const PlacedTriangle<Scalar>& triangle) {
-  const auto& [local, placement, share] = triangle;
+  const Triangle<Scalar>& local = triangle.local;
+  const Placement<Scalar>& placement = triangle.placement;
   const auto image = [&](const BoundedVector& x) {
     BoundedVector y;
     for (std::size_t row = 0; row < 3; ++row) {
@@ -64,7 +65,8 @@ PairVectors vectors_of(const Path<Scalar>& path, const PlacedTriangle<Scalar>& t
   for (std::size_t axis = 0; axis < 3; ++axis) {
     vectors.s[axis] = from_origin[axis] - corner[axis];
     if (!placement.moves || !path.has_end()) continue;
-    vectors.d[axis] = vectors.d[axis] - exact(share) * exact(placement.motion[static_cast<Eigen::Index>(axis)]);
+    vectors.d[axis] =
+        vectors.d[axis] - exact(triangle.share) * exact(placement.motion[static_cast<Eigen::Index>(axis)]);
   }
   return vectors;
 }

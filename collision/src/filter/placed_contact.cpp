@@ -10,17 +10,14 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using OneLane = hn::CappedTag<double, 1>;
-using OneVector = HWY_NAMESPACE::Vectors<OneLane>;
+/// A vector of one lane, since a scene has one pair at a time here.
+using PairLane = hn::CappedTag<double, 1>;
 
-OneVector lane_of(double x, double y, double z) {
-  const OneLane d;
-  return {hn::Set(d, x), hn::Set(d, y), hn::Set(d, z)};
-}
-
-template <typename Scalar>
-OneVector lane_of(const Vector3<Scalar>& x) {
-  return lane_of(x[0], x[1], x[2]);
+/// Returns a vector of three doubles, or of three Scalars.
+template <typename Vector>
+HWY_NAMESPACE::Vectors<PairLane> in_pair_lane(const Vector& x) {
+  const PairLane d;
+  return {hn::Set(d, double{x[0]}), hn::Set(d, double{x[1]}), hn::Set(d, double{x[2]})};
 }
 
 }  // namespace
@@ -29,14 +26,14 @@ template <typename Scalar>
 BoundedContact placed_contact(const PlacedPath<Scalar>& path, bool is_mirrored, const Triangle<Scalar>& local) {
   BoundedContact result;
   if (path.status != PlacedPath<Scalar>::Status::near) return result;
-  const OneLane d;
+  const PairLane d;
   constexpr double eps = 0x1p-53;
-  const auto& [start, direction, moved_t, position_error] = path.moved;
-  const HWY_NAMESPACE::PathSlack<OneLane> slack{hn::Set(d, path.start_error / (8 * eps)),
-                                                hn::Set(d, path.direction_error / (8 * eps))};
-  const HWY_NAMESPACE::DoubleDeterminants<OneLane> of(d, lane_of(start[0], start[1], start[2]),
-                                                      lane_of(direction[0], direction[1], direction[2]),
-                                                      lane_of(local.a), lane_of(local.b), lane_of(local.c), slack);
+  const double moved_t = path.moved.moved_t;
+  const HWY_NAMESPACE::PathSlack<PairLane> slack{hn::Set(d, path.start_error / (8 * eps)),
+                                                 hn::Set(d, path.direction_error / (8 * eps))};
+  const HWY_NAMESPACE::DoubleDeterminants<PairLane> of(d, in_pair_lane(path.moved.start),
+                                                       in_pair_lane(path.moved.direction), in_pair_lane(local.a),
+                                                       in_pair_lane(local.b), in_pair_lane(local.c), slack);
   const auto number = [](auto lane) { return hn::GetLane(lane); };
   const auto bounded = [&](double value, double sizes) { return Bounded{value, number(of.radius(hn::Set(d, sizes)))}; };
   const double det = number(of.det), u = number(of.u), v = number(of.v);

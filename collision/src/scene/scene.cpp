@@ -140,7 +140,8 @@ const State<Scalar>& Scene<Scalar>::state() const noexcept {
 }
 
 template <FloatOrDouble Scalar>
-InstanceResult Scene<Scalar>::add_instance(ColliderPointer collider, FloatColliderPointer float_collider,
+InstanceResult Scene<Scalar>::add_instance(ColliderPointer collider,
+                                           std::shared_ptr<const Collider<float>> float_collider,
                                            const Pose<Scalar>& pose, const InstanceOptions& options) {
   const FloatingPointEnvironment environment;
   if (!collider && !float_collider) {
@@ -185,8 +186,12 @@ InstanceResult Scene<Scalar>::try_add(ColliderPointer collider, const Pose<Scala
 
 template <FloatOrDouble Scalar>
 InstanceResult Scene<Scalar>::try_add(FloatColliderPointer collider, const Pose<Scalar>& pose,
-                                      const InstanceOptions& options) requires std::same_as<Scalar, double> {
-  return add_instance(nullptr, std::move(collider), pose, options);
+                                      const InstanceOptions& options) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    return add_instance(nullptr, std::move(collider), pose, options);
+  } else {
+    return add_instance(nullptr, nullptr, pose, options);  // No one can call it.
+  }
 }
 
 template <FloatOrDouble Scalar>
