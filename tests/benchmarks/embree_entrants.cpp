@@ -23,29 +23,10 @@ class EmbreeSingle : public EmbreeContender {
   using EmbreeContender::EmbreeContender;
 
   void first(const PathBatch& paths, std::span<Hitf> hits) const override {
-    const FlushedDenormals flushed;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      RTCRayHit query;
-      query.ray = ray_along(paths.segments()[i]);
-      query.hit.primID = RTC_INVALID_GEOMETRY_ID;
-      query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(scene_.handle(), &context, &query);
-      hits[i].t = query.ray.tfar;
-      hits[i].triangle = query.hit.primID;
-    }
+    first_hits_of_rays(scene_.handle(), paths, hits);
   }
-
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
-    const FlushedDenormals flushed;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      RTCRay ray = ray_along(paths.segments()[i]);
-      rtcOccluded1(scene_.handle(), &context, &ray);
-      blocked[i] = ray.tfar < 0 ? 1 : 0;
-    }
+    any_hits_of_rays(scene_.handle(), paths, blocked);
   }
 };
 

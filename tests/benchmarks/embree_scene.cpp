@@ -30,6 +30,33 @@ RTCRay ray_along(const Segmentf& segment) {
   return ray;
 }
 
+void first_hits_of_rays(RTCScene scene, const PathBatch& paths, std::span<Hitf> hits) {
+  const FlushedDenormals flushed;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    RTCRayHit query;
+    query.ray = ray_along(paths.segments()[i]);
+    query.hit.primID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &query);
+    hits[i].t = query.ray.tfar;
+    hits[i].triangle = query.hit.primID;
+  }
+}
+
+void any_hits_of_rays(RTCScene scene, const PathBatch& paths, std::span<std::uint8_t> blocked) {
+  const FlushedDenormals flushed;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    RTCRay ray = ray_along(paths.segments()[i]);
+    rtcOccluded1(scene, &context, &ray);
+    blocked[i] = ray.tfar < 0 ? 1 : 0;
+  }
+}
+
 EmbreeScene::EmbreeScene(EmbreeMode mode) : mode_(mode), device_(rtcNewDevice("threads=1,set_affinity=0")) {
   throw_on_error();
   const auto count = [](void* bytes, ssize_t change, bool) {

@@ -4,8 +4,13 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <surehit/hit.hpp>
 #include <surehit/path.hpp>
 #include <surehit/triangle_mesh_view.hpp>
+
+#include "path_batch.hpp"
 
 namespace surehit::benchmark {
 
@@ -23,6 +28,11 @@ class FlushedDenormals {
 
 /// Returns the ray whose t goes from 0 at the start to 1 at the end.
 [[nodiscard]] RTCRay ray_along(const Segmentf& segment);
+
+/// Sets t and the triangle of each hit, a ray at a time. Of an instance, the triangle is that of its mesh.
+void first_hits_of_rays(RTCScene scene, const PathBatch& paths, std::span<Hitf> hits);
+/// Sets what is blocked, a ray at a time.
+void any_hits_of_rays(RTCScene scene, const PathBatch& paths, std::span<std::uint8_t> blocked);
 
 struct EmbreeMode {
   bool robust;

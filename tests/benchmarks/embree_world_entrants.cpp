@@ -44,31 +44,9 @@ class EmbreeWorld : public WorldContender {
     throw_on_error();
   }
 
-  void first(const PathBatch& paths, std::span<Hitf> hits) override {
-    const FlushedDenormals flushed;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      RTCRayHit query;
-      query.ray = ray_along(paths.segments()[i]);
-      query.hit.primID = RTC_INVALID_GEOMETRY_ID;
-      query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(scene_, &context, &query);
-      hits[i].t = query.ray.tfar;
-      hits[i].triangle = query.hit.primID;
-    }
-  }
-
+  void first(const PathBatch& paths, std::span<Hitf> hits) override { first_hits_of_rays(scene_, paths, hits); }
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) override {
-    const FlushedDenormals flushed;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      RTCRay ray = ray_along(paths.segments()[i]);
-      rtcOccluded1(scene_, &context, &ray);
-      blocked[i] = ray.tfar < 0 ? 1 : 0;
-    }
+    any_hits_of_rays(scene_, paths, blocked);
   }
 
  private:
