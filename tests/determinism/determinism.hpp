@@ -3,17 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "answers.hpp"
 #include "support/instruction_sets.hpp"
 #include "support/pair_text.hpp"
+#include "support/threads.hpp"
 
 namespace surehit::test {
 
@@ -57,7 +56,7 @@ class Determinism {
   void expect_same_of_any_number_of_threads() const {
     for (std::size_t count = 1; count <= 8; ++count) {
       SCOPED_TRACE(std::to_string(count) + " threads");
-      const auto threads = [count](std::size_t tasks, const Executor::Task& task) { run(count, tasks, task); };
+      const Threads threads(count);
       const Executor executor = threads;
       Collider<Scalar> collider;
       ASSERT_TRUE(collider.try_build(mesh_, {{}, masks_, executor}));
@@ -81,17 +80,6 @@ class Determinism {
   }
 
  private:
-  static void run(std::size_t thread_count, std::size_t task_count, const Executor::Task& task) {
-    std::atomic<std::size_t> next = 0;
-    std::vector<std::thread> threads;
-    for (std::size_t i = 0; i < thread_count; ++i) {
-      threads.emplace_back([&] {
-        for (std::size_t index = next++; index < task_count; index = next++) task(index);
-      });
-    }
-    for (std::thread& thread : threads) thread.join();
-  }
-
   [[nodiscard]] Collider<Scalar> built(const GridOptions& grid) const {
     return Collider<Scalar>(mesh_, {grid, masks_});
   }

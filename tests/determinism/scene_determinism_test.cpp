@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cinttypes>
 #include <cstddef>
 #include <cstdint>
@@ -8,13 +7,13 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "hard_scene.hpp"
 #include "support/case_count.hpp"
 #include "support/instruction_sets.hpp"
 #include "support/scalars.hpp"
+#include "support/threads.hpp"
 
 namespace surehit::test {
 namespace {
@@ -29,17 +28,6 @@ class SceneDeterminism : public testing::Test {
   [[nodiscard]] std::uint64_t hash_of(const Scene<Scalar>& scene, const std::optional<Executor>& executor = {},
                                       std::size_t batch = std::size_t{1} << 30) const {
     return SceneAnswers<Scalar>(scene, some_paths(), executor, batch).hash();
-  }
-
-  static void run(std::size_t thread_count, std::size_t task_count, const Executor::Task& task) {
-    std::atomic<std::size_t> next = 0;
-    std::vector<std::thread> threads;
-    for (std::size_t i = 0; i < thread_count; ++i) {
-      threads.emplace_back([&] {
-        for (std::size_t index = next++; index < task_count; index = next++) task(index);
-      });
-    }
-    for (std::thread& thread : threads) thread.join();
   }
 
   HardScene<Scalar> hard;
@@ -68,9 +56,7 @@ TYPED_TEST(SceneDeterminism, answers_are_the_same_of_any_number_of_threads) {
   const std::uint64_t expected = this->hash_of(this->hard.scene());
   for (const std::size_t count : {1U, 2U, 8U}) {
     SCOPED_TRACE(std::to_string(count) + " threads");
-    const auto threads = [count](std::size_t tasks, const Executor::Task& task) {
-      TestFixture::run(count, tasks, task);
-    };
+    const Threads threads(count);
     auto scene = this->hard.scene();
     for (const InstanceId id : scene.instances()) scene.set_pose(id, Pose<TypeParam>(scene.pose(id)));
     scene.commit(Executor(threads));

@@ -14,6 +14,7 @@
 #include "support/same_bits.hpp"
 #include "support/scalars.hpp"
 #include "support/scene_drawer.hpp"
+#include "support/threads.hpp"
 #include "surehit/executor.hpp"
 
 namespace surehit::test {
@@ -52,17 +53,6 @@ class SceneThreads : public testing::Test {
     return drawn;
   }
 
-  static void run(std::size_t thread_count, std::size_t task_count, const Executor::Task& task) {
-    std::atomic<std::size_t> next = 0;
-    std::vector<std::thread> threads;
-    for (std::size_t i = 0; i < thread_count; ++i) {
-      threads.emplace_back([&] {
-        for (std::size_t index = next++; index < task_count; index = next++) task(index);
-      });
-    }
-    for (std::thread& thread : threads) thread.join();
-  }
-
   [[nodiscard]] Answers answers_of(const Scene<Scalar>& scene, const std::optional<Executor>& executor = {}) const {
     Answers answers{Hits(segments_.size()), std::vector<std::uint8_t>(segments_.size()), {}};
     scene.first_hits(segments_, answers.hits, {.executor = executor, .statistics = &answers.statistics});
@@ -90,9 +80,7 @@ TYPED_TEST(SceneThreads, batches_are_the_same_on_any_number_of_threads) {
   const auto expected = this->answers_of(this->judged_.scene);
   for (const std::size_t count : {1U, 2U, 8U}) {
     SCOPED_TRACE(std::to_string(count) + " threads");
-    const auto threads = [count](std::size_t tasks, const Executor::Task& task) {
-      TestFixture::run(count, tasks, task);
-    };
+    const Threads threads(count);
     this->expect_same(this->answers_of(this->judged_.scene, threads), expected);
   }
 }
@@ -119,9 +107,7 @@ TYPED_TEST(SceneThreads, commits_are_the_same_on_any_number_of_threads) {
   const auto expected = this->answers_of(this->judged_.scene);
   for (const std::size_t count : {1U, 2U, 8U}) {
     SCOPED_TRACE(std::to_string(count) + " threads");
-    const auto threads = [count](std::size_t tasks, const Executor::Task& task) {
-      TestFixture::run(count, tasks, task);
-    };
+    const Threads threads(count);
     JudgedScene<TypeParam> other(this->drawn_);
     // Away and back again, with a commit after each.
     for (const bool is_back : {false, true}) {
