@@ -44,7 +44,7 @@ class SUREHIT_API InvalidInstance : public std::runtime_error {
     singular_pose,       ///< The exact determinant of `linear` is 0. `element` is 0.
     non_finite_motion,   ///< A coordinate is NaN or infinite. `element` is its axis.
     stale_id,            ///< The instance was removed, or never added. `element` is the index.
-    too_many_instances,  ///< All 2^32 - 1 indices are in use. `element` is the number of instances.
+    too_many_instances,  ///< All 2^31 - 1 indices are in use. `element` is the number of instances.
   };
 
   /// Sets both members. `what()` returns the message. May throw std::bad_alloc.

@@ -22,7 +22,7 @@ struct Pose {
   Matrix3 linear = Matrix3::Identity();                   ///< What turns and stretches the mesh about its origin.
   Vector3<Scalar> translation = Vector3<Scalar>::Zero();  ///< Where the mesh's origin is.
 
-  /// Returns a pose that moves the mesh, and does not turn it. It is faster than other poses.
+  /// Returns a pose that moves the mesh, and does not turn it.
   [[nodiscard]] static Pose translated(const Vector3<Scalar>& translation) {
     return {Matrix3::Identity(), translation};
   }
