@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <cmath>
 #include <cstddef>
-#include <limits>
-#include <mutex>
 #include <new>
 #include <string>
 #include <utility>
 
 #include "collider_state.hpp"
-#include "exact/exact_contact.hpp"
-#include "path_range.hpp"
+#include "query/answer_batch.hpp"
+#include "query/free_point.hpp"
 #include "query/query.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/in_parts.hpp"
@@ -26,9 +23,6 @@ namespace {
 /// The number of paths in a task of a batch. It is so large that the cost of a task is small in comparison. It is so
 /// small that the last tasks end at about the same time.
 constexpr std::size_t paths_in_a_task = 4096;
-
-/// Returns null if there is no executor.
-const Executor* address_of(const std::optional<Executor>& executor) { return executor ? &*executor : nullptr; }
 
 template <typename Scalar>
 using State = detail::ColliderState<Scalar>;
@@ -56,50 +50,27 @@ class SingleQuery {
   detail::Query<Scalar> query_;
 };
 
-/// Tries points before the hit. Each is twice as far back, in t, as the one before it. Returns the first one that the
-/// segment reaches without a hit, or the start of the segment if there is none.
 template <typename Scalar>
-[[gnu::noinline]] Vector3<Scalar> find_free_point(const State<Scalar>& state, const Segment<Scalar>& segment,
-                                                  const Hit<Scalar>& hit, const QueryOptions<Scalar>& options,
-                                                  const HitFilter<Scalar>* filter) noexcept {
-  const FloatingPointEnvironment environment;
-  const Path<Scalar> path = segment;
-  if (!detail::is_finite(path) || !std::isfinite(hit.t)) return segment.start;
-  // Below, s is exact, because it is t minus a multiple of ulp(t).
-  const Scalar ulp = std::nextafter(hit.t, std::numeric_limits<Scalar>::infinity()) - hit.t;
-  for (Scalar back = ulp; hit.t - back > 0; back *= 2) {
-    const Scalar s = hit.t - back;
-    const Segment<Scalar> free{segment.start, detail::exact_point(path, s)};
-    QueryOptions<Scalar> shortened = options;
-    shortened.max_t = std::isnan(options.max_t) ? options.max_t : std::numeric_limits<Scalar>::infinity();
-    if (options.min_t > 0) shortened.min_t = std::nextafter(options.min_t / s, Scalar{0});
-    const SingleQuery<Scalar> query(state, shortened, filter, nullptr);
-    if (!state.searches->any(query.get(), free)) return free.end;
-  }
-  return segment.start;
+Vector3<Scalar> find_free_point(const State<Scalar>& state, const Segment<Scalar>& segment, const Hit<Scalar>& hit,
+                                const QueryOptions<Scalar>& options, const HitFilter<Scalar>* filter) noexcept {
+  return detail::find_free_point(segment, hit.t, options,
+                                 [&](const Path<Scalar>& path, const QueryOptions<Scalar>& shortened, Scalar /*s*/) {
+                                   const SingleQuery<Scalar> query(state, shortened, filter, nullptr);
+                                   return state.searches->any(query.get(), path);
+                                 });
 }
 
-/// Answers a batch in parts, in tasks of the executor. Without an executor, there is one part.
-/// `ask(query, paths, own_options, first)` answers the part that begins with path `first`.
+/// Answers a batch. `ask(query, paths, own_options, first)` answers the part that begins with path `first`.
 template <typename Scalar, typename Ask>
 void answer_batch(const State<Scalar>& state, const PathSpan<Scalar>& paths, std::size_t answers,
                   const BatchOptions<Scalar>& options, const Ask& ask) noexcept {
-  const bool has_own_options = !options.path_options.empty();
-  const std::size_t count =
-      std::min({paths.size(), answers, has_own_options ? options.path_options.size() : paths.size()});
-  if (count == 0) return;
   const HitFilter<Scalar>* const filter = options.filter ? &*options.filter : nullptr;
-  std::mutex mutex;
-  detail::in_parts(address_of(options.executor), count, paths_in_a_task, [&](std::size_t first, std::size_t last) {
-    QueryStatistics statistics;
+  const auto ask_part = [&](std::size_t first, std::size_t last, std::span<const QueryOptions<Scalar>> own_options,
+                            QueryStatistics& statistics) {
     const detail::Query<Scalar> query{state.grid, state.mesh, state.masks, options.options, filter, statistics, first};
-    const auto own_options =
-        has_own_options ? options.path_options.subspan(first, last - first) : std::span<const QueryOptions<Scalar>>();
     ask(query, paths.subspan(first, last - first), own_options, first);
-    if (options.statistics == nullptr) return;
-    const std::lock_guard lock(mutex);
-    *options.statistics += statistics;
-  });
+  };
+  detail::answer_batch(paths, answers, options, paths_in_a_task, ask_part);
 }
 
 BuildResult check_masks(std::span<const std::uint32_t> masks, std::size_t triangle_count) {
@@ -147,10 +118,10 @@ BuildResult Collider<Scalar>::try_build(const TriangleMeshView<Scalar>& mesh, co
   if (BuildResult checked = check_mesh(mesh, options); !checked) return checked;
   StatePointer built(new State<Scalar>);
   built->box = box_of(mesh);
-  built->grid = Grid(mesh, built->box, options.grid, address_of(options.executor));
+  built->grid = Grid(mesh, built->box, options.grid, detail::address_of(options.executor));
   built->masks.assign(options.masks.begin(), options.masks.end());
   built->grid_options = options.grid;
-  built->mesh = MeshBlocks<Scalar>(mesh, built->grid, address_of(options.executor));
+  built->mesh = MeshBlocks<Scalar>(mesh, built->grid, detail::address_of(options.executor));
   built->version = next_version();
   state_ = std::move(built);
   return {};
@@ -163,8 +134,8 @@ BuildResult Collider<Scalar>::try_rebuild(const TriangleMeshView<Scalar>& mesh, 
   if (BuildResult checked = check_mesh(mesh, options); !checked) return checked;
   auto& spare = state_->spare;
   const Box<Scalar> box = box_of(mesh);
-  spare.grid.rebuild(mesh, box, options.grid, spare.scratch, address_of(options.executor));
-  spare.mesh.rebuild(mesh, spare.grid, address_of(options.executor));
+  spare.grid.rebuild(mesh, box, options.grid, spare.scratch, detail::address_of(options.executor));
+  spare.mesh.rebuild(mesh, spare.grid, detail::address_of(options.executor));
   state_->masks.reserve(options.masks.size());
   // Nothing below throws.
   state_->masks.assign(options.masks.begin(), options.masks.end());
@@ -189,8 +160,8 @@ BuildResult Collider<Scalar>::try_rebuild(const VertexView<Scalar>& vertices, co
   if (!state_) return {};  // The mesh has no vertices, and none are given.
   const Box<Scalar> box = box_of(mesh);
   auto& spare = state_->spare;
-  spare.grid.rebuild(mesh, box, state_->grid_options, spare.scratch, address_of(executor));
-  spare.mesh.rebuild(state_->mesh, vertices, spare.grid, address_of(executor));
+  spare.grid.rebuild(mesh, box, state_->grid_options, spare.scratch, detail::address_of(executor));
+  spare.mesh.rebuild(state_->mesh, vertices, spare.grid, detail::address_of(executor));
   std::swap(spare.grid, state_->grid);
   std::swap(spare.mesh, state_->mesh);
   state_->box = box;

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 #include "support/floating_point_environment.hpp"
 #include "surehit/executor.hpp"
 
 namespace surehit::detail {
+
+/// Returns null if there is no executor.
+[[nodiscard]] inline const Executor* address_of(const std::optional<Executor>& executor) {
+  return executor ? &*executor : nullptr;
+}
 
 /// Calls `work(first, last)` for parts of [0, count), each of this `size`, in tasks of the executor. Without an
 /// executor it calls `work` once, for all. Each call has its own FloatingPointEnvironment, because a task may run on

@@ -4,13 +4,14 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <new>
 #include <string>
 #include <utility>
 
 #include "exact/exact_contact.hpp"
-#include "path_range.hpp"
+#include "query/answer_batch.hpp"
+#include "query/free_point.hpp"
+#include "scene/invalid_pose.hpp"
 #include "scene/scene_state.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/in_parts.hpp"
@@ -20,42 +21,11 @@
 namespace surehit {
 namespace {
 
-/// The number of paths in a task of a batch, and of instances in a task of a commit.
-constexpr std::size_t paths_in_a_task = 1024;
-constexpr std::size_t instances_in_a_task = 1024;
+/// The number of paths in a task of a batch. Paths of a scene take longer than those of a collider.
+constexpr std::size_t scene_paths_in_a_task = 1024;
 
 template <typename Scalar>
-using State = detail::SceneState<Scalar>;
-
-const Executor* address_of(const std::optional<Executor>& executor) { return executor ? &*executor : nullptr; }
-
-/// Returns the name of an entry of [linear | translation].
-std::string name_of_entry(std::size_t row, std::size_t column) {
-  return column == 3 ? "translation[" + std::to_string(row) + "]"
-                     : "linear(" + std::to_string(row) + ", " + std::to_string(column) + ")";
-}
-
-template <typename Scalar>
-std::optional<InvalidInstance> find_invalid(const Pose<Scalar>& pose) {
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 4; ++column) {
-      const auto i = static_cast<Eigen::Index>(row);
-      const Scalar entry = column == 3 ? pose.translation[i] : pose.linear(i, static_cast<Eigen::Index>(column));
-      const auto invalid = [&](InvalidInstance::Reason reason, const char* what) {
-        return InvalidInstance(reason, 4 * row + column, "pose: " + name_of_entry(row, column) + " " + what);
-      };
-      if (!std::isfinite(entry)) return invalid(InvalidInstance::Reason::non_finite_pose, "is not finite");
-      const Scalar size = std::fabs(entry);
-      if (column < 3 && size != 0 && !(size >= Scalar(0x1p-64) && size <= Scalar(0x1p64))) {
-        return invalid(InvalidInstance::Reason::pose_out_of_range, "is neither 0 nor between 2^-64 and 2^64 in size");
-      }
-    }
-  }
-  if (detail::is_singular<Scalar>(pose.linear)) {
-    return InvalidInstance(InvalidInstance::Reason::singular_pose, 0, "pose: the determinant of linear is 0");
-  }
-  return std::nullopt;
-}
+using SceneStateOf = detail::SceneState<Scalar>;
 
 InvalidInstance stale(InstanceId id) {
   return {InvalidInstance::Reason::stale_id, id.index,
@@ -65,10 +35,10 @@ InvalidInstance stale(InstanceId id) {
 
 /// A query of one path, with what it needs while it runs.
 template <typename Scalar>
-class SingleQuery {
+class SingleSceneQuery {
  public:
-  SingleQuery(const State<Scalar>& state, const SceneQueryOptions<Scalar>& options,
-              const SceneHitFilter<Scalar>* filter, QueryStatistics* statistics, Scalar share = 1)
+  SingleSceneQuery(const SceneStateOf<Scalar>& state, const SceneQueryOptions<Scalar>& options,
+                   const SceneHitFilter<Scalar>* filter, QueryStatistics* statistics, Scalar share = 1)
       : query_{state.committed, state.tree, options, filter, statistics != nullptr ? *statistics : unread_, 0, share} {}
   [[nodiscard]] const detail::SceneQuery<Scalar>& get() const { return query_; }
 
@@ -78,64 +48,46 @@ class SingleQuery {
   detail::SceneQuery<Scalar> query_;
 };
 
-/// Answers a batch in parts, in tasks of the executor. `ask(query, path, index)` answers one path.
+/// Answers a batch. `ask(query, path, index)` answers one path.
 template <typename Scalar, typename Ask>
-void answer_batch(const State<Scalar>& state, const PathSpan<Scalar>& paths, std::size_t answers,
+void answer_batch(const SceneStateOf<Scalar>& state, const PathSpan<Scalar>& paths, std::size_t answers,
                   const SceneBatchOptions<Scalar>& options, const Ask& ask) noexcept {
-  const bool has_own_options = !options.path_options.empty();
-  const std::size_t count =
-      std::min({paths.size(), answers, has_own_options ? options.path_options.size() : paths.size()});
-  if (count == 0) return;
   const SceneHitFilter<Scalar>* const filter = options.filter ? &*options.filter : nullptr;
-  std::mutex mutex;
-  detail::in_parts(address_of(options.executor), count, paths_in_a_task, [&](std::size_t first, std::size_t last) {
-    QueryStatistics statistics;
+  const auto ask_part = [&](std::size_t first, std::size_t last, std::span<const SceneQueryOptions<Scalar>> own_options,
+                            QueryStatistics& statistics) {
     for (std::size_t i = first; i < last; ++i) {
-      const detail::SceneQuery<Scalar> query{
-          state.committed, state.tree, has_own_options ? options.path_options[i] : options.options,
-          filter,          statistics, i};
-      ask(query, paths[i], i);
+      const auto& its_options = own_options.empty() ? options.options : own_options[i - first];
+      ask(detail::SceneQuery<Scalar>{state.committed, state.tree, its_options, filter, statistics, i}, paths[i], i);
     }
-    if (options.statistics == nullptr) return;
-    const std::lock_guard lock(mutex);
-    *options.statistics += statistics;
-  });
+  };
+  detail::answer_batch(paths, answers, options, scene_paths_in_a_task, ask_part);
 }
 
-/// Does what `find_free_point` of a collider does. The instances go the same share of their ways as the point.
+/// The instances go the same share of their ways as the point.
 template <typename Scalar>
-[[gnu::noinline]] Vector3<Scalar> find_free_point(const State<Scalar>& state, const Segment<Scalar>& segment,
-                                                  const SceneHit<Scalar>& hit, const SceneQueryOptions<Scalar>& options,
-                                                  const SceneHitFilter<Scalar>* filter) noexcept {
-  const FloatingPointEnvironment environment;
-  const Path<Scalar> path = segment;
-  if (!detail::is_finite(path) || !std::isfinite(hit.t)) return segment.start;
-  const Scalar ulp = std::nextafter(hit.t, std::numeric_limits<Scalar>::infinity()) - hit.t;
-  for (Scalar back = ulp; hit.t - back > 0; back *= 2) {
-    const Scalar s = hit.t - back;
-    const Segment<Scalar> free{segment.start, detail::exact_point(path, s)};
-    SceneQueryOptions<Scalar> shortened = options;
-    shortened.max_t = std::isnan(options.max_t) ? options.max_t : std::numeric_limits<Scalar>::infinity();
-    if (options.min_t > 0) shortened.min_t = std::nextafter(options.min_t / s, Scalar{0});
-    const SingleQuery<Scalar> query(state, shortened, filter, nullptr, s);
-    if (!state.searches->any(query.get(), free)) return free.end;
-  }
-  return segment.start;
+Vector3<Scalar> find_free_point(const SceneStateOf<Scalar>& state, const Segment<Scalar>& segment,
+                                const SceneHit<Scalar>& hit, const SceneQueryOptions<Scalar>& options,
+                                const SceneHitFilter<Scalar>* filter) noexcept {
+  return detail::find_free_point(segment, hit.t, options,
+                                 [&](const Path<Scalar>& path, const SceneQueryOptions<Scalar>& shortened, Scalar s) {
+                                   const SingleSceneQuery<Scalar> query(state, shortened, filter, nullptr, s);
+                                   return state.searches->any(query.get(), path);
+                                 });
 }
 
 }  // namespace
 
 template <FloatOrDouble Scalar>
-void detail::DeleteSceneState<Scalar>::operator()(State<Scalar>* state) const noexcept {
+void detail::DeleteSceneState<Scalar>::operator()(SceneStateOf<Scalar>* state) const noexcept {
   delete state;
 }
 
 template <FloatOrDouble Scalar>
-const State<Scalar>& Scene<Scalar>::state() const noexcept {
+const SceneStateOf<Scalar>& Scene<Scalar>::state() const noexcept {
   if (state_) return *state_;
   // It is never destroyed, because a scene may be asked until the program ends.
-  alignas(State<Scalar>) static std::byte memory[sizeof(State<Scalar>)];
-  static const State<Scalar>& empty = *new (memory) State<Scalar>;
+  alignas(SceneStateOf<Scalar>) static std::byte memory[sizeof(SceneStateOf<Scalar>)];
+  static const SceneStateOf<Scalar>& empty = *new (memory) SceneStateOf<Scalar>;
   return empty;
 }
 
@@ -147,8 +99,8 @@ InstanceResult Scene<Scalar>::add_instance(ColliderPointer collider,
   if (!collider && !float_collider) {
     return InvalidInstance(InvalidInstance::Reason::no_collider, 0, "the pointer to the collider is null");
   }
-  if (std::optional<InvalidInstance> invalid = find_invalid(pose)) return *std::move(invalid);
-  if (!state_) state_ = StatePointer(new State<Scalar>);
+  if (std::optional<InvalidInstance> invalid = detail::find_invalid(pose)) return *std::move(invalid);
+  if (!state_) state_ = StatePointer(new SceneStateOf<Scalar>);
   auto& pending = state_->pending;
   if (state_->unused.empty()) {
     // An index is below the bit of the tree that marks an instance.
@@ -211,7 +163,7 @@ InstanceResult Scene<Scalar>::try_set_pose(InstanceId id, const Pose<Scalar>& po
   const FloatingPointEnvironment environment;
   auto* const instance = state_ ? state_->find(id) : nullptr;
   if (instance == nullptr) return stale(id);
-  if (std::optional<InvalidInstance> invalid = find_invalid(pose)) return *std::move(invalid);
+  if (std::optional<InvalidInstance> invalid = detail::find_invalid(pose)) return *std::move(invalid);
   instance->placement.pose = pose;
   state_->note_change(id.index);
   return id;
@@ -242,84 +194,9 @@ InstanceResult Scene<Scalar>::try_set_mask(InstanceId id, std::uint32_t mask) {
 }
 
 template <FloatOrDouble Scalar>
-void detail::SceneState<Scalar>::commit(const Executor* executor) {
-  // A collider that was rebuilt is a change too. There is room for all indices.
-  for (std::uint32_t index = 0; index < committed.size(); ++index) {
-    if (!pending[index].is_there || pending[index].has_changed) continue;
-    if (pending[index].mesh().version != committed[index].mesh.version) note_change(index);
-  }
-  if (changed.empty()) return;
-
-  // All that may throw comes first.
-  std::vector<CommittedInstance<Scalar>> made(changed.size());
-  in_parts(executor, changed.size(), instances_in_a_task, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const PendingInstance<Scalar>& instance = pending[changed[i]];
-      CommittedInstance<Scalar>& of = made[i];
-      of.generation = instance.generation;
-      if (!instance.is_there) continue;
-      of.mask = instance.options.mask;
-      of.mesh = instance.mesh();
-      of.placed.placement = instance.placement;
-      const auto set_frame = [&](const auto& box) {
-        of.is_in_tree = !box.is_empty();
-        if (!of.is_in_tree) return;
-        const Box<double> mesh_box{box.low.template cast<double>(), box.high.template cast<double>()};
-        of.placed.frame = InstanceFrame::of(of.placed.placement, mesh_box);
-      };
-      of.mesh.own != nullptr ? set_frame(of.mesh.own->box) : set_frame(of.mesh.floats->box);
-    }
-  });
-  bool is_same_tree = !tree.is_worn();
-  for (std::size_t i = 0; i < changed.size() && is_same_tree; ++i) {
-    const bool was_in_tree = changed[i] < committed.size() && committed[changed[i]].is_in_tree;
-    is_same_tree = was_in_tree == made[i].is_in_tree;
-  }
-  committed.reserve(pending.capacity());
-  std::vector<InstanceBox> new_boxes;
-  new_boxes.reserve(pending.capacity());
-  new_boxes = boxes;
-  new_boxes.resize(pending.size());
-  for (std::size_t i = 0; i < changed.size(); ++i) {
-    new_boxes[changed[i]] = {made[i].placed.frame.low, made[i].placed.frame.high};
-  }
-  InstanceTree new_tree;
-  if (!is_same_tree) {
-    std::vector<std::uint8_t> is_in_tree(pending.size(), 0);
-    for (std::size_t i = 0; i < committed.size(); ++i) is_in_tree[i] = committed[i].is_in_tree ? 1 : 0;
-    for (std::size_t i = 0; i < changed.size(); ++i) is_in_tree[changed[i]] = made[i].is_in_tree ? 1 : 0;
-    std::vector<std::uint32_t> indices;
-    for (std::uint32_t i = 0; i < is_in_tree.size(); ++i) {
-      if (is_in_tree[i] != 0) indices.push_back(i);
-    }
-    new_tree.build(indices, new_boxes);
-  }
-
-  // Nothing below throws.
-  committed.resize(pending.size());
-  for (std::size_t i = 0; i < changed.size(); ++i) committed[changed[i]] = made[i];
-  boxes.swap(new_boxes);
-  if (is_same_tree) {
-    tree.refit(boxes);
-  } else {
-    tree = std::move(new_tree);
-  }
-  for (const std::uint32_t index : changed) {
-    PendingInstance<Scalar>& instance = pending[index];
-    instance.has_changed = false;
-    if (instance.is_there || (!instance.collider && !instance.float_collider)) continue;
-    instance.collider.reset();
-    instance.float_collider.reset();
-    // An index whose generations are used up is not used again.
-    if (instance.generation != std::numeric_limits<std::uint32_t>::max()) unused.push_back(index);
-  }
-  changed.clear();
-}
-
-template <FloatOrDouble Scalar>
 void Scene<Scalar>::commit(const std::optional<Executor>& executor) {
   const FloatingPointEnvironment environment;
-  if (state_) state_->commit(address_of(executor));
+  if (state_) state_->commit(detail::address_of(executor));
 }
 
 template <FloatOrDouble Scalar>
@@ -394,7 +271,7 @@ Box<Scalar> Scene<Scalar>::box() const noexcept {
 template <FloatOrDouble Scalar>
 std::size_t Scene<Scalar>::memory_bytes() const noexcept {
   if (!state_) return 0;
-  const State<Scalar>& of = *state_;
+  const SceneStateOf<Scalar>& of = *state_;
   return sizeof of + of.pending.capacity() * sizeof(of.pending[0]) +
          (of.changed.capacity() + of.unused.capacity()) * sizeof(std::uint32_t) +
          of.committed.capacity() * sizeof(of.committed[0]) + of.boxes.capacity() * sizeof(of.boxes[0]) +
@@ -438,7 +315,7 @@ template <FloatOrDouble Scalar>
 std::optional<SceneHit<Scalar>> Scene<Scalar>::first_hit(const Path<Scalar>& path,
                                                          const SceneQueryOptions<Scalar>& options,
                                                          QueryStatistics* statistics) const noexcept {
-  const SingleQuery<Scalar> query(state(), options, nullptr, statistics);
+  const SingleSceneQuery<Scalar> query(state(), options, nullptr, statistics);
   return state().searches->first(query.get(), path);
 }
 
@@ -446,28 +323,28 @@ template <FloatOrDouble Scalar>
 std::optional<SceneHit<Scalar>> Scene<Scalar>::first_hit(const Path<Scalar>& path, SceneHitFilter<Scalar> filter,
                                                          const SceneQueryOptions<Scalar>& options,
                                                          QueryStatistics* statistics) const noexcept {
-  const SingleQuery<Scalar> query(state(), options, &filter, statistics);
+  const SingleSceneQuery<Scalar> query(state(), options, &filter, statistics);
   return state().searches->first(query.get(), path);
 }
 
 template <FloatOrDouble Scalar>
 bool Scene<Scalar>::any_hit(const Path<Scalar>& path, const SceneQueryOptions<Scalar>& options,
                             QueryStatistics* statistics) const noexcept {
-  const SingleQuery<Scalar> query(state(), options, nullptr, statistics);
+  const SingleSceneQuery<Scalar> query(state(), options, nullptr, statistics);
   return state().searches->any(query.get(), path);
 }
 
 template <FloatOrDouble Scalar>
 bool Scene<Scalar>::any_hit(const Path<Scalar>& path, SceneHitFilter<Scalar> filter,
                             const SceneQueryOptions<Scalar>& options, QueryStatistics* statistics) const noexcept {
-  const SingleQuery<Scalar> query(state(), options, &filter, statistics);
+  const SingleSceneQuery<Scalar> query(state(), options, &filter, statistics);
   return state().searches->any(query.get(), path);
 }
 
 template <FloatOrDouble Scalar>
 void Scene<Scalar>::all_hits(const Path<Scalar>& path, std::vector<SceneHit<Scalar>>& hits,
                              const SceneQueryOptions<Scalar>& options, QueryStatistics* statistics) const {
-  const SingleQuery<Scalar> query(state(), options, nullptr, statistics);
+  const SingleSceneQuery<Scalar> query(state(), options, nullptr, statistics);
   hits.clear();
   state().searches->all(query.get(), path, hits);
 }
@@ -476,7 +353,7 @@ template <FloatOrDouble Scalar>
 void Scene<Scalar>::all_hits(const Path<Scalar>& path, std::vector<SceneHit<Scalar>>& hits,
                              SceneHitFilter<Scalar> filter, const SceneQueryOptions<Scalar>& options,
                              QueryStatistics* statistics) const {
-  const SingleQuery<Scalar> query(state(), options, &filter, statistics);
+  const SingleSceneQuery<Scalar> query(state(), options, &filter, statistics);
   hits.clear();
   state().searches->all(query.get(), path, hits);
 }

@@ -212,57 +212,75 @@ HWY_INLINE void search_mesh(const SceneQuery<Scalar>& query, const ColliderState
   walk_mesh(of_mesh, path, visitor);
 }
 
-/// Gives `keep` the hits of a path in a scene, from one instance to the next.
-template <typename Scalar, typename Keep>
-HWY_INLINE void search_scene(const SceneQuery<Scalar>& query, const ScenePath<Scalar>& path,
-                             const SceneNarrowphase<Scalar>& narrowphase, Keep& keep) {
-  ++query.statistics.paths;
-  if (path.range.is_empty() || query.tree.is_empty() || !is_finite(path.path)) return;
-  const auto prefetch = [&](std::uint32_t index) { hwy::Prefetch(&query.instances[index]); };
-  walk_tree(query.tree, path, keep, prefetch, [&](std::uint32_t index) {
-    if (!query.takes_part(index)) return;
-    const CommittedInstance<Scalar>& instance = query.instances[index];
-    const PlacedPath<Scalar> placed(path, instance.placed.placement, instance.placed.frame);
+/// The search of one path in a scene.
+template <typename Scalar>
+class SceneSearch {
+ public:
+  SceneSearch(const SceneQuery<Scalar>& query, const Path<Scalar>& path)
+      : query_(query), range_(path.kind, query.options), path_(path, range_, query.share) {}
+  SceneSearch(const SceneSearch&) = delete;
+  SceneSearch& operator=(const SceneSearch&) = delete;
+
+  /// Returns what decides the path's candidates.
+  [[nodiscard]] const SceneNarrowphase<Scalar>& narrowphase() const { return narrowphase_; }
+
+  /// Gives `keep` the hits of the path, from one instance to the next.
+  template <typename Keep>
+  HWY_INLINE void run(Keep& keep) const {
+    ++query_.statistics.paths;
+    if (range_.is_empty() || query_.tree.is_empty() || !is_finite(path_.path)) return;
+    const auto prefetch = [&](std::uint32_t index) { hwy::Prefetch(&query_.instances[index]); };
+    walk_tree(query_.tree, path_, keep, prefetch, [&](std::uint32_t index) { search_instance(index, keep); });
+  }
+
+ private:
+  template <typename Keep>
+  HWY_INLINE void search_instance(std::uint32_t index, Keep& keep) const {
+    if (!query_.takes_part(index)) return;
+    const CommittedInstance<Scalar>& instance = query_.instances[index];
+    const PlacedPath<Scalar> placed(path_, instance.placed.placement, instance.placed.frame);
     if (placed.status == PlacedPath<Scalar>::Status::beside) return;
-    ++query.statistics.instances;
+    ++query_.statistics.instances;
     if constexpr (std::is_same_v<Scalar, double>) {
       if (instance.mesh.floats != nullptr) {
-        search_mesh(query, *instance.mesh.floats, placed, index, narrowphase, keep);
+        search_mesh(query_, *instance.mesh.floats, placed, index, narrowphase_, keep);
         return;
       }
     }
-    search_mesh(query, *instance.mesh.own, placed, index, narrowphase, keep);
-  });
-}
+    search_mesh(query_, *instance.mesh.own, placed, index, narrowphase_, keep);
+  }
 
+  const SceneQuery<Scalar>& query_;
+  const PathRange<Scalar> range_;
+  const ScenePath<Scalar> path_;
+  const SceneNarrowphase<Scalar> narrowphase_{path_, query_.options, query_.statistics};
+};
+
+/// Returns the first hit of a path.
 template <typename Scalar>
 std::optional<SceneHit<Scalar>> search_scene_first(const SceneQuery<Scalar>& query, const Path<Scalar>& path) noexcept {
-  const PathRange<Scalar> range(path.kind, query.options);
-  const ScenePath<Scalar> scene_path(path, range, query.share);
-  const SceneNarrowphase<Scalar> narrowphase(scene_path, query.options, query.statistics);
-  KeepFirst<Scalar> first(query, narrowphase);
-  search_scene(query, scene_path, narrowphase, first);
+  const SceneSearch<Scalar> search(query, path);
+  KeepFirst<Scalar> first(query, search.narrowphase());
+  search.run(first);
   return first.hit();
 }
 
+/// Returns true if the path has a hit.
 template <typename Scalar>
 bool search_scene_any(const SceneQuery<Scalar>& query, const Path<Scalar>& path) noexcept {
-  const PathRange<Scalar> range(path.kind, query.options);
-  const ScenePath<Scalar> scene_path(path, range, query.share);
-  const SceneNarrowphase<Scalar> narrowphase(scene_path, query.options, query.statistics);
-  KeepAny<Scalar> any(query, narrowphase);
-  search_scene(query, scene_path, narrowphase, any);
+  const SceneSearch<Scalar> search(query, path);
+  KeepAny<Scalar> any(query, search.narrowphase());
+  search.run(any);
   return any.is_done();
 }
 
+/// Appends all hits of a path in order.
 template <typename Scalar>
 void search_scene_all(const SceneQuery<Scalar>& query, const Path<Scalar>& path, std::vector<SceneHit<Scalar>>& hits) {
-  const PathRange<Scalar> range(path.kind, query.options);
-  const ScenePath<Scalar> scene_path(path, range, query.share);
-  const SceneNarrowphase<Scalar> narrowphase(scene_path, query.options, query.statistics);
+  const SceneSearch<Scalar> search(query, path);
   KeepAll<Scalar> all;
-  search_scene(query, scene_path, narrowphase, all);
-  all.append_to(hits, query, narrowphase);
+  search.run(all);
+  all.append_to(hits, query, search.narrowphase());
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE

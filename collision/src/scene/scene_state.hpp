@@ -31,6 +31,9 @@ struct alignas(64) CommittedInstance {
   PlacedInstance<Scalar> placed;  ///< Where it is.
   InstanceMesh<Scalar> mesh;      ///< The mesh.
   bool is_in_tree = false;        ///< True if there is an instance, and its mesh has triangles.
+
+  /// Returns the box around the instance and its way.
+  [[nodiscard]] InstanceBox box() const { return {placed.frame.low, placed.frame.high}; }
 };
 
 /// A query of a scene.
@@ -120,8 +123,18 @@ struct SceneState {
     if (!pending[index].has_changed) changed.push_back(index);
     pending[index].has_changed = true;
   }
-  /// Lets all changes take effect. If it throws, nothing has changed.
+  /// Lets all changes take effect. If it throws, queries answer as before.
   void commit(const Executor* executor);
+
+ private:
+  /// Notes the instances whose colliders were rebuilt since the last commit. There is room for all indices.
+  void note_rebuilt_colliders();
+  /// Returns true if the same instances are in the tree, and it is not worn. `made` has an instance for each change.
+  [[nodiscard]] bool keeps_tree(const std::vector<CommittedInstance<Scalar>>& made) const;
+  /// Returns a tree of all instances, as they are after the changes.
+  [[nodiscard]] InstanceTree new_tree(const std::vector<CommittedInstance<Scalar>>& made) const;
+  /// Forgets the changes, and what removed instances had.
+  void end_changes() noexcept;
 };
 
 }  // namespace surehit::detail

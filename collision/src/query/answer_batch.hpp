@@ -1,0 +1,35 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <mutex>
+#include <span>
+
+#include "support/in_parts.hpp"
+#include "surehit/path_span.hpp"
+#include "surehit/query_statistics.hpp"
+
+namespace surehit::detail {
+
+/// Answers a batch in parts of `paths_in_a_task` paths, in tasks of the executor. Without an executor, there is one
+/// part. `ask(first, last, own_options, statistics)` answers the paths [first, last), and counts its work.
+///
+/// `Options` are those of a batch of a collider or of a scene. The batch ends with the shortest of the paths, the
+/// answers and the options of each path.
+template <typename Scalar, typename Options, typename Ask>
+void answer_batch(const PathSpan<Scalar>& paths, std::size_t answers, const Options& options,
+                  std::size_t paths_in_a_task, const Ask& ask) noexcept {
+  const auto all_options = options.path_options;
+  const std::size_t count = std::min({paths.size(), answers, all_options.empty() ? paths.size() : all_options.size()});
+  if (count == 0) return;
+  std::mutex mutex;
+  in_parts(address_of(options.executor), count, paths_in_a_task, [&](std::size_t first, std::size_t last) {
+    QueryStatistics statistics;
+    ask(first, last, all_options.empty() ? all_options : all_options.subspan(first, last - first), statistics);
+    if (options.statistics == nullptr) return;
+    const std::lock_guard lock(mutex);
+    *options.statistics += statistics;
+  });
+}
+
+}  // namespace surehit::detail

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "exact/exact_contact.hpp"
+#include "path_range.hpp"
+#include "support/floating_point_environment.hpp"
+#include "surehit/path.hpp"
+
+namespace surehit::detail {
+
+/// Tries points before the hit at t. Each is twice as far back, in t, as the one before it. Returns the first one that
+/// the segment reaches without a hit, or the start of the segment if there is none.
+///
+/// `Options` are those of a collider or of a scene. `is_blocked(path, options, s)` returns true if the segment to the
+/// point at s has a hit.
+template <typename Scalar, typename Options, typename IsBlocked>
+[[nodiscard, gnu::noinline]] Vector3<Scalar> find_free_point(const Segment<Scalar>& segment, Scalar t,
+                                                             const Options& options,
+                                                             const IsBlocked& is_blocked) noexcept {
+  const FloatingPointEnvironment environment;
+  const Path<Scalar> path = segment;
+  if (!is_finite(path) || !std::isfinite(t)) return segment.start;
+  // Below, s is exact, because it is t minus a multiple of ulp(t).
+  const Scalar ulp = std::nextafter(t, std::numeric_limits<Scalar>::infinity()) - t;
+  for (Scalar back = ulp; t - back > 0; back *= 2) {
+    const Scalar s = t - back;
+    const Segment<Scalar> free{segment.start, exact_point(path, s)};
+    Options shortened = options;
+    shortened.max_t = std::isnan(options.max_t) ? options.max_t : std::numeric_limits<Scalar>::infinity();
+    if (options.min_t > 0) shortened.min_t = std::nextafter(options.min_t / s, Scalar{0});
+    if (!is_blocked(Path<Scalar>(free), shortened, s)) return free.end;
+  }
+  return segment.start;
+}
+
+}  // namespace surehit::detail
