@@ -89,8 +89,8 @@ class Splitter {
       std::uint32_t count = 0;
     };
     std::array<Bin, bins> bin;
-    const auto bin_of = [&](std::uint32_t slot) {
-      const double share = (middle(boxes_[slot], axis) - low) / size;
+    const auto bin_of = [&](std::uint32_t index) {
+      const double share = (middle(boxes_[index], axis) - low) / size;
       return std::min(static_cast<std::size_t>(share * bins), bins - 1);
     };
     for (std::uint32_t i = group.first; i < group.last; ++i) {
@@ -119,7 +119,7 @@ class Splitter {
     }
     if (best_bin == 0) return group.first;
     const auto other = std::partition(order_.begin() + group.first, order_.begin() + group.last,
-                                      [&](std::uint32_t slot) { return bin_of(slot) < best_bin; });
+                                      [&](std::uint32_t index) { return bin_of(index) < best_bin; });
     return static_cast<std::uint32_t>(other - order_.begin());
   }
 
@@ -166,7 +166,6 @@ void InstanceTree::refit(std::span<const InstanceBox> boxes) noexcept {
     for (std::size_t lane = 0; lane < width; ++lane) {
       const std::uint32_t child = node.child[lane];
       if (child == no_child) continue;
-      double cost = 0;
       std::array<double, 3> sides;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         float& low = node.low[axis][lane];
@@ -186,16 +185,16 @@ void InstanceTree::refit(std::span<const InstanceBox> boxes) noexcept {
         }
         sides[axis] = double{high} - double{low};
       }
-      cost = sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
+      const double cost = sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
       if (std::isfinite(cost)) cost_ += cost;
     }
   }
 }
 
-void InstanceTree::build(std::span<const std::uint32_t> slots, std::span<const InstanceBox> boxes) {
+void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<const InstanceBox> boxes) {
   nodes_.clear();
-  if (slots.empty()) return;
-  std::vector<std::uint32_t> order(slots.begin(), slots.end());
+  if (instances.empty()) return;
+  std::vector<std::uint32_t> order(instances.begin(), instances.end());
   Splitter splitter(order, boxes);
   struct Task {
     Group group;

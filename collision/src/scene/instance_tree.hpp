@@ -35,10 +35,10 @@ class InstanceTree {
     std::array<std::uint32_t, width> child;        ///< The children.
   };
 
-  /// Sorts these instances into a tree. `boxes` has the box of each slot. The executor is not needed. May throw
+  /// Sorts these instances into a tree. `boxes` has the box of each index. May throw
   /// std::bad_alloc.
-  void build(std::span<const std::uint32_t> slots, std::span<const InstanceBox> boxes);
-  /// Fits the boxes of the tree to new boxes of the same slots.
+  void build(std::span<const std::uint32_t> instances, std::span<const InstanceBox> boxes);
+  /// Fits the boxes of the tree to new boxes of the same instances.
   void refit(std::span<const InstanceBox> boxes) noexcept;
 
   [[nodiscard]] bool is_empty() const { return nodes_.empty(); }

@@ -37,12 +37,9 @@ struct TreePath {
   TreePath(const InstanceTree& tree, const ScenePath<Scalar>& path);
 
   /// Returns tau at t, rounded up.
-  [[nodiscard]] float beyond(double t) const {
-    const double tau = (t - moved_t) * inverse_unit;
-    const double rounding = (std::fabs(t) + std::fabs(moved_t)) * inverse_unit * 0x1p-50 + std::fabs(tau) * 0x1p-22;
-    return std::isnan(tau + rounding) ? std::numeric_limits<float>::infinity()
-                                      : static_cast<float>(tau + rounding + 0x1p-120);
-  }
+  [[nodiscard]] float beyond(double t) const { return tau_at(t, 1); }
+  /// Returns tau at t, rounded down.
+  [[nodiscard]] float before(double t) const { return tau_at(t, -1); }
 
   std::array<float, 3> start_of_low = {};   ///< The start plus the slack, which moves low planes outward.
   std::array<float, 3> start_of_high = {};  ///< The start less the slack, which moves high planes outward.
@@ -52,6 +49,15 @@ struct TreePath {
   float last = 0;                           ///< The tau at which it ends.
   double moved_t = 0;                       ///< The t of tau 0.
   double inverse_unit = 1;                  ///< The tau of a unit of t.
+
+ private:
+  /// Returns tau at t, rounded toward the infinity of this sign.
+  [[nodiscard]] float tau_at(double t, double sign) const {
+    const double tau = (t - moved_t) * inverse_unit;
+    const double rounding = (std::fabs(t) + std::fabs(moved_t)) * inverse_unit * 0x1p-50 + std::fabs(tau) * 0x1p-22;
+    const double rounded = tau + sign * (rounding + 0x1p-120);
+    return static_cast<float>(std::isnan(rounded) ? sign * std::numeric_limits<double>::infinity() : rounded);
+  }
 };
 
 template <typename Scalar>
@@ -101,14 +107,7 @@ inline TreePath::TreePath(const InstanceTree& tree, const ScenePath<Scalar>& pat
     }
   }
   last = is_known ? beyond(path.range.last) : std::numeric_limits<float>::infinity();
-  const auto to_first = [&](double first_t) {
-    const double tau = (first_t - moved_t) * inverse_unit;
-    const double rounding =
-        (std::fabs(first_t) + std::fabs(moved_t)) * inverse_unit * 0x1p-50 + std::fabs(tau) * 0x1p-22;
-    return std::isnan(tau - rounding) ? -std::numeric_limits<float>::infinity()
-                                      : static_cast<float>(tau - rounding - 0x1p-120);
-  };
-  first = is_known ? to_first(path.range.first) : -std::numeric_limits<float>::infinity();
+  first = is_known ? before(path.range.first) : -std::numeric_limits<float>::infinity();
 }
 
 /// Calls `visit(index)` for each instance whose box the path may meet, roughly in the order of the path, until `keep`
