@@ -132,7 +132,10 @@ class PairDrawer {
           {{negative, other}, {other, negative}, {other, edge_parts - negative - other}}};
       return lattice.point(choice[corner].i, choice[corner].j);
     };
-    return converted(lattice, outside(), outside());
+    // Compilers differ in which argument of a call they evaluate first.
+    const IntegerVector end = outside();
+    const IntegerVector start = outside();
+    return converted(lattice, start, end);
   }
 
   Pair<Scalar> near_parallel() {
