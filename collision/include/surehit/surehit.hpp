@@ -8,6 +8,7 @@
 
 #if defined(__cpp_concepts)  // else scalar.hpp has said that C++20 is needed
 #include "surehit/collider.hpp"
+#include "surehit/explain.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/hit_filter.hpp"
 #include "surehit/intersect.hpp"

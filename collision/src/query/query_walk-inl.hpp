@@ -255,6 +255,9 @@ HWY_INLINE void walk_frame(const GridFrame& frame, float enters, const Query<Sca
   }
   for (; !traversal.at_end(); traversal.advance()) {
     ++query.statistics.cells;
+    if constexpr (requires { visitor.begin_cell(query, frame, clipped, traversal); }) {
+      visitor.begin_cell(query, frame, clipped, traversal);
+    }
     if (traversal.word().is_empty() || !traversal.meets_box()) continue;
     if (query.mesh.has_slabs() && !traversal.meets(query.mesh.slab(traversal.word()))) continue;
     const KernelInput<Scalar>& input = when.get(path, range, frame);
