@@ -10,6 +10,7 @@
 
 #include "command_line/program.hpp"
 #include "surehit_query/answer_queries.hpp"
+#include "surehit_query/explain_query.hpp"
 
 namespace surehit::example {
 namespace {
@@ -46,6 +47,19 @@ void add_scene(CLI::App& command, QueryRequest& request, CLI::Option& mesh, CLI:
       ->type_name("SCENE");
 }
 
+/// What numbers are, and where the answers go.
+void add_form(CLI::App& command, QueryRequest& request) {
+  add_choice<ScalarKind>(command, "--scalar", request.scalar,
+                         {{"float", ScalarKind::single_precision}, {"double", ScalarKind::double_precision}},
+                         "The type that all numbers are read to and answers rounded to");
+  add_choice<PathKind>(command, "--path", request.path,
+                       {{"segment", PathKind::segment}, {"ray", PathKind::ray}, {"line", PathKind::line}},
+                       "What a path is: from p to q, from p along a direction, or both ways along it");
+  command.add_option("-o", request.output_path, "Where the answers go; - is standard output")
+      ->type_name("OUT")
+      ->capture_default_str();
+}
+
 CLI::App& add_command(CLI::App& app, QueryRequest& request, Question question, const std::string& name,
                       const std::string& description) {
   CLI::App& command = *app.add_subcommand(name, description);
@@ -59,15 +73,7 @@ CLI::App& add_command(CLI::App& app, QueryRequest& request, Question question, c
       command.add_option("FILE", request.input_path, "The paths, one a line; - is standard input");
   file->required()->type_name("");
   if (mesh != nullptr) add_scene(command, request, *mesh, *file);
-  add_choice<ScalarKind>(command, "--scalar", request.scalar,
-                         {{"float", ScalarKind::single_precision}, {"double", ScalarKind::double_precision}},
-                         "The type that all numbers are read to and answers rounded to");
-  add_choice<PathKind>(command, "--path", request.path,
-                       {{"segment", PathKind::segment}, {"ray", PathKind::ray}, {"line", PathKind::line}},
-                       "What a path is: from p to q, from p along a direction, or both ways along it");
-  command.add_option("-o", request.output_path, "Where the answers go; - is standard output")
-      ->type_name("OUT")
-      ->capture_default_str();
+  add_form(command, request);
   command
       .add_option("--threads", request.threads, "Threads that share the paths; the output is the same for any number")
       ->type_name("N")
@@ -94,8 +100,8 @@ void add_limits(CLI::App& command, QueryRequest& request) {
                    "Leave out the triangles that hold the end of the segment");
 }
 
-/// What leaves out parts of a mesh.
-void add_mesh_filters(CLI::App& command, QueryRequest& request) {
+/// What leaves out triangles of a mesh.
+void add_triangle_filters(CLI::App& command, QueryRequest& request) {
   command
       .add_option("--masks", request.masks_path,
                   "A file with a mask a line, for each triangle or for each face; without it all bits are set")
@@ -105,13 +111,18 @@ void add_mesh_filters(CLI::App& command, QueryRequest& request) {
                   "Ask only the triangles, or in a scene the instances, whose mask shares a bit with this one")
       ->type_name("BITS")
       ->default_str("0xffffffff");
-  command.add_option("--ignore-instance", request.ignored_instance, "Leave out this instance of the scene")
-      ->type_name("ID");
   command
       .add_option("--ignore-triangle", request.ignored_triangle,
                   "Leave out this triangle; in a scene, leave out nothing else of the ignored instance")
       ->type_name("ID");
   command.add_option("--ignore-face", request.ignored_face, "Leave out all triangles of this face")->type_name("ID");
+}
+
+/// What leaves out parts of a mesh or of a scene.
+void add_mesh_filters(CLI::App& command, QueryRequest& request) {
+  add_triangle_filters(command, request);
+  command.add_option("--ignore-instance", request.ignored_instance, "Leave out this instance of the scene")
+      ->type_name("ID");
   command.add_flag("--statistics", request.wants_statistics,
                    "Then say on standard error, as CSV, what the queries did: cells walked, candidate triangles, how "
                    "many of them the filter left undecided, and how often it took exact arithmetic");
@@ -146,6 +157,32 @@ constexpr const char* meshes =
     "cutting ears off; one whose outline crosses itself is refused. Ids count from 0 in the order of the file.\n"
     "Warnings are lines on standard error: no triangles, no instances, float too coarse for the file, unused\n"
     "vertices that are not finite. examples/mesh_io/README.md has a table of formats and dialects.";
+
+void add_explain(CLI::App& app, QueryRequest& request) {
+  CLI::App& command = *app.add_subcommand("explain", "How does a path come to what it first meets?");
+  command.callback([&request] { request.question = Question::explain; });
+  command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off")->required()->type_name("");
+  command.add_option("FILE", request.input_path, "The path; - is standard input")->required()->type_name("");
+  command.add_option("--index", request.index, "Which path, if FILE has several; they count from 0")->type_name("I");
+  command
+      .add_option("--draw", request.drawings,
+                  "Draw the cells, the candidates and the path to this file: .ply, .obj or .png; may be given again")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  add_form(command, request);
+  add_limits(command, request);
+  add_triangle_filters(command, request);
+  command.footer(
+      std::string(paths_of_a_mesh) +
+      "Output: the way of a query for the first hit, for people to read. The cells that the path walks through, each\n"
+      "with its t and its box; the triangles that their lists ask, with the five determinants of Möller and Trumbore\n"
+      "as the filter has them, and their error bounds; the stage that decides each; the order of the hits; how t, u\n"
+      "and v are rounded; the answer, which is that of the command first. Drawings have the path in yellow,\n"
+      "empty cells in blue, passed cells in violet, cells whose list is asked in green, misses in grey, hits in "
+      "orange,\n"
+      "and the first hit in red.\n" +
+      meshes);
+}
 
 void describe(CLI::App& app, QueryRequest& request) {
   request.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u);
@@ -193,6 +230,8 @@ void describe(CLI::App& app, QueryRequest& request) {
              "Output: path,triangle,t,u,v,side,tie, one line a hit, in order along the path; paths count from 0. tie "
              "is 1\nwhere another hit of the path has the very same exact t, else 0.\n" +
              scenes + meshes);
+
+  add_explain(app, request);
 }
 
 /// Whatever else is said of a scene fits it. A single name beside it is that of the paths.
@@ -214,9 +253,19 @@ void check_scene(QueryRequest& request) {
   }
 }
 
+/// Each drawing is of a kind that its name tells.
+void check_drawings(const QueryRequest& request) {
+  for (const std::string& file : request.drawings) {
+    if (!file.ends_with(".ply") && !file.ends_with(".obj") && !file.ends_with(".png")) {
+      throw CLI::ValidationError("--draw", file + " ends in none of .ply, .obj and .png");
+    }
+  }
+}
+
 /// What no single option can know.
 void check(QueryRequest& request) {
   check_scene(request);
+  check_drawings(request);
   if (request.wants_free_points && request.path != PathKind::segment) {
     throw CLI::ValidationError("--free-points", "only a segment has them");
   }
@@ -230,7 +279,11 @@ Work describe_program(CLI::App& app) {
   describe(app, *request);
   return [request] {
     check(*request);
-    answer_queries(*request);
+    if (request->question == Question::explain) {
+      explain_query(*request);
+    } else {
+      answer_queries(*request);
+    }
     return success;
   };
 }

@@ -6,10 +6,11 @@
 #include <string>
 #include <surehit/path.hpp>
 #include <surehit/query_options.hpp>
+#include <vector>
 
 namespace surehit::example {
 
-enum class Question : std::uint8_t { pair, first, any, all };
+enum class Question : std::uint8_t { pair, first, any, all, explain };
 
 enum class ScalarKind : std::uint8_t { single_precision, double_precision };
 
@@ -45,6 +46,9 @@ struct QueryRequest {
   bool wants_normals = false;
   bool wants_free_points = false;  ///< of `first` alone
   bool wants_statistics = false;   ///< none of `pair`
+
+  std::optional<std::size_t> index;   ///< of `explain` alone: which path of the input
+  std::vector<std::string> drawings;  ///< of `explain` alone: the files to draw to
 };
 
 }  // namespace surehit::example

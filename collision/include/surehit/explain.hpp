@@ -33,13 +33,13 @@ enum class CellFinding : std::uint8_t {
 
 /// A step of the walk. Its numbers are rounded, and are for people to look at.
 struct ExplainedCell {
-  Boxd box;                         ///< The cell, or the cube of empty cells.
-  double enters = 0;                ///< The t at which the path enters the box.
-  double leaves = 0;                ///< The t at which the path leaves the box.
-  CellFinding finding;              ///< What is in the cell.
-  bool is_inner = false;            ///< True if the cell belongs to a grid inside a cell.
-  std::size_t first_candidate = 0;  ///< The index of the first candidate of the cell's list.
-  std::size_t candidate_count = 0;  ///< The number of candidates of the cell's list.
+  Boxd box;                                  ///< The cell, or the cube of empty cells.
+  double enters = 0;                         ///< The t at which the path enters the box.
+  double leaves = 0;                         ///< The t at which the path leaves the box.
+  CellFinding finding = CellFinding::empty;  ///< What is in the cell.
+  bool is_inner = false;                     ///< True if the cell belongs to a grid inside a cell.
+  std::size_t first_candidate = 0;           ///< The index of the first candidate of the cell's list.
+  std::size_t candidate_count = 0;           ///< The number of candidates of the cell's list.
 };
 
 /// A number that the filter has computed, and its error bound.

@@ -16,6 +16,7 @@
 #include "collision/rational_determinants.hpp"
 #include "collision/same_answers.hpp"
 #include "support/case_count.hpp"
+#include "support/floating_point_mode.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/instruction_sets.hpp"
 #include "support/pair_families.hpp"
@@ -199,6 +200,22 @@ TYPED_TEST(Explain, answers_alike_on_each_instruction_set) {
       const ForcedInstructionSet forced(target);
       this->check(collider, path);
     }
+  }
+}
+
+TYPED_TEST(Explain, answers_alike_in_any_floating_point_mode) {
+  const auto mesh = rough_ground<TypeParam>(12, 0.2F, this->random_);
+  const Collider<TypeParam> collider(mesh.view());
+  PathDrawer<TypeParam> drawer(mesh.view(), 7);
+  const FloatingPointMode mode = {"upward and flushing", FE_UPWARD, true};
+  for (std::size_t i = case_count(100); i > 0; --i) {
+    const Path<TypeParam> path = drawer.draw();
+    const auto expected = explain(collider, path).first_hit();
+    const FloatingPointModeScope scope(mode);
+    const std::uint64_t before = control_word();
+    const auto answer = explain(collider, path).first_hit();
+    EXPECT_EQ(control_word(), before);
+    expect_same(answer, expected);
   }
 }
 
