@@ -10,7 +10,8 @@
 namespace surehit::example {
 
 void run_in_chunks(const std::string& title, std::size_t count, std::size_t chunk, unsigned threads,
-                   const std::function<void(std::size_t begin, std::size_t end)>& work) {
+                   const std::function<void(std::size_t begin, std::size_t end)>& work,
+                   const std::function<std::string()>& rate) {
   std::atomic<std::size_t> next = 0;
   std::atomic<std::size_t> done = 0;
   ProgressBar bar(title, count);
@@ -19,9 +20,14 @@ void run_in_chunks(const std::string& title, std::size_t count, std::size_t chun
       const std::size_t begin = next.fetch_add(chunk);
       if (begin >= count) return;
       const std::size_t end = std::min(begin + chunk, count);
-      work(begin, end);
+      try {
+        work(begin, end);
+      } catch (...) {
+        next = count;
+        throw;
+      }
       done += end - begin;
-      if (shows) bar.show(done);
+      if (shows) bar.show(done, rate ? rate() : "");
     }
   };
   std::vector<std::future<void>> others;

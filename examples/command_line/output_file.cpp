@@ -51,4 +51,10 @@ void OutputFile::throw_errno() const {
                           (path_ == "-" ? "standard output" : path_) + ": cannot be written");
 }
 
+void write_file(const std::string& path, std::string_view bytes) {
+  OutputFile file(path);
+  file.write(bytes);
+  file.finish();
+}
+
 }  // namespace surehit::example

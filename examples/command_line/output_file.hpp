@@ -28,4 +28,7 @@ class OutputFile {
   std::FILE* file_ = nullptr;
 };
 
+/// Writes a whole file. Throws std::system_error, and leaves nothing behind then.
+void write_file(const std::string& path, std::string_view bytes);
+
 }  // namespace surehit::example

@@ -4,6 +4,7 @@
 #include <exception>
 #include <string>
 
+#include "command_line/interruption.hpp"
 #include "mesh_io/input_error.hpp"
 
 namespace surehit::example {
@@ -36,6 +37,8 @@ int run_program(const char* name, const char* description, int argc, char** argv
     return parse_and_work(name, app, argc, argv, describe);
   } catch (const InputError& error) {
     return fail(error, bad_input);
+  } catch (const Interrupted& error) {
+    return fail(error, interrupted);
   } catch (const std::exception& error) {
     return fail(error, failure);
   }

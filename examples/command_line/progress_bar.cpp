@@ -11,9 +11,10 @@ ProgressBar::ProgressBar(std::string title, std::size_t total)
     : title_(std::move(title)),
       total_(total),
       on_terminal_(isatty(STDERR_FILENO) != 0),
-      next_(Clock::now() + std::chrono::seconds(1)) {}
+      begin_(Clock::now()),
+      next_(begin_ + std::chrono::seconds(1)) {}
 
-void ProgressBar::show(std::size_t done) {
+void ProgressBar::show(std::size_t done, const std::string& rate) {
   if (!on_terminal_ || Clock::now() < next_) return;
   next_ = Clock::now() + std::chrono::milliseconds(100);
   shown_ = true;
@@ -21,6 +22,12 @@ void ProgressBar::show(std::size_t done) {
   std::string bar(width * done / total_, '#');
   bar.resize(width, '.');
   std::fprintf(stderr, "\r%s [%s] %3zu%%", title_.c_str(), bar.c_str(), 100 * done / total_);
+  if (!rate.empty()) std::fprintf(stderr, " %s,", rate.c_str());
+  if (done > 0) {
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+    std::fprintf(stderr, " %.0f s left\x1b[K",
+                 seconds * static_cast<double>(total_ - done) / static_cast<double>(done));
+  }
 }
 
 void ProgressBar::hide() {

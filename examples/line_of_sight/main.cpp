@@ -8,15 +8,15 @@
 #include <thread>
 
 #include "command_line/output_file.hpp"
+#include "command_line/parse_point.hpp"
 #include "command_line/program.hpp"
+#include "command_line/read_with_z_up.hpp"
 #include "level/level.hpp"
 #include "line_of_sight/figures.hpp"
 #include "line_of_sight/floor_plan.hpp"
 #include "line_of_sight/plan_picture.hpp"
 #include "line_of_sight/sight.hpp"
 #include "mesh_io/input_error.hpp"
-#include "mesh_io/parse_number.hpp"
-#include "mesh_io/read_mesh.hpp"
 #include "picture/png.hpp"
 
 namespace surehit::example {
@@ -55,32 +55,6 @@ void describe(CLI::App& app, Request& request) {
       "failures.");
 }
 
-Vector3f parse_eye(const std::string& text) {
-  Vector3f eye;
-  std::size_t begin = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t end = axis < 2 ? text.find(',', begin) : text.size();
-    if (end == std::string::npos)
-      throw InputError("--eye: three numbers X,Y,Z are needed, not " + example::quoted(text));
-    try {
-      eye[axis] = parse_number<float>(std::string_view(text).substr(begin, end - begin));
-    } catch (const InputError& error) {
-      throw error.at("--eye");
-    }
-    begin = end + 1;
-  }
-  return eye;
-}
-
-Mesh<float> read_with_z_up(const Request& request) {
-  Mesh<float> mesh = read_mesh<float>(request.mesh_path);
-  for (const std::string& warning : mesh.warnings) warn("line_of_sight", request.mesh_path + ": " + warning);
-  if (request.up == "y") {
-    for (auto& vertex : mesh.vertices) vertex = {vertex[0], -vertex[2], vertex[1]};
-  }
-  return mesh;
-}
-
 /// As high above the floor in the middle of the mesh as the points are.
 Vector3f eye_over_the_middle(const Colliderf& collider, float height) {
   const Vector3f middle = (collider.box().low + collider.box().high) / 2;
@@ -96,12 +70,6 @@ auto timed(double& seconds, Work work) {
   auto result = work();
   seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
-}
-
-void write_file(const std::string& path, std::string_view bytes) {
-  OutputFile file(path);
-  file.write(bytes);
-  file.finish();
 }
 
 void print(const Figures& figures, const Request& request) {
@@ -124,13 +92,13 @@ void look(const Request& request) {
     mesh = std::move(level.mesh);
     eye = {level.eye[0], level.eye[1], level.eye[2]};
   } else {
-    mesh = read_with_z_up(request);
+    mesh = read_with_z_up("line_of_sight", request.mesh_path, request.up);
   }
   Colliderf collider;
   const BuildResult built = timed(figures.build_seconds, [&] { return collider.try_build(mesh.view()); });
   if (!built) throw InputError(request.mesh_path + ": " + built.error().what());
   if (!request.eye.empty()) {
-    eye = parse_eye(request.eye);
+    eye = parse_point("--eye", request.eye);
   } else if (!request.mesh_path.empty()) {
     eye = eye_over_the_middle(collider, request.height);
   }

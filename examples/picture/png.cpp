@@ -2,22 +2,14 @@
 
 #include <stb/stb_image_write.h>
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
+
+#include "picture/pixel_bytes.hpp"
 
 namespace surehit::example {
 
 std::string encode_png(const Canvas& canvas) {
-  std::string bytes;
-  for (int y = 0; y < canvas.height(); ++y) {
-    for (int x = 0; x < canvas.width(); ++x) {
-      const Colour& pixel = canvas.at(x, y);
-      for (const float part : {pixel.red, pixel.green, pixel.blue}) {
-        bytes += static_cast<char>(std::lround(255 * std::clamp(part, 0.0f, 1.0f)));
-      }
-    }
-  }
+  const std::string bytes = pixel_bytes(canvas);
   std::string png;
   const auto append = [](void* target, void* data, int size) {
     static_cast<std::string*>(target)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
