@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds surehit and its examples, runs the three that draw, and says where the pictures are.
+# Builds surehit and its examples, runs the four that draw, and says where the pictures are.
 set -euo pipefail
 
 if [[ $# -gt 0 ]]; then
@@ -30,5 +30,8 @@ stage "game_physics: fast points in a room of thin walls"
 stage "moving_platforms: bullets and debris among lifts, doors and a train"
 "$programs/moving_platforms/moving_platforms" -o "$pictures/moving_platforms.png"
 
+stage "render: a sphere of glass and a diffuse one, by rays"
+"$programs/render/render" -o "$pictures/render.png"
+
 stage "Done. The pictures:"
-ls -1 "$pictures/line_of_sight.png" "$pictures/game_physics.png" "$pictures/moving_platforms.png"
+ls -1 "$pictures/line_of_sight.png" "$pictures/game_physics.png" "$pictures/moving_platforms.png" "$pictures/render.png"

@@ -1,0 +1,185 @@
+#include "render/crack_picture.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <surehit/collider.hpp>
+#include <vector>
+
+#include "command_line/chunked_run.hpp"
+#include "command_line/interruption.hpp"
+#include "mesh_io/input_error.hpp"
+#include "render/frame_colours.hpp"
+#include "render/id_picture.hpp"
+#include "render/plain_intersect.hpp"
+
+namespace surehit::example {
+namespace {
+
+constexpr Colour hole = Colour::hex(0xff2a2a);
+constexpr int margin = 12;
+constexpr int caption_height = 36;
+
+/// The triangles at a vertex.
+struct Fan {
+  std::vector<std::uint32_t> triangles;
+  float longest_edge = 0;
+};
+
+Vector3f vertex_of(const Mesh<float>& mesh, std::uint32_t vertex) {
+  const auto& [x, y, z] = mesh.vertices[vertex];
+  return {x, y, z};
+}
+
+Fan fan_of(const Mesh<float>& mesh, std::uint32_t vertex) {
+  Fan fan;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (std::ranges::find(mesh.triangles[i], vertex) == mesh.triangles[i].end()) continue;
+    fan.triangles.push_back(i);
+    for (const std::uint32_t corner : mesh.triangles[i]) {
+      fan.longest_edge = std::max(fan.longest_edge, (vertex_of(mesh, corner) - vertex_of(mesh, vertex)).norm());
+    }
+  }
+  return fan;
+}
+
+/// Whether all triangles of a fan face upwards, and each edge at the vertex is one of two of them in turn.
+bool surrounds(const Mesh<float>& mesh, const Fan& fan, std::uint32_t vertex) {
+  constexpr float min_slope = 0.25f;
+  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> second;
+  for (const std::uint32_t triangle : fan.triangles) {
+    if (!(normal(mesh.view(), triangle).z() > min_slope)) return false;
+    const auto& corners = mesh.triangles[triangle];
+    const auto at = static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin());
+    first.push_back(corners[(at + 1) % 3]);
+    second.push_back(corners[(at + 2) % 3]);
+  }
+  std::ranges::sort(first);
+  std::ranges::sort(second);
+  return fan.triangles.size() >= 3 && first == second && std::ranges::adjacent_find(first) == first.end();
+}
+
+/// Whether the eye sees the fan in the middle of the view.
+bool is_seen(const Colliderf& collider, const Fan& fan, const CrackView& view) {
+  const auto hit = collider.first_hit(Rayf{view.camera.eye, view.camera.target - view.camera.eye});
+  return hit && std::ranges::find(fan.triangles, hit->triangle) != fan.triangles.end();
+}
+
+/// All triangles that a ray of the view may come near on its way to the vertex, by any rounding. Those behind it are
+/// met from behind.
+std::vector<std::uint32_t> triangles_near(const Mesh<float>& mesh, const CrackView& view) {
+  const Vector3f way_low = view.camera.eye.cwiseMin(view.camera.target);
+  const Vector3f way_high = view.camera.eye.cwiseMax(view.camera.target);
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Trianglef triangle = mesh.view().triangle(i);
+    const Vector3f low = triangle.a.cwiseMin(triangle.b).cwiseMin(triangle.c);
+    const Vector3f high = triangle.a.cwiseMax(triangle.b).cwiseMax(triangle.c);
+    const Vector3f slack = Vector3f::Constant(0.01f * (high - low).norm() + 1000 * view.width);
+    const bool is_near = ((low - slack).array() <= way_high.array()).head<2>().all() &&
+                         (way_low.array() <= (high + slack).array()).head<2>().all();
+    if (is_near) near.push_back(i);
+  }
+  return near;
+}
+
+/// The view of a vertex, with the triangles at it.
+CrackView view_of(const Mesh<float>& mesh, std::uint32_t vertex, const Fan& fan, int size) {
+  const Vector3f place = vertex_of(mesh, vertex);
+  CrackView view;
+  view.vertex = vertex;
+  // From far away, for what plain floats lose grows with the distance. Not from straight above: there, the origin would
+  // share coordinates with the vertex, and even plain floats would be exact.
+  const float distance = 40 * fan.longest_edge;
+  view.width = 0x1p-20f * distance;
+  const Vector3f eye = place + distance * Vector3f(0.11f, -0.17f, 1);
+  view.camera = {eye, place, Vector3f::UnitY(), view.width / 2 / distance, size, size};
+  return view;
+}
+
+/// What the plain test sees: the triangle with the smallest t, if there is one.
+std::optional<std::uint32_t> seen_by_plain_test(const Mesh<float>& mesh, const std::vector<std::uint32_t>& triangles,
+                                                const Rayf& ray) {
+  std::optional<std::uint32_t> first;
+  PlainHit best{};
+  for (const std::uint32_t triangle : triangles) {
+    const auto hit = plain_intersect(ray, mesh.view().triangle(triangle));
+    if (!hit || (first && hit->t >= best.t)) continue;
+    best = *hit;
+    first = triangle;
+  }
+  return first && best.is_front ? first : std::nullopt;
+}
+
+}  // namespace
+
+CrackView find_crack_view(const Mesh<float>& mesh, std::optional<std::uint32_t> vertex, int size) {
+  const Colliderf collider(mesh.view());
+  std::vector<std::uint32_t> vertices;
+  if (vertex) {
+    if (*vertex >= mesh.vertices.size()) {
+      throw InputError("--vertex: there is no vertex " + std::to_string(*vertex) + ", the mesh has " +
+                       std::to_string(mesh.vertices.size()));
+    }
+    vertices = {*vertex};
+  } else {
+    for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) vertices.push_back(i);
+    const std::size_t tried = std::min(vertices.size(), std::size_t{256});
+    std::ranges::partial_sort(vertices, vertices.begin() + static_cast<std::ptrdiff_t>(tried), std::ranges::greater(),
+                              [&](std::uint32_t i) { return mesh.vertices[i][2]; });
+    vertices.resize(tried);
+  }
+  for (const std::uint32_t candidate : vertices) {
+    const Fan fan = fan_of(mesh, candidate);
+    if (!surrounds(mesh, fan, candidate)) continue;
+    const CrackView view = view_of(mesh, candidate, fan, size);
+    if (is_seen(collider, fan, view)) return view;
+  }
+  throw InputError(vertex ? "--vertex: the triangles at vertex " + std::to_string(*vertex) +
+                                " do not lie around it in sight from above"
+                          : "no vertex at the top of the mesh has triangles all around it that face upwards");
+}
+
+Cracks draw_cracks(const Mesh<float>& mesh, const CrackView& view, unsigned threads) {
+  const Colliderf collider(mesh.view());
+  const Camera camera(view.camera);
+  const std::vector<std::uint32_t> triangles = triangles_near(mesh, view);
+  const int size = camera.width();
+  Cracks cracks;
+  cracks.rays = static_cast<std::size_t>(size) * static_cast<std::size_t>(camera.height());
+  cracks.picture = Canvas(2 * size + 3 * margin, camera.height() + margin + caption_height, paper);
+  std::atomic<std::size_t> holes_of_plain = 0;
+  std::atomic<std::size_t> holes_of_surehit = 0;
+  const auto draw = [&](int x, int y, const std::optional<std::uint32_t>& seen, std::atomic<std::size_t>& holes) {
+    if (!seen) ++holes;
+    cracks.picture.at(x, y) = seen ? mix(paper, colour_of_id(*seen), 0.75f) : hole;
+  };
+  run_in_chunks("cracks", static_cast<std::size_t>(camera.height()), 4, threads,
+                [&](std::size_t begin, std::size_t end) {
+                  stop_if_interrupted();
+                  for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
+                    for (int column = 0; column < size; ++column) {
+                      const Rayf ray = camera.ray(column, row);
+                      draw(margin + column, margin + row, seen_by_plain_test(mesh, triangles, ray), holes_of_plain);
+                      const auto hit = collider.first_hit(ray);
+                      const bool is_seen = hit && hit->side != Side::back;
+                      draw(2 * margin + size + column, margin + row,
+                           is_seen ? std::optional(hit->triangle) : std::nullopt, holes_of_surehit);
+                    }
+                  }
+                });
+  cracks.holes_of_plain = holes_of_plain;
+  cracks.holes_of_surehit = holes_of_surehit;
+  const auto caption = [&](int x, const char* name, std::size_t holes) {
+    const std::string text = std::string(name) + ": " + std::to_string(holes) + " holes";
+    cracks.picture.draw_text({static_cast<float>(x), static_cast<float>(margin + camera.height() + 12)}, text, 2, ink);
+  };
+  caption(margin, "plain floats", cracks.holes_of_plain);
+  caption(2 * margin + size, "surehit", cracks.holes_of_surehit);
+  return cracks;
+}
+
+}  // namespace surehit::example

@@ -1,0 +1,74 @@
+#include "render/crack_picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesh_io/input_error.hpp"
+#include "render/plain_intersect.hpp"
+#include "render/shapes.hpp"
+
+namespace surehit::example {
+namespace {
+
+bool is_hole(const Colour& colour) { return colour.red == 1 && colour.green < 0.2f && colour.blue < 0.2f; }
+
+TEST(CrackPicture, has_holes_of_plain_floats_alone) {
+  for (const int divisions : {2, 3, 4}) {
+    const Mesh<float> mesh = tessellated_sphere({0.3f, 0.7f, -0.2f}, 1.3f, divisions).mesh;
+    const CrackView view = find_crack_view(mesh, std::nullopt, 96);
+    const Cracks cracks = draw_cracks(mesh, view, 2);
+    EXPECT_EQ(cracks.rays, std::size_t{96 * 96});
+    EXPECT_GT(cracks.holes_of_plain, 0u) << divisions;
+    EXPECT_LT(cracks.holes_of_plain, cracks.rays / 10) << "most of its answers are right";
+    EXPECT_EQ(cracks.holes_of_surehit, 0u) << divisions;
+    std::size_t left = 0;
+    std::size_t right = 0;
+    for (int y = 0; y < cracks.picture.height(); ++y) {
+      for (int x = 0; x < cracks.picture.width(); ++x) {
+        (2 * x < cracks.picture.width() ? left : right) += is_hole(cracks.picture.at(x, y));
+      }
+    }
+    EXPECT_EQ(left, cracks.holes_of_plain);
+    EXPECT_EQ(right, 0u);
+  }
+}
+
+TEST(CrackPicture, shows_the_vertex_in_the_middle) {
+  const Mesh<float> mesh = tessellated_sphere({0.3f, 0.7f, -0.2f}, 1.3f, 3).mesh;
+  const CrackView view = find_crack_view(mesh, std::nullopt, 64);
+  const auto& [x, y, z] = mesh.vertices[view.vertex];
+  EXPECT_EQ(view.camera.target, Vector3f(x, y, z));
+  EXPECT_EQ(find_crack_view(mesh, view.vertex, 64).vertex, view.vertex);
+}
+
+TEST(CrackPicture, says_why_there_is_no_view) {
+  const Mesh<float> sphere = tessellated_sphere({0, 0, 0}, 1, 2).mesh;
+  const auto bottom = static_cast<std::uint32_t>(
+      std::ranges::min_element(sphere.vertices, {}, [](const auto& vertex) { return vertex[2]; }) -
+      sphere.vertices.begin());
+  EXPECT_THROW(static_cast<void>(find_crack_view(sphere, bottom, 64)), InputError);
+  EXPECT_THROW(static_cast<void>(find_crack_view(sphere, 1'000'000, 64)), InputError);
+  Mesh<float> one;
+  one.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  one.triangles = {{0, 1, 2}};
+  EXPECT_THROW(static_cast<void>(find_crack_view(one, std::nullopt, 64)), InputError);
+  EXPECT_THROW(static_cast<void>(find_crack_view({}, std::nullopt, 64)), InputError);
+}
+
+TEST(CrackPicture, plain_floats_are_right_where_nothing_is_close) {
+  const Trianglef triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  const auto hit = plain_intersect({{1, 2, 3}, {0, 0, -2}}, triangle);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->t, 1.5f);
+  EXPECT_EQ(hit->u, 0.25f);
+  EXPECT_EQ(hit->v, 0.5f);
+  EXPECT_TRUE(hit->is_front);
+  EXPECT_FALSE(plain_intersect({{1, 2, -3}, {0, 0, 2}}, triangle)->is_front);
+  EXPECT_FALSE(plain_intersect({{1, 2, 3}, {0, 0, 2}}, triangle)) << "behind the origin";
+  EXPECT_FALSE(plain_intersect({{3, 2, 3}, {0, 0, -2}}, triangle)) << "beside it";
+  EXPECT_FALSE(plain_intersect({{1, 2, 3}, {1, 0, 0}}, triangle)) << "parallel";
+}
+
+}  // namespace
+}  // namespace surehit::example
