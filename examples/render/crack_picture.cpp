@@ -135,7 +135,7 @@ CrackView find_crack_view(const Mesh<float>& mesh, std::optional<std::uint32_t> 
   for (const std::uint32_t candidate : vertices) {
     const Fan fan = fan_of(mesh, candidate);
     if (!surrounds(mesh, fan, candidate)) continue;
-    const CrackView view = view_of(mesh, candidate, fan, size);
+    CrackView view = view_of(mesh, candidate, fan, size);
     if (is_seen(collider, fan, view)) return view;
   }
   throw InputError(vertex ? "--vertex: the triangles at vertex " + std::to_string(*vertex) +

@@ -105,7 +105,9 @@ Model chess_board(const Vector3f& centre, float width, int squares) {
     board.normals.push_back({Vector3f::UnitZ(), Vector3f::UnitZ(), Vector3f::UnitZ()});
     std::array<Eigen::Vector2f, 3> places;
     for (std::size_t i = 0; i < 3; ++i) {
-      places[i] = {static_cast<float>(corners[i] % (count + 1)), static_cast<float>(corners[i] / (count + 1))};
+      const std::uint32_t column = corners[i] % (count + 1);
+      const std::uint32_t row = corners[i] / (count + 1);
+      places[i] = {static_cast<float>(column), static_cast<float>(row)};
     }
     board.texture_coordinates.push_back(places);
   };
