@@ -1,0 +1,220 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "command_line/interruption.hpp"
+#include "command_line/parse_point.hpp"
+#include "command_line/program.hpp"
+#include "command_line/read_with_z_up.hpp"
+#include "level/level.hpp"
+#include "mesh_io/input_error.hpp"
+#include "picture/png.hpp"
+#include "visibility_bake/bake.hpp"
+#include "visibility_bake/bake_picture.hpp"
+#include "visibility_bake/cells.hpp"
+#include "visibility_bake/replaced_file.hpp"
+#include "visibility_bake/visible_sets.hpp"
+
+namespace surehit::example {
+namespace {
+
+struct Request {
+  std::string mesh_path;
+  std::string up = "z";
+  std::string places_path;
+  std::string start;
+  WalkOptions walk;
+  PairOptions pairs;
+  std::optional<std::uint32_t> shown_cell;
+  bool begins_again = false;
+  BakeOptions bake{.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u)};
+  std::string sets_path = "visibility.pvs";
+  std::string csv_path = "visibility.csv";
+  std::string picture_path = "visibility.png";
+};
+
+void describe(CLI::App& app, Request& request) {
+  const auto length = [&](const std::string& name, float& value, const std::string& what) {
+    return app.add_option(name, value, what)->check(CLI::Range(1e-3f, 1e6f).description(""))->capture_default_str();
+  };
+  app.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off (default: a level that it builds itself)")
+      ->type_name("");
+  app.add_option("--up", request.up, "The mesh's upward axis")->check(CLI::IsMember({"y", "z"}))->capture_default_str();
+  CLI::Option* places = app.add_option("--places", request.places_path,
+                                       "The floor of each cell: x y z in each line, after z has been turned up "
+                                       "(default: a grid of walkable places)")
+                            ->type_name("FILE");
+  length("--spacing", request.walk.spacing, "The width of a cell, and of the grid");
+  app.add_option(
+         "--start", request.start,
+         "Only places to which one can walk from here are cells (default: the level's great hall; in a MESH all)")
+      ->type_name("X,Y,Z")
+      ->excludes(places);
+  length("--headroom", request.walk.headroom, "What is free above a walkable place");
+  length("--eye-height", request.pairs.eye_height, "How high above the floor eyes are, at most");
+  length("--range", request.pairs.range, "Cells that are farther apart are not asked about");
+  app.add_option("--samples", request.pairs.samples, "Segments for each pair of cells")
+      ->check(CLI::Range(1u, PairPlan::eyes_of_a_cell * PairPlan::eyes_of_a_cell).description(""))
+      ->capture_default_str();
+  app.add_option("--cell", request.shown_cell,
+                 "The cell whose set the picture shows (default: the nearest to the start, or one that "
+                 "sees the most)")
+      ->type_name("ID");
+  app.add_option("--threads", request.bake.threads,
+                 "Threads that share the cells; the files are the same for any number")
+      ->check(CLI::Range(1u, 1024u).description(""))
+      ->capture_default_str();
+  app.add_option("--checkpoint-seconds", request.bake.checkpoint_seconds, "Between two checkpoints")
+      ->check(CLI::Range(0.0, 1e6).description(""))
+      ->capture_default_str();
+  app.add_flag("--restart", request.begins_again, "Begins again, and removes the checkpoint of an earlier run");
+  app.add_option("-o", request.sets_path, "The set of each cell")->type_name("PVS")->capture_default_str();
+  app.add_option("--csv", request.csv_path, "The figures of each cell")->type_name("CSV")->capture_default_str();
+  app.add_option("--picture", request.picture_path, "What each cell sees, and the set of one")
+      ->type_name("PNG")
+      ->capture_default_str();
+  app.footer(
+      "An interrupted run goes on from PVS.checkpoint when it is started again. Exit status: 0, 2 for bad input or "
+      "usage, 130 after Ctrl-C, 1 for other failures.");
+}
+
+/// The mesh, and where its walkable places begin.
+struct Place {
+  Mesh<float> mesh;
+  std::optional<Vector3f> start;
+};
+
+Place asked_place(const Request& request) {
+  Place place;
+  if (request.mesh_path.empty()) {
+    Level level = build_level();
+    place.mesh = std::move(level.mesh);
+    place.start = Vector3f(level.eye[0], level.eye[1], 0);
+  } else {
+    place.mesh = read_with_z_up("visibility_bake", request.mesh_path, request.up);
+  }
+  if (!request.start.empty()) place.start = parse_point("--start", request.start);
+  return place;
+}
+
+std::vector<Vector3f> asked_floors(const Request& request, const Colliderf& collider,
+                                   const std::optional<Vector3f>& start) {
+  std::vector<Vector3f> floors;
+  if (!request.places_path.empty()) {
+    floors = read_places(request.places_path);
+    if (floors.empty()) throw InputError(request.places_path + ": there is no place in it");
+  } else {
+    floors = find_floors(collider, request.walk);
+    if (floors.empty()) throw InputError("the mesh has no walkable place: --up or --headroom may be wrong");
+    if (start) floors = reachable_floors(collider, floors, *start, request.walk);
+    if (floors.empty()) throw InputError("--start: there is no walkable place near it");
+  }
+  constexpr std::size_t max_cells = 1 << 20;
+  if (floors.size() > max_cells) {
+    throw InputError(std::to_string(floors.size()) + " cells are too many, there may be " + std::to_string(max_cells) +
+                     ": --spacing must be larger");
+  }
+  return floors;
+}
+
+/// The cell of the picture: the one that is asked for, the nearest to the start, or one that sees the most.
+std::uint32_t cell_to_show(const Request& request, const PairPlan& plan, const Visibility& visibility,
+                           const std::optional<Vector3f>& start) {
+  if (request.shown_cell) return *request.shown_cell;
+  const auto rank = [&](std::uint32_t cell) {
+    if (start) return -double{(plan.floors()[cell] - *start).norm()};
+    return static_cast<double>(visibility.figures(cell).cells_seen);
+  };
+  std::uint32_t best = 0;
+  for (std::uint32_t cell = 1; cell < plan.cell_count(); ++cell) {
+    if (rank(cell) > rank(best)) best = cell;
+  }
+  return best;
+}
+
+/// Twice the sum over all cells is in the figures, as each pair counts for both of its cells.
+struct Totals {
+  std::uint64_t pairs = 0;
+  std::uint64_t seen = 0;
+
+  explicit Totals(const Visibility& visibility) {
+    for (std::uint32_t cell = 0; cell < visibility.cell_count(); ++cell) {
+      pairs += visibility.figures(cell).cells_in_range;
+      seen += visibility.figures(cell).cells_seen;
+    }
+    pairs /= 2;
+    seen /= 2;
+  }
+};
+
+void write_files(const Request& request, const PairPlan& plan, const Visibility& visibility,
+                 const std::optional<Vector3f>& start) {
+  const std::string sets = encode_visible_sets(plan, visibility);
+  const std::uint32_t shown = cell_to_show(request, plan, visibility, start);
+  replace_file(request.sets_path, sets);
+  replace_file(request.csv_path, figures_csv(plan, visibility));
+  replace_file(request.picture_path, encode_png(draw_bake(plan, visibility, shown)));
+  std::printf("%s: a matrix of %zu bytes in %zu\n%s\n%s\n", request.sets_path.c_str(), visibility.bits().size(),
+              sets.size(), request.csv_path.c_str(), request.picture_path.c_str());
+}
+
+void work(const Request& request) {
+  stop_when_asked();
+  const Place place = asked_place(request);
+  Colliderf collider;
+  if (const BuildResult built = collider.try_build(place.mesh.view()); !built) {
+    throw InputError(request.mesh_path + ": " + built.error().what());
+  }
+  PairOptions pairs = request.pairs;
+  pairs.cell_width = request.walk.spacing;
+  const PairPlan plan(collider, asked_floors(request, collider, place.start), pairs);
+  if (request.shown_cell && *request.shown_cell >= plan.cell_count()) {
+    throw InputError("--cell: there is no cell " + std::to_string(*request.shown_cell) + ", there are " +
+                     std::to_string(plan.cell_count()));
+  }
+  const Checkpoint checkpoint(request.sets_path + ".checkpoint", plan.fingerprint(collider));
+  if (request.begins_again) checkpoint.remove();
+  Visibility visibility = checkpoint.load(plan.cell_count());
+  const Totals before(visibility);
+  std::printf("%zu triangles, %u cells\n", place.mesh.triangles.size(), plan.cell_count());
+  if (visibility.row_count() > 0) {
+    std::printf("goes on with %u of %u cells done\n", visibility.row_count(), plan.cell_count());
+  }
+  std::fflush(stdout);
+
+  const auto start = std::chrono::steady_clock::now();
+  bake(collider, plan, checkpoint, request.bake, visibility);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Totals totals(visibility);
+  const auto segments = static_cast<double>((totals.pairs - before.pairs) * pairs.samples);
+  std::printf("%llu pairs in range, %llu of them see each other\n", static_cast<unsigned long long>(totals.pairs),
+              static_cast<unsigned long long>(totals.seen));
+  std::printf("%.0f segments: %.3f s, %.2f M segments/s on %u thread%s\n", segments, seconds, segments / seconds / 1e6,
+              request.bake.threads, request.bake.threads == 1 ? "" : "s");
+  write_files(request, plan, visibility, place.start);
+  checkpoint.remove();
+}
+
+Work describe_program(CLI::App& app) {
+  const auto request = std::make_shared<Request>();
+  describe(app, *request);
+  return [request] {
+    work(*request);
+    return success;
+  };
+}
+
+}  // namespace
+}  // namespace surehit::example
+
+int main(int argc, char** argv) {
+  return surehit::example::run_program("visibility_bake",
+                                       "Finds out which cells of a level may see each other, and writes it to a file.",
+                                       argc, argv, surehit::example::describe_program);
+}

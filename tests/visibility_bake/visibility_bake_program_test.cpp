@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "support/program_run.hpp"
+
+namespace surehit::test {
+namespace {
+
+class VisibilityBakeProgram : public testing::Test {
+ protected:
+  ProgramRun run_{SUREHIT_VISIBILITY_BAKE_PROGRAM};
+  /// Seconds of work for the whole level.
+  const std::string long_run_ = "--spacing 2 --samples 128 --checkpoint-seconds 0.02 ";
+
+  void expect_bad_input(const std::string& arguments, const std::string& error) {
+    const auto outcome = run_.run(arguments);
+    EXPECT_EQ(outcome.error, "visibility_bake: " + error + "\n") << arguments;
+    EXPECT_EQ(outcome.status, 2) << arguments;
+  }
+
+  void expect_same_files(const std::string& one, const std::string& other) const {
+    for (const std::string ending : {".pvs", ".csv", ".png"}) {
+      const std::string bytes = run_.folder().read(one + ending);
+      EXPECT_GT(bytes.size(), 100u) << one << ending;
+      EXPECT_TRUE(bytes == run_.folder().read(other + ending)) << ending;
+    }
+  }
+
+  static std::string files(const std::string& name) {
+    return " -o " + name + ".pvs --csv " + name + ".csv --picture " + name + ".png ";
+  }
+};
+
+TEST_F(VisibilityBakeProgram, goes_on_after_it_was_killed) {
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(run_.run(long_run_ + files("whole")).status, 0);
+  double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / 5;
+  int kills = 0;
+  int continued = 0;
+  ProgramRun::Outcome outcome{};
+  do {
+    outcome =
+        run_.run_command("timeout -s KILL " + std::to_string(seconds) + " \"$program\" " + long_run_ + files("killed"));
+    continued += outcome.output.find("goes on with") != std::string::npos;
+    seconds *= 1.2;
+  } while (outcome.status != 0 && ++kills < 50);
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_GT(kills, 0);
+  EXPECT_GT(continued, 0);
+  expect_same_files("whole", "killed");
+  EXPECT_EQ(run_.folder().file_count(), 6u) << "neither a checkpoint nor a part of one is left";
+}
+
+TEST_F(VisibilityBakeProgram, goes_on_after_control_c) {
+  ASSERT_EQ(run_.run("--spacing 2 --samples 128" + files("whole")).status, 0);
+  // Until there is a checkpoint, which the signal asks for.
+  ProgramRun::Outcome outcome{};
+  for (double seconds = 0.3; outcome.status != 130 || outcome.error.empty(); seconds *= 1.1) {
+    ASSERT_LT(seconds, 60);
+    outcome = run_.run_command("timeout --preserve-status -s INT " + std::to_string(seconds) + " \"$program\" " +
+                               "--spacing 2 --samples 128 --restart" + files("stopped"));
+    if (outcome.status == 0) break;
+    if (!std::filesystem::exists(run_.folder().at("stopped.pvs.checkpoint"))) outcome.status = 0;
+  }
+  ASSERT_EQ(outcome.status, 130) << "it was too quick to be stopped";
+  EXPECT_EQ(outcome.error, "visibility_bake: interrupted\n");
+  outcome = run_.run("--spacing 2 --samples 128 --threads 1" + files("stopped"));
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  expect_same_files("whole", "stopped");
+}
+
+TEST_F(VisibilityBakeProgram, writes_the_same_bytes_on_any_number_of_threads) {
+  for (const std::string threads : {"1", "2", "5"}) {
+    ASSERT_EQ(run_.run("--spacing 3 --threads " + threads + files(threads)).status, 0);
+  }
+  expect_same_files("1", "2");
+  expect_same_files("1", "5");
+}
+
+TEST_F(VisibilityBakeProgram, takes_a_mesh_and_places) {
+  static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
+  static_cast<void>(run_.folder().write("places.txt", "-2 0 0\n-1 0 0\n1 0 0\n"));
+  const auto outcome = run_.run("wall.obj --places places.txt" + files("wall"));
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_NE(outcome.output.find("3 pairs in range, 1 of them see each other"), std::string::npos) << outcome.output;
+  EXPECT_EQ(run_.folder().read("wall.csv"),
+            "cell,x,y,z,cells_in_range,cells_seen,segments,clear_segments\n"
+            "0,-2,0,0,2,1,16,8\n1,-1,0,0,2,1,16,8\n2,1,0,0,2,0,16,0\n");
+}
+
+TEST_F(VisibilityBakeProgram, refuses_checkpoints_that_do_not_fit) {
+  static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
+  static_cast<void>(run_.folder().write("places.txt", "-2 0 0\n-1 0 0\n1 0 0\n"));
+  // A part that is not saved cannot be written to, so the first checkpoint stays.
+  const std::string keep = "mkdir some.csv && ";
+  const auto stopped =
+      run_.run_command(keep + "\"$program\" wall.obj --places places.txt --checkpoint-seconds 0" + files("some"));
+  EXPECT_EQ(stopped.status, 1);
+  EXPECT_NE(stopped.error.find("some.csv: cannot be written"), std::string::npos) << stopped.error;
+  ASSERT_TRUE(std::filesystem::exists(run_.folder().at("some.pvs.checkpoint")));
+
+  expect_bad_input("wall.obj --places places.txt --samples 9" + files("some"),
+                   "some.pvs.checkpoint: is of another mesh, of other cells or of other options; remove it, or begin "
+                   "again with --restart");
+  std::string bytes = run_.folder().read("some.pvs.checkpoint");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  static_cast<void>(run_.folder().write("some.pvs.checkpoint", bytes));
+  expect_bad_input("wall.obj --places places.txt" + files("some"),
+                   "some.pvs.checkpoint: is damaged: its checksum is not that of its bytes; remove it, or begin again "
+                   "with --restart");
+  EXPECT_EQ(run_.run_command("rmdir some.csv").status, 0);
+  const auto again = run_.run("wall.obj --places places.txt --restart" + files("some"));
+  EXPECT_EQ(again.status, 0) << again.error;
+  EXPECT_FALSE(std::filesystem::exists(run_.folder().at("some.pvs.checkpoint")));
+}
+
+TEST_F(VisibilityBakeProgram, says_that_the_disk_is_full) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no disk that is always full";
+  const auto outcome = run_.run_command(
+      "ln -s /dev/full some.pvs.checkpoint.partial && \"$program\" --spacing 3 --checkpoint-seconds 0" + files("some"));
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.error, "visibility_bake: some.pvs.checkpoint: cannot be written: No space left on device\n");
+  EXPECT_FALSE(std::filesystem::exists(run_.folder().at("some.pvs")));
+}
+
+TEST_F(VisibilityBakeProgram, names_what_is_wrong) {
+  static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
+  static_cast<void>(run_.folder().write("empty.txt", "# nothing\n"));
+  expect_bad_input("absent.obj", "absent.obj: cannot be read: No such file or directory");
+  expect_bad_input("wall.obj", "the mesh has no walkable place: --up or --headroom may be wrong");
+  expect_bad_input("wall.obj --places empty.txt", "empty.txt: there is no place in it");
+  expect_bad_input("--start 1,2", "--start: three numbers X,Y,Z are needed, not '1,2'");
+  expect_bad_input("--start 1000,2,3", "--start: there is no walkable place near it");
+  expect_bad_input("--spacing 8 --cell 100000", "--cell: there is no cell 100000, there are 75");
+  EXPECT_EQ(run_.run("--samples 0").status, 2);
+  EXPECT_EQ(run_.run("--places a --start 1,2,3").status, 2);
+}
+
+TEST_F(VisibilityBakeProgram, has_help) {
+  const auto outcome = run_.run("--help");
+  EXPECT_EQ(outcome.status, 0);
+  for (const char* word : {"--places", "--range", "--restart", "Exit status"}) {
+    EXPECT_NE(outcome.output.find(word), std::string::npos) << word;
+  }
+}
+
+}  // namespace
+}  // namespace surehit::test
