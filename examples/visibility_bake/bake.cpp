@@ -1,22 +1,15 @@
 #include "visibility_bake/bake.hpp"
 
-#include <chrono>
-#include <cstdio>
-#include <mutex>
-#include <string>
 #include <vector>
 
 #include "command_line/chunked_run.hpp"
 #include "command_line/interruption.hpp"
+#include "visibility_bake/row_queue.hpp"
 
 namespace surehit::example {
 namespace {
 
 constexpr std::size_t segments_of_a_batch = 1 << 14;
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
 
@@ -45,38 +38,23 @@ RowOfPairs bake_row(const Colliderf& collider, const PairPlan& plan, std::uint32
   return row;
 }
 
+void bake_rows(const Colliderf& collider, const PairPlan& plan, std::span<const std::uint32_t> cells, RowQueue& queue) {
+  for (const std::uint32_t cell : cells) {
+    stop_if_interrupted();
+    queue.add(bake_row(collider, plan, cell));
+  }
+}
+
 void bake(const Colliderf& collider, const PairPlan& plan, const Checkpoint& checkpoint, const BakeOptions& options,
           Visibility& visibility) {
-  std::vector<std::uint32_t> missing;
-  for (std::uint32_t cell = 0; cell < plan.cell_count(); ++cell) {
-    if (!visibility.has_row(cell)) missing.push_back(cell);
-  }
-  std::mutex mutex;
-  std::size_t segments = 0;
-  const auto start = Clock::now();
-  auto last_checkpoint = start;
-  const auto bake_rows = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      stop_if_interrupted();
-      const RowOfPairs row = bake_row(collider, plan, missing[i]);
-      const std::lock_guard lock(mutex);
-      visibility.add(row);
-      segments += row.partners.size() * plan.options().samples;
-      if (seconds_since(last_checkpoint) < options.checkpoint_seconds) continue;
-      checkpoint.save(visibility);
-      last_checkpoint = Clock::now();
-    }
-  };
-  const auto rate = [&] {
-    const std::lock_guard lock(mutex);
-    char text[48];
-    std::snprintf(text, sizeof text, "%.2f M segments/s", static_cast<double>(segments) / seconds_since(start) / 1e6);
-    return std::string(text);
-  };
+  RowQueue queue(plan, checkpoint, options.checkpoint_seconds, visibility);
+  // Each unit is one chunk.
+  const auto bake_unit = [&](std::size_t, std::size_t) { bake_rows(collider, plan, queue.take(), queue); };
   try {
-    run_in_chunks("visibility", missing.size(), 4, options.threads, bake_rows, rate);
+    run_in_chunks("visibility", queue.row_count(), RowQueue::rows_of_a_unit, options.threads, bake_unit,
+                  [&] { return queue.rate(); });
   } catch (const Interrupted&) {
-    checkpoint.save(visibility);
+    queue.save();
     throw;
   }
 }

@@ -18,6 +18,7 @@
 #include "visibility_bake/bake.hpp"
 #include "visibility_bake/bake_picture.hpp"
 #include "visibility_bake/cells.hpp"
+#include "visibility_bake/ranks.hpp"
 #include "visibility_bake/replaced_file.hpp"
 #include "visibility_bake/visible_sets.hpp"
 
@@ -33,7 +34,8 @@ struct Request {
   PairOptions pairs;
   std::optional<std::uint32_t> shown_cell;
   bool begins_again = false;
-  BakeOptions bake{.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u)};
+  std::optional<unsigned> threads;
+  BakeOptions bake;
   std::string sets_path = "visibility.pvs";
   std::string csv_path = "visibility.csv";
   std::string picture_path = "visibility.png";
@@ -60,16 +62,17 @@ void describe(CLI::App& app, Request& request) {
   length("--eye-height", request.pairs.eye_height, "How high above the floor eyes are, at most");
   length("--range", request.pairs.range, "Cells that are farther apart are not asked about");
   app.add_option("--samples", request.pairs.samples, "Segments for each pair of cells")
-      ->check(CLI::Range(1u, PairPlan::eyes_of_a_cell * PairPlan::eyes_of_a_cell).description(""))
+      ->check(CLI::Range(1u, PairPlan::max_samples).description(""))
       ->capture_default_str();
   app.add_option("--cell", request.shown_cell,
                  "The cell whose set the picture shows (default: the nearest to the start, or one that "
                  "sees the most)")
       ->type_name("ID");
-  app.add_option("--threads", request.bake.threads,
-                 "Threads that share the cells; the files are the same for any number")
-      ->check(CLI::Range(1u, 1024u).description(""))
-      ->capture_default_str();
+  app.add_option(
+         "--threads", request.threads,
+         "Threads of each process that share the cells; the files are the same for any number (default: one for "
+         "each core, or 1 under mpirun)")
+      ->check(CLI::Range(1u, 1024u).description(""));
   app.add_option("--checkpoint-seconds", request.bake.checkpoint_seconds, "Between two checkpoints")
       ->check(CLI::Range(0.0, 1e6).description(""))
       ->capture_default_str();
@@ -160,45 +163,73 @@ void write_files(const Request& request, const PairPlan& plan, const Visibility&
   replace_file(request.sets_path, sets);
   replace_file(request.csv_path, figures_csv(plan, visibility));
   replace_file(request.picture_path, encode_png(draw_bake(plan, visibility, shown)));
-  std::printf("%s: a matrix of %zu bytes in %zu\n%s\n%s\n", request.sets_path.c_str(), visibility.bits().size(),
-              sets.size(), request.csv_path.c_str(), request.picture_path.c_str());
+  std::printf("%s: a matrix of %zu bytes in %zu\n%s\n%s\n", request.sets_path.c_str(),
+              visibility.cell_count() * visibility.bytes_of_a_row(), sets.size(), request.csv_path.c_str(),
+              request.picture_path.c_str());
 }
 
-void work(const Request& request) {
-  stop_when_asked();
-  const Place place = asked_place(request);
+/// What all ranks have before they begin.
+struct Job {
+  Place place;
   Colliderf collider;
-  if (const BuildResult built = collider.try_build(place.mesh.view()); !built) {
+  std::optional<PairPlan> plan;
+  std::optional<Checkpoint> checkpoint;
+  Visibility visibility{0};
+};
+
+/// Returns the fingerprint of the plan. Rank 0 also reads the checkpoint.
+std::uint64_t prepare(const Request& request, bool is_rank_0, Job& job) {
+  job.place = asked_place(request);
+  if (const BuildResult built = job.collider.try_build(job.place.mesh.view()); !built) {
     throw InputError(request.mesh_path + ": " + built.error().what());
   }
   PairOptions pairs = request.pairs;
   pairs.cell_width = request.walk.spacing;
-  const PairPlan plan(collider, asked_floors(request, collider, place.start), pairs);
-  if (request.shown_cell && *request.shown_cell >= plan.cell_count()) {
+  job.plan.emplace(job.collider, asked_floors(request, job.collider, job.place.start), pairs);
+  if (request.shown_cell && *request.shown_cell >= job.plan->cell_count()) {
     throw InputError("--cell: there is no cell " + std::to_string(*request.shown_cell) + ", there are " +
-                     std::to_string(plan.cell_count()));
+                     std::to_string(job.plan->cell_count()));
   }
-  const Checkpoint checkpoint(request.sets_path + ".checkpoint", plan.fingerprint(collider));
-  if (request.begins_again) checkpoint.remove();
-  Visibility visibility = checkpoint.load(plan.cell_count());
-  const Totals before(visibility);
-  std::printf("%zu triangles, %u cells\n", place.mesh.triangles.size(), plan.cell_count());
-  if (visibility.row_count() > 0) {
-    std::printf("goes on with %u of %u cells done\n", visibility.row_count(), plan.cell_count());
+  const std::uint64_t fingerprint = job.plan->fingerprint(job.collider);
+  job.checkpoint.emplace(request.sets_path + ".checkpoint", fingerprint);
+  if (!is_rank_0) return fingerprint;
+  if (request.begins_again) job.checkpoint->remove();
+  job.visibility = job.checkpoint->load(job.plan->cell_count());
+  return fingerprint;
+}
+
+void work(const Request& request) {
+  stop_when_asked();
+  const Ranks ranks;
+  const bool is_rank_0 = ranks.rank() == 0;
+  Job job;
+  if (!ranks.are_ready([&] { return prepare(request, is_rank_0, job); })) return;
+  const PairPlan& plan = *job.plan;
+  BakeOptions options = request.bake;
+  const unsigned cores = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u);
+  options.threads = request.threads.value_or(ranks.size() > 1 ? 1 : cores);
+  const Totals before(job.visibility);
+  if (is_rank_0) {
+    std::printf("%zu triangles, %u cells\n", job.place.mesh.triangles.size(), plan.cell_count());
+    if (job.visibility.row_count() > 0) {
+      std::printf("goes on with %u of %u cells done\n", job.visibility.row_count(), plan.cell_count());
+    }
+    std::fflush(stdout);
   }
-  std::fflush(stdout);
 
   const auto start = std::chrono::steady_clock::now();
-  bake(collider, plan, checkpoint, request.bake, visibility);
+  ranks.bake(job.collider, plan, *job.checkpoint, options, job.visibility);
+  if (!is_rank_0) return;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const Totals totals(visibility);
-  const auto segments = static_cast<double>((totals.pairs - before.pairs) * pairs.samples);
+  const Totals totals(job.visibility);
+  const auto segments = static_cast<double>((totals.pairs - before.pairs) * plan.options().samples);
   std::printf("%llu pairs in range, %llu of them see each other\n", static_cast<unsigned long long>(totals.pairs),
               static_cast<unsigned long long>(totals.seen));
-  std::printf("%.0f segments: %.3f s, %.2f M segments/s on %u thread%s\n", segments, seconds, segments / seconds / 1e6,
-              request.bake.threads, request.bake.threads == 1 ? "" : "s");
-  write_files(request, plan, visibility, place.start);
-  checkpoint.remove();
+  std::printf("%.0f segments: %.3f s, %.2f M segments/s by %d process%s of %u thread%s\n", segments, seconds,
+              segments / seconds / 1e6, ranks.size(), ranks.size() == 1 ? "" : "es", options.threads,
+              options.threads == 1 ? "" : "s");
+  write_files(request, plan, job.visibility, job.place.start);
+  job.checkpoint->remove();
 }
 
 Work describe_program(CLI::App& app) {

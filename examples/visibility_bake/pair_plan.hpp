@@ -17,6 +17,7 @@ struct PairOptions {
 class PairPlan {
  public:
   static constexpr std::uint32_t eyes_of_a_cell = 16;
+  static constexpr std::uint32_t max_samples = 255;  ///< A byte counts those of a pair.
 
   /// `floors` has the middle of each cell's floor. An eye that the middle one does not see, as it is behind a wall, is
   /// moved to the middle.

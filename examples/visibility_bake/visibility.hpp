@@ -33,12 +33,10 @@ class Visibility {
   [[nodiscard]] std::uint32_t row_count() const { return row_count_; }
 
   /// Whether any segment between the two cells meets nothing. A cell sees itself.
-  [[nodiscard]] bool sees(std::uint32_t a, std::uint32_t b) const {
-    return (bits_[bit_at(a, b) / 8] >> (bit_at(a, b) % 8) & 1) != 0;
-  }
+  [[nodiscard]] bool sees(std::uint32_t a, std::uint32_t b) const { return has(a, b) || has(b, a); }
   [[nodiscard]] const Figures& figures(std::uint32_t cell) const { return figures_[cell]; }
-  /// The matrix row by row. A row is whole bytes. Bit i % 8 of byte i / 8 is for cell i.
-  [[nodiscard]] const std::vector<std::uint8_t>& bits() const { return bits_; }
+  /// The matrix row by row. A row is whole bytes. Bit i % 8 of byte i / 8 is for cell i. Row i has what cell i sees.
+  [[nodiscard]] std::vector<std::uint8_t> matrix() const;
   [[nodiscard]] std::size_t bytes_of_a_row() const { return (figures_.size() + 7) / 8; }
 
   friend bool operator==(const Visibility&, const Visibility&) = default;
@@ -46,12 +44,12 @@ class Visibility {
  private:
   friend class Checkpoint;
 
-  [[nodiscard]] std::size_t bit_at(std::uint32_t a, std::uint32_t b) const { return 8 * (a * bytes_of_a_row()) + b; }
-  void set(std::uint32_t a, std::uint32_t b) {
-    bits_[bit_at(a, b) / 8] |= static_cast<std::uint8_t>(1 << bit_at(a, b) % 8);
+  [[nodiscard]] bool has(std::uint32_t a, std::uint32_t b) const {
+    return (bits_[bit_at(a, b) / 8] >> (bit_at(a, b) % 8) & 1) != 0;
   }
-
+  [[nodiscard]] std::size_t bit_at(std::uint32_t a, std::uint32_t b) const { return 8 * (a * bytes_of_a_row()) + b; }
   std::vector<Figures> figures_;
+  /// Each pair is in the row in which it was asked about. To set it in both, whoever adds rows would wait for memory.
   std::vector<std::uint8_t> bits_;
   std::vector<std::uint8_t> has_row_;
   std::uint32_t row_count_ = 0;

@@ -22,7 +22,7 @@ std::string encode_visible_sets(const PairPlan& plan, const Visibility& visibili
   for (const Vector3f& floor : plan.floors()) {
     for (const float coordinate : {floor.x(), floor.y(), floor.z()}) writer.add(coordinate);
   }
-  const auto& bits = visibility.bits();
+  const std::vector<std::uint8_t> bits = visibility.matrix();
   writer.add(compressed_bytes({reinterpret_cast<const char*>(bits.data()), bits.size()}));
   return writer.finish();
 }

@@ -16,7 +16,7 @@ struct VisibleSets {
   std::vector<Vector3f> floors;  ///< The middle of each cell's floor.
   float range = 0;               ///< Cells that are farther apart were not asked about.
   std::uint32_t samples = 0;     ///< The number of segments for each pair of cells.
-  std::string bits;              ///< The matrix, as `Visibility::bits` has it.
+  std::string bits;              ///< The matrix, as `Visibility::matrix` has it.
 
   [[nodiscard]] bool sees(std::uint32_t a, std::uint32_t b) const {
     const std::size_t byte = a * ((floors.size() + 7) / 8) + b / 8;

@@ -73,7 +73,9 @@ TEST_F(VisibilityBakeProgram, goes_on_after_control_c) {
 
 TEST_F(VisibilityBakeProgram, writes_the_same_bytes_on_any_number_of_threads) {
   for (const std::string threads : {"1", "2", "5"}) {
-    ASSERT_EQ(run_.run("--spacing 3 --threads " + threads + files(threads)).status, 0);
+    const auto outcome = run_.run("--spacing 3 --threads " + threads + files(threads));
+    ASSERT_EQ(outcome.status, 0) << outcome.error;
+    EXPECT_NE(outcome.output.find("of " + threads + " thread"), std::string::npos) << outcome.output;
   }
   expect_same_files("1", "2");
   expect_same_files("1", "5");

@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "support/program_run.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// Runs the program with mpirun on this machine, with more ranks than it may have cores.
+class RanksTest : public testing::Test {
+ protected:
+  ProgramRun run_{SUREHIT_VISIBILITY_BAKE_PROGRAM};
+  /// Open MPI leaves memory behind, and warns of machines that are tests.
+  const std::string surroundings_ =
+      "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
+      "OMPI_MCA_btl_vader_single_copy_mechanism=none ASAN_OPTIONS=detect_leaks=0; ";
+
+  [[nodiscard]] ProgramRun::Outcome run_ranks(int ranks, const std::string& arguments,
+                                              const std::string& after = "") const {
+    return run_.run_command(surroundings_ + "'" SUREHIT_MPIRUN "' -n " + std::to_string(ranks) + " \"$program\" " +
+                            arguments + after);
+  }
+
+  void expect_same_files(const std::string& one, const std::string& other) const {
+    for (const std::string ending : {".pvs", ".csv", ".png"}) {
+      const std::string bytes = run_.folder().read(one + ending);
+      EXPECT_GT(bytes.size(), 100u) << one << ending;
+      EXPECT_TRUE(bytes == run_.folder().read(other + ending)) << ending;
+    }
+  }
+
+  static std::string files(const std::string& name) {
+    return " -o " + name + ".pvs --csv " + name + ".csv --picture " + name + ".png ";
+  }
+};
+
+TEST_F(RanksTest, write_the_same_bytes_as_one_process) {
+  ASSERT_EQ(run_.run("--spacing 2" + files("alone")).status, 0);
+  for (const int ranks : {1, 2, 4}) {
+    const auto outcome = run_ranks(ranks, "--spacing 2" + files("together"));
+    EXPECT_EQ(outcome.status, 0) << outcome.error;
+    EXPECT_NE(outcome.output.find("by " + std::to_string(ranks) + " process"), std::string::npos) << outcome.output;
+    expect_same_files("alone", "together");
+  }
+  const auto outcome = run_ranks(3, "--spacing 2 --threads 2 --samples 8" + files("together"));
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  expect_same_files("alone", "together");
+}
+
+TEST_F(RanksTest, go_on_after_they_were_killed) {
+  const std::string arguments = "--spacing 2 --samples 128 --checkpoint-seconds 0.02 ";
+  ASSERT_EQ(run_.run(arguments + files("whole")).status, 0);
+  int continued = 0;
+  int kills = 0;
+  for (double seconds = 0.5;; seconds *= 1.2) {
+    ASSERT_LT(seconds, 120);
+    const auto outcome = run_ranks(kills % 2 == 0 ? 2 : 4, arguments + files("killed"),
+                                   "& mpirun=$!; sleep " + std::to_string(seconds) +
+                                       "; kill -KILL $(cat /proc/$mpirun/task/$mpirun/children); wait $mpirun");
+    continued += outcome.output.find("goes on with") != std::string::npos;
+    if (outcome.status == 0) break;
+    ++kills;
+  }
+  EXPECT_GT(kills, 0);
+  EXPECT_GT(continued, 0);
+  expect_same_files("whole", "killed");
+  EXPECT_FALSE(std::filesystem::exists(run_.folder().at("killed.pvs.checkpoint")));
+}
+
+TEST_F(RanksTest, say_once_what_is_wrong) {
+  const auto outcome = run_ranks(3, "absent.obj" + files("none"));
+  EXPECT_EQ(outcome.status, 2);
+  const std::string error = "visibility_bake: absent.obj: cannot be read: No such file or directory";
+  const std::size_t first = outcome.error.find(error);
+  ASSERT_NE(first, std::string::npos) << outcome.error;
+  EXPECT_EQ(outcome.error.find(error, first + 1), std::string::npos) << outcome.error;
+}
+
+TEST_F(RanksTest, notice_that_one_has_another_mesh) {
+  static_cast<void>(run_.folder().write("same.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
+  static_cast<void>(run_.folder().write("other.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 8\nf 1 2 3\n"));
+  static_cast<void>(run_.folder().write("places.txt", "-2 0 0\n-1 0 0\n1 0 0\n"));
+  const auto outcome = run_ranks(1, "same.obj --places places.txt" + files("mixed"),
+                                 ": -n 1 \"$program\" other.obj --places places.txt" + files("mixed"));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.error.find("rank 1 has another mesh, other cells or other options than rank 0"), std::string::npos)
+      << outcome.error;
+}
+
+TEST_F(RanksTest, stop_if_the_disk_is_full) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no disk that is always full";
+  std::filesystem::create_symlink("/dev/full", run_.folder().at("some.pvs.checkpoint.partial"));
+  const auto outcome = run_ranks(3, "--spacing 3 --checkpoint-seconds 0" + files("some"));
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.error.find("some.pvs.checkpoint: cannot be written: No space left on device"), std::string::npos)
+      << outcome.error;
+}
+
+TEST_F(RanksTest, keep_a_checkpoint_when_they_are_asked_to_stop) {
+  const std::string arguments = "--spacing 1.5 --samples 255 ";
+  ProgramRun::Outcome outcome{};
+  for (double seconds = 1; seconds < 30; seconds *= 1.3) {
+    outcome = run_ranks(3, arguments + files("stopped"),
+                        "& mpirun=$!; sleep " + std::to_string(seconds) + "; kill -TERM $mpirun; wait $mpirun");
+    if (outcome.status == 0 || std::filesystem::exists(run_.folder().at("stopped.pvs.checkpoint"))) break;
+  }
+  ASSERT_NE(outcome.status, 0) << "it was too quick to be stopped";
+  outcome = run_.run(arguments + files("stopped"));
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_NE(outcome.output.find("goes on with"), std::string::npos) << outcome.output;
+}
+
+}  // namespace
+}  // namespace surehit::test
