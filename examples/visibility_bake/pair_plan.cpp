@@ -1,7 +1,8 @@
 #include "visibility_bake/pair_plan.hpp"
 
+#include <algorithm>
 #include <bit>
-#include <span>
+#include <numeric>
 #include <utility>
 
 namespace surehit::example {
@@ -35,7 +36,9 @@ class Fingerprint {
 }  // namespace
 
 PairPlan::PairPlan(const Colliderf& collider, std::vector<Vector3f> floors, const PairOptions& options)
-    : floors_(std::move(floors)), options_(options) {
+    : floors_(std::move(floors)), options_(options), by_y_(floors_.size()) {
+  std::iota(by_y_.begin(), by_y_.end(), 0u);
+  std::ranges::stable_sort(by_y_, {}, [&](std::uint32_t cell) { return floors_[cell].y(); });
   for (std::uint32_t cell = 0; cell < cell_count(); ++cell) {
     const Vector3f middle = floors_[cell] + Vector3f(0, 0, options.eye_height);
     eyes_.push_back(middle);
@@ -51,11 +54,19 @@ PairPlan::PairPlan(const Colliderf& collider, std::vector<Vector3f> floors, cons
 }
 
 std::vector<std::uint32_t> PairPlan::partners(std::uint32_t cell) const {
+  const Vector3f& floor = floors_[cell];
+  // Rounding makes a difference by less than this too long.
+  const float reach = 1.001f * options_.range;
+  const auto y_of = [&](std::uint32_t other) { return floors_[other].y(); };
+  const auto begin = std::ranges::lower_bound(by_y_, floor.y() - reach, {}, y_of);
+  const auto end = std::ranges::upper_bound(by_y_, floor.y() + reach, {}, y_of);
   std::vector<std::uint32_t> partners;
-  for (std::uint32_t other = 0; other < cell_count(); ++other) {
-    const bool is_mine = (other > cell) == ((cell ^ other) % 2 != 0);
-    if (other == cell || !is_mine) continue;
-    if ((floors_[other] - floors_[cell]).squaredNorm() <= options_.range * options_.range) partners.push_back(other);
+  for (auto at = begin; at != end; ++at) {
+    const std::uint32_t other = *at;
+    // Of two cells whose numbers have the same parity, the higher one has the pair, and of others the lower one.
+    const bool is_mine = (other > cell) == ((cell ^ other) % 2 != 0) && other != cell;
+    if (!is_mine) continue;
+    if ((floors_[other] - floor).squaredNorm() <= options_.range * options_.range) partners.push_back(other);
   }
   return partners;
 }

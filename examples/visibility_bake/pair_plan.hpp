@@ -42,6 +42,7 @@ class PairPlan {
  private:
   std::vector<Vector3f> floors_;
   PairOptions options_;
+  std::vector<std::uint32_t> by_y_;  ///< all cells
   std::vector<Vector3f> eyes_;
 };
 
