@@ -3,7 +3,7 @@
 namespace surehit::example {
 
 Ranks::Ranks() = default;
-Ranks::~Ranks() = default;
+Ranks::~Ranks() {}
 
 bool Ranks::are_ready(const std::function<std::uint64_t()>& prepare) const {
   static_cast<void>(prepare());

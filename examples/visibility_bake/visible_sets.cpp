@@ -47,13 +47,16 @@ std::string figures_csv(const PairPlan& plan, const Visibility& visibility) {
   for (std::uint32_t cell = 0; cell < plan.cell_count(); ++cell) {
     const Vector3f& floor = plan.floors()[cell];
     const Visibility::Figures& figures = visibility.figures(cell);
-    char line[192];
-    std::snprintf(line, sizeof line, "%u,%.9g,%.9g,%.9g,%llu,%llu,%llu,%llu\n", cell, double{floor.x()},
-                  double{floor.y()}, double{floor.z()}, static_cast<unsigned long long>(figures.cells_in_range),
-                  static_cast<unsigned long long>(figures.cells_seen),
-                  static_cast<unsigned long long>(figures.cells_in_range * plan.options().samples),
-                  static_cast<unsigned long long>(figures.clear_segments));
-    text += line;
+    const std::uint64_t segments = figures.cells_in_range * plan.options().samples;
+    char place[96];
+    std::snprintf(place, sizeof place, "%u,%.9g,%.9g,%.9g", cell, double{floor.x()}, double{floor.y()},
+                  double{floor.z()});
+    text += place;
+    for (const std::uint64_t figure : {figures.cells_in_range, figures.cells_seen, segments, figures.clear_segments}) {
+      text += ',';
+      text += std::to_string(figure);
+    }
+    text += '\n';
   }
   return text;
 }
