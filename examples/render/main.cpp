@@ -14,6 +14,7 @@
 #include "command_line/parse_point.hpp"
 #include "command_line/program.hpp"
 #include "command_line/read_with_z_up.hpp"
+#include "level/level.hpp"
 #include "mesh_io/input_error.hpp"
 #include "mesh_io/lower_case.hpp"
 #include "picture/png.hpp"
@@ -41,7 +42,7 @@ struct Request {
   std::string target;
   float degrees = 0;
   bool has_unit_directions = false;
-  int width = 960;
+  std::optional<int> width;
   int height = 540;
   int samples = 2;
   int max_depth = 8;
@@ -86,7 +87,9 @@ void describe(CLI::App& app, Request& request) {
       ->check(CLI::Range(0.001f, 179.0f).description(""));
   app.add_flag("--unit-directions", request.has_unit_directions,
                "Rays have directions of length 1, not directions that lead to the image plane");
-  count("--width", request.width, "Pixels of a row; of a side, in --mode cracks", 16'384);
+  app.add_option("--width", request.width,
+                 "Pixels of a row; of a side of each picture, in --mode cracks (default: 960; 512)")
+      ->check(CLI::Range(1, 16'384).description(""));
   count("--height", request.height, "Pixels of a column", 16'384);
   count("--samples", request.samples, "Rays of a pixel in each direction, in --mode shaded", 16);
   count("--depth", request.max_depth, "How often light is reflected or refracted", 64, 0);
@@ -122,11 +125,16 @@ Stage asked_stage(const Request& request) {
   return stage;
 }
 
-Canvas draw_cracks(const Request& request) {
+Mesh<float> mesh_with_cracks(const Request& request) {
+  if (!request.mesh_path.empty()) return read_with_z_up("render", request.mesh_path, request.up);
+  if (request.scene == "level") return build_level().mesh;
   // No number of this sphere is round, as those of a scan are not.
-  const Mesh<float> mesh = request.mesh_path.empty() ? tessellated_sphere({0.3f, 0.7f, -0.2f}, 1.3f, 3).mesh
-                                                     : read_with_z_up("render", request.mesh_path, request.up);
-  const CrackView view = find_crack_view(mesh, request.vertex, std::min(request.width, 512));
+  return tessellated_sphere({0.3f, 0.7f, -0.2f}, 1.3f, 3).mesh;
+}
+
+Canvas draw_cracks(const Request& request) {
+  const Mesh<float> mesh = mesh_with_cracks(request);
+  const CrackView view = find_crack_view(mesh, request.vertex, request.width.value_or(512));
   Cracks cracks = draw_cracks(mesh, view, request.threads);
   std::printf("vertex %u, a view of %g across, %zu rays\n", view.vertex, double{view.width}, cracks.rays);
   std::printf("  plain floats: %zu holes\n  surehit: %zu holes\n", cracks.holes_of_plain, cracks.holes_of_surehit);
@@ -137,7 +145,8 @@ Canvas draw_stage(const Request& request) {
   const Stage stage = asked_stage(request);
   const Culling culling = culling_names.at(request.culling);
   const DirectionLength length = request.has_unit_directions ? DirectionLength::unit : DirectionLength::to_image_plane;
-  const Camera camera = camera_of(stage, request.width, request.height, length);
+  const int width = request.width.value_or(960);
+  const Camera camera = camera_of(stage, width, request.height, length);
   const auto build_start = std::chrono::steady_clock::now();
   const World world(stage.model, culling);
   const auto start = std::chrono::steady_clock::now();
@@ -147,13 +156,12 @@ Canvas draw_stage(const Request& request) {
     const auto costs =
         costs_of(world.collider(), camera, culling, cost_names.at(request.cost), request.threads, counts);
     const std::string name = request.cost == "exact" ? "exact decisions" : request.cost;
-    canvas = draw_costs(costs, request.width, request.height, name);
+    canvas = draw_costs(costs, width, request.height, name);
   } else if (request.mode == "ids") {
     canvas = draw_ids(world, camera, request.threads, counts);
   } else {
     canvas = draw_shaded(world, stage,
-                         {request.width, request.height, request.samples, request.max_depth, length, request.threads},
-                         counts);
+                         {width, request.height, request.samples, request.max_depth, length, request.threads}, counts);
   }
   const auto seconds = [](auto from, auto to) { return std::chrono::duration<double>(to - from).count(); };
   const double drawn = seconds(start, std::chrono::steady_clock::now());

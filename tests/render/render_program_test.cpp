@@ -36,9 +36,8 @@ TEST_F(RenderProgram, draws_each_mode_and_scene) {
   write_tetrahedron();
   for (const std::string mode : {"shaded", "cost", "ids", "cracks"}) {
     for (const std::string scene : {"--scene exercise", "--scene level", "tetrahedron.obj"}) {
-      if (mode != "cracks") expect_picture(scene + " --mode " + mode, "picture.png");
+      expect_picture(scene + " --mode " + mode, "picture.png");
     }
-    expect_picture("tetrahedron.obj --up z --mode " + mode, "picture.png");
   }
   for (const std::string cost : {"cells", "candidates", "exact"}) {
     expect_picture("tetrahedron.obj --mode cost --cost " + cost, "picture.png");
@@ -51,6 +50,7 @@ TEST_F(RenderProgram, says_how_many_holes_there_are) {
   EXPECT_EQ(outcome.status, 0);
   EXPECT_NE(outcome.output.find("surehit: 0 holes"), std::string::npos) << outcome.output;
   EXPECT_EQ(outcome.output.find("plain floats: 0 holes"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find(" 9216 rays"), std::string::npos) << outcome.output;
 }
 
 TEST_F(RenderProgram, writes_png_or_ppm) {
@@ -105,7 +105,7 @@ TEST_F(RenderProgram, says_that_a_picture_cannot_be_written) {
 TEST_F(RenderProgram, stops_cleanly_when_it_is_asked_to) {
   for (const std::string signal : {"INT", "TERM"}) {
     const auto outcome = run_.run_command(
-        "\"$program\" --width 4000 --height 4000 --samples 8 -o long.png & child=$!; sleep 0.5; kill -" + signal +
+        "\"$program\" --width 4000 --height 4000 --samples 8 -o long.png & child=$!; sleep 1.5; kill -" + signal +
         " $child; wait $child");
     EXPECT_EQ(outcome.status, 130) << signal << ' ' << outcome.error;
     EXPECT_EQ(outcome.error, "render: interrupted\n");
