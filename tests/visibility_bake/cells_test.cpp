@@ -30,6 +30,7 @@ TEST(Cells, have_headroom_and_are_not_inside_of_solids) {
   builder.add_box({1, 1, 1.5f}, {2, 2, 5});       // hangs low
   builder.add_box({2, 2, 2}, {3, 3, 5});          // hangs high
   builder.add_box({0, 0, -0.5f}, {1, 1, 0.25f});  // begins in the floor
+  builder.add_box({3, 3, -0.5f}, {4, 4, 5});      // is so high that one could stand in it
   const Mesh<float> mesh = builder.take();
   const auto floors = find_floors(Colliderf(mesh.view()), {.spacing = 1, .headroom = 1.8f});
   EXPECT_FALSE(has(floors, {1.5f, 1.5f, 0}));
@@ -38,6 +39,8 @@ TEST(Cells, have_headroom_and_are_not_inside_of_solids) {
   EXPECT_TRUE(has(floors, {0.5f, 0.5f, 0.25f}));
   EXPECT_FALSE(has(floors, {0.5f, 0.5f, 0}));
   EXPECT_TRUE(has(floors, {3.5f, 0.5f, 0}));
+  EXPECT_TRUE(has(floors, {3.5f, 3.5f, 5}));
+  EXPECT_FALSE(has(floors, {3.5f, 3.5f, 0}));
 }
 
 TEST(Cells, are_not_on_steep_ground) {
