@@ -150,7 +150,7 @@ struct ListBounds {
   Scalar side;      ///< The bound of W, which also holds for U and V.
   Scalar range;     ///< The bound of both ends of the range.
   Scalar det;       ///< The bound of det.
-  Scalar height;    ///< The bound of T, and at least that of det.
+  Scalar height;    ///< The bound of T.
   Scalar min_side;  ///< A side below this is a miss for any sign of det (K13). It is -(side + det).
   Scalar min_end;   ///< An end of [0, 1] below this is a miss for any sign of det (K14). It is -(range + det).
 
@@ -161,7 +161,7 @@ struct ListBounds {
     const Scalar s_edges = s * (edge * edge);
     side = d_edge * (2 * s + edge) + Bound::underflow;  // K5, K8
     det = d_edge * edge + Bound::underflow;
-    height = s_edges * Bound::relative + det;
+    height = s_edges * Bound::relative + Bound::underflow;
     range = s_edges * weights.t_bound + det * weights.det_size;
     min_side = -(side + det);
     min_end = -(range + det);

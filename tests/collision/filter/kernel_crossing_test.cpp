@@ -330,7 +330,7 @@ TYPED_TEST(KernelCrossing, holds_where_hill_climbing_makes_the_error_worst) {
 
 TYPED_TEST(KernelCrossing, has_little_room_to_waste) { EXPECT_GT(this->climb(6, 1'000, false), 0.02); }
 
-/// t is 1/2, and D is 2 long: 3/2 (66 eps (1 + 2) + 1/2 · 66 eps 2) / 2 = 198 eps.
+/// t is 1/2, and D is 2 long: 3/2 (66 eps + 1/2 · 66 eps 2) / 2 = 99 eps.
 TYPED_TEST(KernelCrossing, is_as_wide_as_its_derivation) {
   const TypeParam eps = std::numeric_limits<TypeParam>::epsilon() / 2;
   const TypeParam quarter{0.25};
@@ -339,8 +339,8 @@ TYPED_TEST(KernelCrossing, is_as_wide_as_its_derivation) {
   const Path<TypeParam> path = Segment<TypeParam>{{quarter, quarter, 1}, {quarter, quarter, -1}};
   on_every_instruction_set([&] {
     const KernelFirst<TypeParam> first = list.first_from(path, 0, 1, no_limit<TypeParam>);
-    EXPECT_EQ(first.t_lower, half - 198 * eps);
-    EXPECT_EQ(first.t_upper, half + 198 * eps);
+    EXPECT_EQ(first.t_lower, half - 99 * eps);
+    EXPECT_EQ(first.t_upper, half + 99 * eps);
   });
 }
 
