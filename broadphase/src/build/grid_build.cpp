@@ -410,6 +410,7 @@ void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
   GridBuild<detail::ListedTriangles<Scalar>>(*this, frame_, scratch, triangles, options, 0, executor);
   top_count_ = top_.size();
   const GridOptions inner_options{.cells_per_triangle = options.cells_per_triangle, .crowded = options.crowded};
+  const std::size_t outer_entries = entries_.size();
   for (std::size_t i = 0; i < scratch.pending_.size(); ++i) {  // The build of an inner grid may add more of them.
     const detail::PendingGrid pending = scratch.pending_[i];
     const auto first = scratch.inner_ids_.begin() + static_cast<std::ptrdiff_t>(pending.first);
@@ -425,6 +426,7 @@ void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
     frame_.coarsen(brick_edge);
     for (GridFrame& frame : inner_frames_) frame.coarsen(brick_edge);
   }
+  is_mostly_inner_ = outer_entries < entries_.size() / 4;
   is_one_list_ = top_count_ == 1 && lists_.size() == 2 && entries_.size() <= max_unwalked;
   cover_ = GridCover(*this);
 }

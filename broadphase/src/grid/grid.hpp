@@ -79,6 +79,9 @@ class Grid {
   /// Returns true if there is one cell, which lists at most `max_unwalked` triangles. A path can ask them all in the
   /// time of a walk.
   [[nodiscard]] bool is_one_list() const noexcept { return is_one_list_; }
+  /// Returns true if inner grids have more than three in four of all entries. Then the outermost grid is nearly empty,
+  /// and a path goes through it in a few leaps.
+  [[nodiscard]] bool is_mostly_inner() const noexcept { return is_mostly_inner_; }
   /// Returns the number of levels of bricks below the top cells. It is 0 if no cell is divided.
   [[nodiscard]] std::uint32_t levels() const noexcept { return levels_; }
   /// Returns the number of top cells and of cells in bricks.
@@ -91,20 +94,22 @@ class Grid {
   }
 
   /// Returns the words of the top cells of the outermost grid. x runs fastest, then y, then z.
-  [[nodiscard]] std::span<const CellWord> top() const noexcept { return {top_.data(), top_count_}; }
+  [[gnu::always_inline]] [[nodiscard]] std::span<const CellWord> top() const noexcept {
+    return {top_.data(), top_count_};
+  }
   /// Returns the words of the top cells of all grids. Those of a frame begin at its `first_top`.
-  [[nodiscard]] std::span<const CellWord> all_top() const noexcept {
+  [[gnu::always_inline]] [[nodiscard]] std::span<const CellWord> all_top() const noexcept {
     return {top_.data(), top_.empty() ? 0 : top_.size() - top_slack};
   }
   /// Returns the words of the cells of all bricks. Each brick has `brick_size` words, in the same order.
-  [[nodiscard]] std::span<const CellWord> bricks() const noexcept { return bricks_; }
+  [[gnu::always_inline]] [[nodiscard]] std::span<const CellWord> bricks() const noexcept { return bricks_; }
   /// Returns the triangle ids of all lists, one list after the other.
   [[nodiscard]] const detail::PackedIds& entries() const noexcept { return entries_; }
 
   /// Returns all lists by their numbers, and one more that begins where the last list ends. Returns nothing if the mesh
   /// has no triangles. After the list of a cell with an inner grid comes an empty list. The bits of its box are the
   /// index of the inner grid's frame.
-  [[nodiscard]] std::span<const CellList> lists() const noexcept { return lists_; }
+  [[gnu::always_inline]] [[nodiscard]] std::span<const CellList> lists() const noexcept { return lists_; }
   /// Returns the index of the first entry of a cell's list.
   [[nodiscard]] std::size_t first_entry(CellWord word) const noexcept { return lists_[word.list()].first_entry; }
   /// Returns the number of triangles in a cell's list.
@@ -132,6 +137,7 @@ class Grid {
   GridCover cover_;
   std::uint32_t levels_ = 0;
   bool is_one_list_ = false;
+  bool is_mostly_inner_ = false;
   std::size_t top_count_ = 0;
   detail::UnsetVector<CellWord> top_;  ///< Longer by `top_slack` than all top cells.
   std::vector<CellWord> bricks_;

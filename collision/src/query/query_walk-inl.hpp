@@ -208,7 +208,8 @@ HWY_NOINLINE void walk_all_cells(float enters, const Query<float>& query, const 
 }
 
 /// Walks the path in lanes if it is long enough for this to be faster. Returns true if it walked. If many cells have
-/// lists, it is faster to visit all cells. If few cells have lists, it is faster to leap over the others.
+/// lists, it is faster to visit all cells. If few cells have lists, it is faster to leap over the others. If nearly all
+/// lists are in inner grids, a single walk is faster, because lanes would wait for the one that enters an inner grid.
 template <typename Visitor>
 HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const Path<float>& path,
                               const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
@@ -216,6 +217,7 @@ HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const Pat
   constexpr float min_cells_at_once = 4;
   constexpr std::size_t full_share = 4;  // More than one top cell in this many must have a list.
   const Grid& grid = query.grid;
+  if (grid.is_mostly_inner()) return false;
   const bool has_levels = grid.levels() > 0;
   const bool takes_all =
       LaneWalk::can_enter_crossings && !has_levels && grid.lists().size() * full_share > grid.top().size();
