@@ -80,18 +80,6 @@ struct ScaledPath {
 
 }  // namespace
 
-bool ClippedPath::misses_from_afar(const detail::Float4& from, const detail::Float4& stop,
-                                   float last_t) const noexcept {
-  using namespace detail;
-  if (any_lane((absolute(from) > 0x1p20F * stop) | (rate > all_lanes(0x1p60F)))) return false;
-  const Float4 margin = 0x1p-10F * (absolute(from) + stop);
-  const Float4 enters = (-margin - from) * inverse_rate;
-  const Float4 leaves = (stop + margin - from) * inverse_rate;
-  const float first = std::max({enters[0], enters[1], enters[2]});
-  const float last = std::min({leaves[0], leaves[1], leaves[2], last_t});
-  return first > last;
-}
-
 template <typename Scalar>
 void ClippedPath::clip_in_double(const GridFrame& frame, const Path<Scalar>& path, double first_t,
                                  double last_t) noexcept {

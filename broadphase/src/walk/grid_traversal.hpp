@@ -75,7 +75,7 @@ struct ClippedPath {
   WalkParameter tau;                 ///< Only `origin[2]` is set if the path is clipped in float.
 
   /// Returns a mask of the axes on which the path is mirrored.
-  [[nodiscard]] detail::Int4 is_mirrored() const noexcept {
+  [[gnu::always_inline]] [[nodiscard]] detail::Int4 is_mirrored() const noexcept {
     using namespace detail;
     return (all_lanes(static_cast<std::int32_t>(octant)) & Int4{1, 2, 4, 0}) != all_lanes(0);
   }
@@ -90,6 +90,15 @@ struct ClippedPath {
   /// Clips a moved path to a grid that is not empty. Its numbers must be finite. It is too far if it is not precise.
   ClippedPath(const GridFrame& frame, const MovedPath& path, double first_t, double last_t) noexcept;
   ClippedPath() = default;
+
+  /// What `clip_in_float` has done.
+  enum class InFloat : std::uint8_t {
+    done,  ///< The path is clipped, or it misses the grid.
+    far,   ///< The path does not begin near the grid. `start` is its start, and the rates and the octant are set.
+    none,  ///< The path must be clipped in double.
+  };
+  /// Clips a path that begins near the grid, in float (L8).
+  InFloat clip_in_float(const GridFrame& frame, const Path<float>& path, float first_t, float last_t) noexcept;
 
   /// Returns true if tau is t less the last origin.
   [[nodiscard]] bool is_unscaled() const noexcept {
@@ -140,12 +149,6 @@ struct ClippedPath {
   /// Clips the path from + tau by, in the scaled frame. `tau` is set but for its last origin.
   void clip_scaled(const GridFrame& frame, std::array<double, 3>& from, std::array<double, 3>& by, double first_t,
                    double last_t) noexcept;
-  /// Returns true if a path that is not near the grid is certain to miss it (L13).
-  [[nodiscard]] bool misses_from_afar(const detail::Float4& from, const detail::Float4& stop,
-                                      float last_t) const noexcept;
-  /// Clips a path in float (L8). Returns false if it is too slow or too fast, or if it is not near the grid and may
-  /// meet it.
-  bool try_clip_in_float(const GridFrame& frame, const Path<float>& path, float first_t, float last_t) noexcept;
 };
 
 template <typename Scalar>
@@ -159,7 +162,8 @@ template <typename Scalar>
                                                      double last_t) noexcept {
   if constexpr (std::is_same_v<Scalar, float>) {
     // The limits of a path of floats are floats.
-    if (try_clip_in_float(frame, path, static_cast<float>(first_t), static_cast<float>(last_t))) return;
+    if (clip_in_float(frame, path, static_cast<float>(first_t), static_cast<float>(last_t)) == InFloat::done) return;
+    octant = 0;
   }
   clip_in_double(frame, path, first_t, last_t);
 }
@@ -171,10 +175,11 @@ template <typename Scalar>
 }
 
 // It has no branches on the direction, because a processor could not predict them.
-[[gnu::always_inline]] inline bool ClippedPath::try_clip_in_float(const GridFrame& frame, const Path<float>& path,
-                                                                  float first_t, float last_t) noexcept {
+[[gnu::always_inline]] inline ClippedPath::InFloat ClippedPath::clip_in_float(const GridFrame& frame,
+                                                                              const Path<float>& path, float first_t,
+                                                                              float last_t) noexcept {
   using namespace detail;
-  if (!frame.has_floats) return false;
+  if (!frame.has_floats) return InFloat::none;
   const Float4 path_start = {path.start[0], path.start[1], path.start[2], 0};
   const Float4 path_toward = {path.toward[0], path.toward[1], path.toward[2], 0};
   const Float4 stop = frame.float_stop;
@@ -190,8 +195,12 @@ template <typename Scalar>
   Float4 leaving = (from - stop) * inverse_rate;
   leaving[3] = -last_t;
   const Float4 limits = max_lanes(-from * inverse_rate, leaving, speed, masked(~is_near, all_lanes(1.0F)));
-  if (!(limits[2] >= slow || path.has_end())) return false;
-  if (limits[3] != 0) return misses_from_afar(from, stop, last_t);
+  if (!(limits[2] >= slow || path.has_end())) return InFloat::none;
+  if (limits[3] != 0) {
+    start = from;
+    octant = bits_of_lanes(is_mirrored);
+    return InFloat::far;
+  }
   // Most paths begin inside the grid. This test does not wait for the divisions, so these paths do not wait either.
   const bool may_enter_later = any_lane(from < all_lanes(0.0F)) || first_t != 0;
   float enters = 0;
@@ -201,7 +210,7 @@ template <typename Scalar>
     start = max(from + enters * rate, all_lanes(0.0F));
   }
   const float leaves = -limits[1];
-  if (!(enters <= leaves)) return true;
+  if (!(enters <= leaves)) return InFloat::done;
   status = Status::clipped;
   is_clipped_in_float = true;
   octant = bits_of_lanes(is_mirrored);
@@ -209,7 +218,7 @@ template <typename Scalar>
   end = (last_t - enters) + (std::fabs(last_t) + std::fabs(enters)) * 0x1p-22F + std::numeric_limits<float>::min();
   exit = leaves - enters;
   start = min(start, stop * (1 - 0x1p-24F));
-  return true;
+  return InFloat::done;
 }
 
 /// Visits the cells that a path goes through, in the order of the path. It leaps over long rows of empty cells.
@@ -285,7 +294,7 @@ class GridTraversal {
   }
 
   /// Ends the walk at parameter t, because the caller does not need what the path meets beyond it.
-  void shorten(double t) noexcept { end_ = std::min(end_, path_.beyond(t)); }
+  [[gnu::always_inline]] void shorten(double t) noexcept { end_ = std::min(end_, path_.beyond(t)); }
 
  private:
   /// Goes to the first cell.

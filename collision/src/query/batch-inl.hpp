@@ -190,7 +190,7 @@ class Batch {
     const GridFrame& frame = query_.grid.inner_frame(word);
     const auto& range = queries_.range(index_[slot]);
     const Path<Scalar> path = paths_[index_[slot]];
-    ClippedPath clipped(frame, path, range.first, range.last);
+    ClippedPath clipped = clipped_to(frame, path, range);
     if (clipped.status == ClippedPath::Status::miss) return walks_on;
     const bool can_return = !walks_on || ((in_inner_frame_ & bit) == 0 && free_outer_ != 0);
     if (clipped.status == ClippedPath::Status::too_far || (is_float && !clipped.is_unscaled()) || !can_return) {

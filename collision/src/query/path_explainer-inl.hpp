@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "query/pair_explainer.hpp"
 #include "query/query_walk-inl.hpp"
@@ -192,10 +193,15 @@ class PathExplainer {
 };
 
 /// Takes the place of `visit_list` for other visitors, which do not need the numbers of the kernel.
-template <typename Scalar>
-bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>&, const Path<Scalar>&,
+template <typename Scalar, typename AnyPath>
+bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& range, const AnyPath& path,
                 const KernelInput<Scalar>& input, const TriangleList<Scalar>& list, PathExplainer<Scalar>& explainer) {
-  return explainer.visit(query, input, list);
+  if constexpr (std::is_same_v<AnyPath, Path<Scalar>>) {
+    return explainer.visit(query, input, list);
+  } else {
+    // The start of a path from afar was moved. The numbers that are told are those of its own start.
+    return explainer.visit(query, KernelInput<Scalar>(path.path, range, query.grid.frame()), list);
+  }
 }
 
 /// Explains a path.

@@ -18,6 +18,7 @@
 #include "filter/double_hit_rounding-inl.hpp"
 #include "filter/hit_rounding-inl.hpp"
 #include "filter/kernel_path.hpp"
+#include "query/clipped_to-inl.hpp"
 #include "query/hit_visitors-inl.hpp"
 #if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
 #include "walk/lane_walk-inl.hpp"
@@ -25,8 +26,10 @@
 #include "grid/list_cells.hpp"
 #include "misses_box.hpp"
 #include "narrowphase.hpp"
+#include "query/far_path.hpp"
 #include "query/query.hpp"
 #include "scene/placed_path.hpp"
+#include "walk/far_clip.hpp"
 #include "walk/grid_traversal.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -51,25 +54,30 @@ struct KernelInput {
   template <typename SceneScalar>
   KernelInput(const PlacedPath<SceneScalar>& any_path, const PathRange<Scalar>& range, const GridFrame&)
       : path(any_path.template kernel_path<Scalar>()), weights(range) {}
+  KernelInput(const FarPath& any_path, const PathRange<Scalar>&, const GridFrame& frame)
+      : path(any_path.kernel_path(frame)), weights(any_path.kernel_range()) {}
   KernelPath<Scalar> path;       ///< The path.
   RangeWeights<Scalar> weights;  ///< The weights of its range.
 };
 
-/// Clips a path to a frame.
-template <typename Scalar>
-HWY_INLINE ClippedPath clipped_to(const GridFrame& frame, const Path<Scalar>& path, const PathRange<Scalar>& range) {
-  return {frame, path, range.first, range.last};
+/// Gives the hits that may be first the parameter of the path. Most paths have the kernel's own.
+template <typename Scalar, typename AnyPath>
+HWY_INLINE void set_parameter(const AnyPath&, FirstLanes<Scalar>&) {}
+/// A path whose start was moved has its own parameter.
+HWY_INLINE void set_parameter(const FarPath& path, FirstLanes<float>& first) { path.set_parameter(first); }
+
+/// Returns the reach (P1) of the path from its own start, which may be farther away than that of the kernel.
+template <typename Scalar, typename AnyPath>
+HWY_INLINE Scalar reach_from_start(const AnyPath&, const KernelPath<Scalar>& kernel_path) {
+  return kernel_path.reach;
 }
-/// Does the same for a placed path, which has a range of its own.
-template <typename Scalar, typename SceneScalar>
-HWY_INLINE ClippedPath clipped_to(const GridFrame& frame, const PlacedPath<SceneScalar>& path,
-                                  const PathRange<Scalar>&) {
-  const PathRange<SceneScalar>& range = path.scene_path.range;
-  return {frame, path.moved, range.first, range.last};
+/// A path whose start was moved adds the way to it.
+HWY_INLINE float reach_from_start(const FarPath& far_path, const KernelPath<float>& kernel_path) {
+  return far_path.reach_from_start(kernel_path);
 }
 
 /// Gives the visitor the triangles of a list that the path may meet. Returns true if the path is shorter now, or if the
-/// visitor is done. Here and below, `AnyPath` is a `Path` or a `PlacedPath`.
+/// visitor is done. Here and below, `AnyPath` is a `Path`, a `FarPath` or a `PlacedPath`.
 template <typename Scalar, typename AnyPath, typename Visitor>
 HWY_INLINE bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& range, const AnyPath& path,
                            const KernelInput<Scalar>& input, const TriangleList<Scalar>& list, Visitor& visitor) {
@@ -81,14 +89,16 @@ HWY_INLINE bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& 
     FirstLanes<Scalar> first = {};
     Verdicts verdicts;
     if constexpr (Visitor::wants_order) {
-      verdicts = classify<Kernel>(input.path, input.weights, list, bounds, from, visitor.t_upper(), first);
+      const Scalar limit = kernel_limit(path, visitor.t_upper());
+      verdicts = classify<Kernel>(input.path, input.weights, list, bounds, from, limit, first);
+      if (verdicts.certain != 0) set_parameter(path, first);
     } else {
       verdicts = classify<Kernel>(input.path, input.weights, list, bounds, from);
     }
     if (verdicts.possible == 0) continue;
     query.statistics.undecided += static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
-    shorter |= visit(CandidateBlock<Scalar, AnyPath>{query, range, path, list, input.path.reach, from, verdicts, first},
-                     visitor);
+    const Scalar reach = reach_from_start(path, input.path);
+    shorter |= visit(CandidateBlock<Scalar, AnyPath>{query, range, path, list, reach, from, verdicts, first}, visitor);
     if (visitor.is_done()) return true;
   }
   return shorter;
@@ -155,8 +165,8 @@ HWY_INLINE bool visit_cell(const Query<Scalar>& query, const PathRange<Scalar>& 
 // at the same time, so the path waits less. For a first hit, most of what the later lanes find would not be needed.
 
 /// Gives the visitor the triangles that the path may meet in the cells of these lanes, until the visitor is done.
-template <typename Visitor>
-HWY_INLINE void visit_cells(const Query<float>& query, const PathRange<float>& range, const Path<float>& path,
+template <typename AnyPath, typename Visitor>
+HWY_INLINE void visit_cells(const Query<float>& query, const PathRange<float>& range, const AnyPath& path,
                             const KernelInput<float>& input, const LaneWalk& walk, const LaneWalk::Cells& cells,
                             std::uint32_t walking, const WalkingPaths& lanes, Visitor& visitor) {
   query.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking));
@@ -172,8 +182,8 @@ HWY_INLINE void visit_cells(const Query<float>& query, const PathRange<float>& r
 }
 
 /// Cuts a path into pieces, and walks one piece in each lane. It begins at tau `enters`.
-template <bool has_levels, typename Visitor>
-HWY_NOINLINE void walk_in_pieces(float enters, const Query<float>& query, const Path<float>& path,
+template <bool has_levels, typename AnyPath, typename Visitor>
+HWY_NOINLINE void walk_in_pieces(float enters, const Query<float>& query, const AnyPath& path,
                                  const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
   const LaneWalk walk(query.grid, query.mesh.slabs());
   WalkingPaths pieces;
@@ -190,8 +200,8 @@ HWY_NOINLINE void walk_in_pieces(float enters, const Query<float>& query, const 
 
 /// Visits all cells of a path from tau `enters` on, one cell in each lane. The grid must have no levels. No cell waits
 /// for another one, but the walk cannot leap.
-template <typename Visitor>
-HWY_NOINLINE void walk_all_cells(float enters, const Query<float>& query, const Path<float>& path,
+template <typename AnyPath, typename Visitor>
+HWY_NOINLINE void walk_all_cells(float enters, const Query<float>& query, const AnyPath& path,
                                  const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
   const LaneWalk walk(query.grid, query.mesh.slabs());
   const LaneWalk::Crossings crossings(clipped, enters);
@@ -210,8 +220,8 @@ HWY_NOINLINE void walk_all_cells(float enters, const Query<float>& query, const 
 /// Walks the path in lanes if it is long enough for this to be faster. Returns true if it walked. If many cells have
 /// lists, it is faster to visit all cells. If few cells have lists, it is faster to leap over the others. If nearly all
 /// lists are in inner grids, a single walk is faster, because lanes would wait for the one that enters an inner grid.
-template <typename Visitor>
-HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const Path<float>& path,
+template <typename AnyPath, typename Visitor>
+HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const AnyPath& path,
                               const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
   constexpr float min_cells_in_pieces = 12;
   constexpr float min_cells_at_once = 4;
@@ -272,30 +282,64 @@ HWY_INLINE void walk_frame(const GridFrame& frame, float enters, const Query<Sca
   }
 }
 
+/// Walks a path of floats through an inner grid that it does not begin near, if its start can be moved. Returns true if
+/// it walked, or if it misses the grid. Else the path is clipped.
+template <typename Visitor>
+HWY_NOINLINE bool walk_inner_from_afar(const Query<float>& query, const Path<float>& path,
+                                       const PathRange<float>& range, const GridFrame& frame,
+                                       ClippedPath::InFloat in_float, ClippedPath& clipped, Visitor& visitor) {
+  const FarClip far(frame, path, range.first, range.last, in_float, clipped);
+  if (!far.is_free) return far.status == FarClip::Status::miss;
+  const FarPath far_path(path, far);
+  OnDemand<float> when(far_path, range, frame);
+  walk_frame(frame, 0, query, far_path, range, clipped, when, visitor);
+  return true;
+}
+
+/// Gives the visitor all lists of an inner grid, until the visitor is done.
+template <typename Scalar, typename AnyPath, typename Visitor>
+HWY_INLINE void visit_inner_lists(const Query<Scalar>& query, const AnyPath& path, const PathRange<Scalar>& range,
+                                  const KernelInput<Scalar>& input, const GridFrame& frame, Visitor& visitor) {
+  const std::size_t tops = std::size_t{frame.cells[0]} * frame.cells[1] * frame.cells[2];
+  visit_list_cells(query.grid, frame, 0, tops, [&](const ListCell& cell) {
+    if (!visitor.is_done()) visit_cell(query, range, path, input, cell.word, visitor);
+  });
+}
+
 /// Walks the path through the inner grid of a cell, until the visitor is done. A path that is too far away to be
-/// clipped meets all lists of the inner grid.
+/// clipped meets all lists of the inner grid. The input of the kernel belongs to the path.
 template <typename Scalar, typename AnyPath, typename Visitor>
 HWY_NOINLINE void walk_inner(const Query<Scalar>& query, const AnyPath& path, const PathRange<Scalar>& range,
                              const KernelInput<Scalar>& input, CellWord word, Visitor& visitor) {
   const GridFrame& frame = query.grid.inner_frame(word);
-  const ClippedPath clipped = clipped_to(frame, path, range);
-  if (clipped.status == ClippedPath::Status::miss) return;
-  if (clipped.status == ClippedPath::Status::too_far) {
-    const std::size_t tops = std::size_t{frame.cells[0]} * frame.cells[1] * frame.cells[2];
-    visit_list_cells(query.grid, frame, 0, tops, [&](const ListCell& cell) {
-      if (!visitor.is_done()) visit_cell(query, range, path, input, cell.word, visitor);
-    });
-    return;
+  const auto walk_clipped_to_frame = [&](const auto& any_path, const ClippedPath& clipped) {
+    if (clipped.status == ClippedPath::Status::miss) return;
+    if (clipped.status == ClippedPath::Status::too_far) {
+      visit_inner_lists(query, path, range, input, frame, visitor);
+      return;
+    }
+    OnDemand<Scalar> when(any_path, range, frame);
+    walk_frame(frame, 0, query, any_path, range, clipped, when, visitor);
+  };
+  if constexpr (std::is_convertible_v<const AnyPath&, const Path<float>&>) {
+    // A start that was moved may be far from this grid too.
+    const Path<float>& whole = path;
+    ClippedPath clipped;
+    const auto in_float = clipped.clip_in_float(frame, whole, range.first, range.last);
+    if (in_float != ClippedPath::InFloat::done) {
+      if (walk_inner_from_afar(query, whole, range, frame, in_float, clipped, visitor)) return;
+    }
+    walk_clipped_to_frame(whole, clipped);
+  } else {
+    walk_clipped_to_frame(path, clipped_to(frame, path, range));
   }
-  OnDemand<Scalar> when(path, range, frame);
-  walk_frame(frame, 0, query, path, range, clipped, when, visitor);
 }
 
 /// Walks the path through the outermost grid from tau `enters` on, until the visitor is done. `When` is `AtOnce` or
 /// `OnDemand`.
-template <template <typename> class When, typename Scalar, typename Visitor>
-HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const Path<Scalar>& path,
-                          const PathRange<Scalar>& range, const ClippedPath& clipped, Visitor& visitor) {
+template <template <typename> class When, typename Scalar, typename AnyPath, typename Visitor>
+HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const AnyPath& path, const PathRange<Scalar>& range,
+                          const ClippedPath& clipped, Visitor& visitor) {
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (std::is_same_v<Visitor, AnyHit<float>>) {
     if (walk_in_lanes(enters, query, path, range, clipped, visitor)) return;
@@ -322,22 +366,15 @@ HWY_INLINE void visit_only_list(const Query<Scalar>& query, const Path<Scalar>& 
   visit_list(query, range, path, input, list_of(query, query.grid.top()[0]), visitor);
 }
 
-/// Gives the visitor the triangles that the path may meet, until the visitor is done. A long path of floats walks only
-/// through the grid's cover, if this is useful. Paths of doubles have one walk for all lengths, because two would take
-/// too much stack.
-template <typename Scalar, typename Visitor>
-HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
-                     Visitor& visitor) {
-  ++query.statistics.paths;
-  if (range.is_empty()) return;
-  if (query.grid.is_one_list()) {
-    visit_only_list(query, path, range, visitor);
-    return;
-  }
-  ClippedPath clipped(query.grid, path, range.first, range.last);
+/// Gives the visitor the triangles that a clipped path may meet, until the visitor is done. A long path of floats walks
+/// only through the grid's cover, if this is useful. Paths of doubles have one walk for all lengths, because two would
+/// take too much stack.
+template <typename Scalar, typename AnyPath, typename Visitor>
+HWY_INLINE void walk_clipped(const Query<Scalar>& query, const AnyPath& path, const PathRange<Scalar>& range,
+                             ClippedPath& clipped, Visitor& visitor) {
   if (clipped.status == ClippedPath::Status::miss) return;
   if (clipped.status == ClippedPath::Status::too_far) {
-    visit_all(query, path, range, visitor);
+    visit_all<Scalar, Path<Scalar>>(query, path, range, visitor);
     return;
   }
   constexpr float few_cells = 4;
@@ -361,6 +398,40 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
     }
   }
   walk_from<OnDemand>(0, query, path, range, clipped, visitor);
+}
+
+/// Clips a path of floats that does not begin near the grid, or is very slow or fast. Returns true if it misses the
+/// grid, or if it has walked.
+template <typename Visitor>
+HWY_NOINLINE bool walk_from_afar(const Query<float>& query, const Path<float>& path, const PathRange<float>& range,
+                                 ClippedPath::InFloat in_float, ClippedPath& clipped, Visitor& visitor) {
+  const FarClip far(query.grid.frame(), path, range.first, range.last, in_float, clipped);
+  if (far.is_free) walk_clipped(query, FarPath(path, far), range, clipped, visitor);
+  return far.is_free || far.status == FarClip::Status::miss;
+}
+
+/// Gives the visitor the triangles that the path may meet, until the visitor is done.
+template <typename Scalar, typename Visitor>
+HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const PathRange<Scalar>& range,
+                     Visitor& visitor) {
+  ++query.statistics.paths;
+  if (range.is_empty()) return;
+  if (query.grid.is_one_list()) {
+    visit_only_list(query, path, range, visitor);
+    return;
+  }
+  if (query.grid.is_empty()) return;
+  if constexpr (std::is_same_v<Scalar, float>) {
+    ClippedPath clipped;
+    const auto in_float = clipped.clip_in_float(query.grid.frame(), path, range.first, range.last);
+    if (in_float != ClippedPath::InFloat::done) [[unlikely]] {
+      if (walk_from_afar(query, path, range, in_float, clipped, visitor)) return;
+    }
+    walk_clipped(query, path, range, clipped, visitor);
+  } else {
+    ClippedPath clipped(query.grid, path, range.first, range.last);
+    walk_clipped(query, path, range, clipped, visitor);
+  }
 }
 
 /// Returns the hit that the visitor of a path has kept.

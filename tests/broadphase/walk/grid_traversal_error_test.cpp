@@ -1,9 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 #include "support/scalars.hpp"
 #include "walk_error.hpp"
 
@@ -14,8 +10,6 @@ namespace {
 template <typename Scalar>
 class GridTraversalError : public WalkError<Scalar> {
  protected:
-  using typename WalkError<Scalar>::VisitedBox;
-
   [[nodiscard]] double worst_share(const Path<Scalar>& path) const override {
     const ClippedPath clipped(this->grid_, path, 0, 1);
     const auto course = this->course(path, clipped.octant);
@@ -24,20 +18,7 @@ class GridTraversalError : public WalkError<Scalar> {
       ADD_FAILURE() << hex_text(path) << " is not walked";
       return 0;
     }
-    std::vector<VisitedBox> boxes;
-    for (GridTraversal traversal(this->grid_, clipped); !traversal.at_end(); traversal.advance()) {
-      const CellWord word = traversal.word();
-      const bool is_far = boxes.empty() || word.distance(clipped.octant) >= GridTraversal::min_leap ||
-                          static_cast<std::uint32_t>(traversal.size()) != this->grid_.frame().division;
-      const auto leap = static_cast<std::int32_t>(word.is_empty() && is_far ? word.distance(clipped.octant) : 1);
-      VisitedBox box;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.low[axis] = traversal.low()[axis];
-        box.high[axis] = box.low[axis] + leap * traversal.size();
-      }
-      boxes.push_back(box);
-    }
-    return this->share_for(boxes, course, 16);
+    return this->share_for(this->visited_boxes(clipped), course, 16);
   }
 };
 TYPED_TEST_SUITE(GridTraversalError, Scalars, ScalarNames);

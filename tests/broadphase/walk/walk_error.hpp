@@ -60,6 +60,24 @@ class WalkError : public GridWalk<Scalar> {
     Exact high;
   };
 
+  /// Returns the cells and cubes that a walk visits.
+  [[nodiscard]] std::vector<VisitedBox> visited_boxes(const ClippedPath& clipped) const {
+    std::vector<VisitedBox> boxes;
+    for (GridTraversal traversal(this->grid_, clipped); !traversal.at_end(); traversal.advance()) {
+      const CellWord word = traversal.word();
+      const bool is_far = boxes.empty() || word.distance(clipped.octant) >= GridTraversal::min_leap ||
+                          static_cast<std::uint32_t>(traversal.size()) != this->grid_.frame().division;
+      const auto leap = static_cast<std::int32_t>(word.is_empty() && is_far ? word.distance(clipped.octant) : 1);
+      VisitedBox box;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.low[axis] = traversal.low()[axis];
+        box.high[axis] = box.low[axis] + leap * traversal.size();
+      }
+      boxes.push_back(box);
+    }
+    return boxes;
+  }
+
   /// Returns the share of a bound by which the boxes must grow to cover the path from end to end. The bound is that of
   /// `roundings` roundings of a number as large as the grid's resolution. One box is left and the next one is entered
   /// at the same parameter if plane k of the one and plane j of the other are crossed there:
