@@ -227,8 +227,10 @@ HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const Any
   constexpr float min_cells_at_once = 4;
   constexpr std::size_t full_share = 4;  // More than one top cell in this many must have a list.
   const Grid& grid = query.grid;
-  if (grid.is_mostly_inner()) return false;
   const bool has_levels = grid.levels() > 0;
+  // A path from afar meets little in a grid with levels, but lanes would load a cell each.
+  constexpr bool is_from_afar = std::is_same_v<AnyPath, FarPath>;
+  if (grid.is_mostly_inner() || (is_from_afar && has_levels)) return false;
   const bool takes_all =
       LaneWalk::can_enter_crossings && !has_levels && grid.lists().size() * full_share > grid.top().size();
   if (!is_long(takes_all ? min_cells_at_once : min_cells_in_pieces, grid, clipped, enters)) return false;
