@@ -5,12 +5,11 @@
 #include <cstring>
 #include <type_traits>
 
+#include "support/double4.hpp"
 #include "support/float4.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 
 namespace surehit::detail {
-
-using Double4 = double __attribute__((vector_size(32)));
 
 /// Loads the vertices of a mesh as vectors. Most vertices are loaded together with the number that follows them in
 /// memory. So the fourth lane holds some finite number of the mesh. The mesh must outlive this.

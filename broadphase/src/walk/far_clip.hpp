@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "grid/grid_frame.hpp"
+#include "support/double4.hpp"
 #include "support/float4.hpp"
 #include "surehit/path.hpp"
 #include "walk/direction.hpp"
@@ -44,9 +45,6 @@ struct FarClip {
   }
 
  private:
-  using Double4 = double __attribute__((vector_size(32)));
-  using Long4 = std::int64_t __attribute__((vector_size(32)));
-
   [[gnu::always_inline]] Status clip(const GridFrame& frame, const Path<float>& path, float first_t, float last_t,
                                      ClippedPath& clipped) noexcept {
     using namespace detail;
@@ -67,14 +65,14 @@ struct FarClip {
     // The fourth lanes stay at position 1, as in every frame.
     const Float4 path_start = {path.start[0], path.start[1], path.start[2], 0};
     const Float4 path_toward = {path.toward[0], path.toward[1], path.toward[2], 0};
-    const Double4 low = __builtin_convertvector(frame.float_low, Double4);
-    const Double4 scale = __builtin_convertvector(frame.float_scale, Double4);
-    const Double4 cells_low = __builtin_convertvector(frame.float_margin, Double4);
-    const Double4 start = __builtin_convertvector(path_start, Double4);
-    const Double4 toward = __builtin_convertvector(path_toward, Double4);
+    const Double4 low = to_double(frame.float_low);
+    const Double4 scale = to_double(frame.float_scale);
+    const Double4 cells_low = to_double(frame.float_margin);
+    const Double4 start = to_double(path_start);
+    const Double4 toward = to_double(path_toward);
     const Double4 way = path.has_end() ? toward - start : toward;
     const Double4 to_end = toward - low;
-    const Float4 end = negated_where(__builtin_convertvector(to_end * scale + cells_low, Float4), is_mirrored) + turned;
+    const Float4 end = negated_where(to_float(to_end * scale + cells_low), is_mirrored) + turned;
     // No branch depends on where the path ends, because a processor could not predict it.
     const bool may_end = path.has_end() && last_t == 1;
     is_end = !any_lane((all_lanes(may_end ? 0 : -1)) | (end < -stop) | (end > stop + stop));
@@ -84,8 +82,7 @@ struct FarClip {
     const Double4 to_point = ends ? to_end : (start - low) + moved_t * way;
     const Double4 place = ends ? toward : low + to_point;
     for (std::size_t axis = 0; axis < 4; ++axis) point[axis] = place[axis];
-    const Float4 from =
-        negated_where(__builtin_convertvector(to_point * scale + cells_low, Float4), is_mirrored) + turned;
+    const Float4 from = negated_where(to_float(to_point * scale + cells_low), is_mirrored) + turned;
     if (any_lane(~((-stop <= from) & (from <= stop + stop)))) return Status::unknown;
 
     // From here on, the parameter is t - moved_t.

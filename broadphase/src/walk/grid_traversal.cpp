@@ -134,7 +134,8 @@ bool MovedPath::is_precise_in(const GridFrame& frame) const noexcept {
   return is_precise;
 }
 
-ClippedPath::ClippedPath(const GridFrame& frame, const MovedPath& path, double first_t, double last_t) noexcept {
+void ClippedPath::clip_in_double(const GridFrame& frame, const MovedPath& path, double first_t,
+                                 double last_t) noexcept {
   tau = {{1, 1, 1}, {path.moved_t, 0, 0}};
   std::array<double, 3> from;
   std::array<double, 3> by;

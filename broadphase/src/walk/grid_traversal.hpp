@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "grid/grid.hpp"
+#include "support/double4.hpp"
 #include "surehit/path.hpp"
 #include "walk/direction.hpp"
 
@@ -29,10 +30,10 @@ struct WalkParameter {
 /// A path that is known up to errors, and whose start was moved along it: start + (t - moved_t) direction. An instance
 /// of a scene is met by such a path, in the frame of its mesh.
 struct MovedPath {
-  std::array<double, 3> start;           ///< The point at t = `moved_t`.
-  std::array<double, 3> direction;       ///< The way from there to the point at `moved_t` + 1.
-  double moved_t = 0;                    ///< The t by which the start was moved.
-  std::array<double, 3> position_error;  ///< Inside the mesh's box, no point is off by more than this.
+  detail::Double4 start;           ///< The point at t = `moved_t`.
+  detail::Double4 direction;       ///< The way from there to the point at `moved_t` + 1.
+  detail::Double4 position_error;  ///< Inside the mesh's box, no point is off by more than this.
+  double moved_t = 0;              ///< The t by which the start was moved.
 
   /// Returns true if the errors are so small that the walk through this frame misses nothing (L15).
   [[nodiscard]] bool is_precise_in(const GridFrame& frame) const noexcept;
@@ -88,7 +89,9 @@ struct ClippedPath {
   template <typename Scalar>
   ClippedPath(const Grid& grid, const Path<Scalar>& path, double first_t, double last_t) noexcept;
   /// Clips a moved path to a grid that is not empty. Its numbers must be finite. It is too far if it is not precise.
-  ClippedPath(const GridFrame& frame, const MovedPath& path, double first_t, double last_t) noexcept;
+  ClippedPath(const GridFrame& frame, const MovedPath& path, double first_t, double last_t) noexcept {
+    if (!try_clip_in_float(frame, path, first_t, last_t)) clip_in_double(frame, path, first_t, last_t);
+  }
   ClippedPath() = default;
 
   /// What `clip_in_float` has done.
@@ -149,6 +152,13 @@ struct ClippedPath {
   /// Clips the path from + tau by, in the scaled frame. `tau` is set but for its last origin.
   void clip_scaled(const GridFrame& frame, std::array<double, 3>& from, std::array<double, 3>& by, double first_t,
                    double last_t) noexcept;
+  /// Clips a moved path in float (L15). Returns false if it must be clipped in double.
+  bool try_clip_in_float(const GridFrame& frame, const MovedPath& path, double first_t, double last_t) noexcept;
+  /// Clips a moved path in double (L15).
+  void clip_in_double(const GridFrame& frame, const MovedPath& path, double first_t, double last_t) noexcept;
+  /// Clips the path at + tau move, in cells (L8). The range is that of tau. If `is_short`, the path may be slow.
+  InFloat clip_near(const GridFrame& frame, detail::Float4 at, detail::Float4 move, bool is_short, float first,
+                    float last) noexcept;
 };
 
 template <typename Scalar>
@@ -174,7 +184,6 @@ template <typename Scalar>
   if (!grid.is_empty()) clip(grid.frame(), path, first_t, last_t);
 }
 
-// It has no branches on the direction, because a processor could not predict them.
 [[gnu::always_inline]] inline ClippedPath::InFloat ClippedPath::clip_in_float(const GridFrame& frame,
                                                                               const Path<float>& path, float first_t,
                                                                               float last_t) noexcept {
@@ -182,9 +191,50 @@ template <typename Scalar>
   if (!frame.has_floats) return InFloat::none;
   const Float4 path_start = {path.start[0], path.start[1], path.start[2], 0};
   const Float4 path_toward = {path.toward[0], path.toward[1], path.toward[2], 0};
-  const Float4 stop = frame.float_stop;
   const Float4 move = direction_of(path.kind, path_start, path_toward) * frame.float_scale;
   const Float4 at = (path_start - frame.float_low) * frame.float_scale + frame.float_margin;
+  return clip_near(frame, at, move, path.has_end(), first_t, last_t);
+}
+
+[[gnu::always_inline]] inline bool ClippedPath::try_clip_in_float(const GridFrame& frame, const MovedPath& path,
+                                                                  double first_t, double last_t) noexcept {
+  using namespace detail;
+  if (!frame.has_floats) return false;
+  const Double4 scale = to_double(frame.float_scale);
+  const Double4 stop = to_double(frame.float_stop);
+  const Double4 cells = (path.start - to_double(frame.float_low)) * scale + to_double(frame.float_margin);
+  const Double4 rates = path.direction * scale;
+  const Long4 is_precise = path.position_error * scale <= 0x1p-23 * stop;
+  const Long4 is_moderate = (absolute(cells) <= 0x1p30) & (absolute(rates) <= 0x1p30);
+  if (any_of_three(~(is_precise & is_moderate))) return false;
+  Float4 at = to_float(cells);
+  Float4 move = to_float(rates);
+  at[3] = 1;
+  move[3] = 0;
+  // Both ends are rounded outward. A path that is not slow has left the grid long before tau is 2^100.
+  const double first = std::max(first_t - path.moved_t, -0x1p100);
+  const double last = std::min(last_t - path.moved_t, 0x1p100);
+  const auto outward = [](double tau) { return std::fabs(tau) * 0x1p-22; };
+  const InFloat in_float = clip_near(frame, at, move, false, static_cast<float>(first - outward(first)),
+                                     static_cast<float>(last + outward(last)));
+  if (in_float != InFloat::done) {
+    octant = 0;
+    return false;
+  }
+  if (status != Status::clipped) return true;
+  is_clipped_in_float = false;
+  tau.unit = {1, 1, 1};
+  tau.origin[0] = path.moved_t;
+  tau.origin[1] = 0;
+  return true;
+}
+
+// It has no branches on the direction, because a processor could not predict them.
+[[gnu::always_inline]] inline ClippedPath::InFloat ClippedPath::clip_near(const GridFrame& frame, detail::Float4 at,
+                                                                          detail::Float4 move, bool is_short,
+                                                                          float first_t, float last_t) noexcept {
+  using namespace detail;
+  const Float4 stop = frame.float_stop;
   const Float4 speed = absolute(move);
   const Int4 is_near = (-stop <= at) & (at <= stop + stop) & (speed <= all_lanes(fast));
   const Int4 is_mirrored = move < all_lanes(0.0F);
@@ -195,7 +245,7 @@ template <typename Scalar>
   Float4 leaving = (from - stop) * inverse_rate;
   leaving[3] = -last_t;
   const Float4 limits = max_lanes(-from * inverse_rate, leaving, speed, masked(~is_near, all_lanes(1.0F)));
-  if (!(limits[2] >= slow || path.has_end())) return InFloat::none;
+  if (!(limits[2] >= slow || is_short)) return InFloat::none;
   if (limits[3] != 0) {
     start = from;
     octant = bits_of_lanes(is_mirrored);

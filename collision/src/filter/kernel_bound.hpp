@@ -139,6 +139,14 @@ struct RangeWeights {
     t_bound = KernelBound<Scalar>::relative * std::max(t_first, -t_last);
     det_size = 1 + std::max(std::fabs(det_first), std::fabs(det_last));
   }
+  /// Returns the weights of a range of length 1 that contains 0: from `first` to `last`.
+  [[nodiscard]] static RangeWeights of_part(Scalar first, Scalar last) {
+    RangeWeights weights;
+    weights.det_first = -first;
+    weights.det_last = last;
+    weights.is_whole = false;
+    return weights;  // The other members are those of [0, 1].
+  }
 };
 
 /// Error bounds for the determinants of one path and any triangle of one list. A list has one bound of each kind for

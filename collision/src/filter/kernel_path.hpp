@@ -59,6 +59,14 @@ struct KernelPath {
     if (!are_small(start_size, d_size)) d_size = std::numeric_limits<Scalar>::infinity();
   }
 
+  /// Sets all members of a path of floats. The fourth lanes are the reach and `d_size`.
+  [[gnu::always_inline]] void set(Float4 from, Float4 way) {
+    static_assert(std::is_standard_layout_v<KernelPath<float>> && sizeof(KernelPath<float>) == 2 * sizeof(Float4));
+    auto* const bytes = reinterpret_cast<unsigned char*>(this);
+    std::memcpy(bytes, &from, sizeof from);
+    std::memcpy(bytes + sizeof from, &way, sizeof way);
+  }
+
  private:
   /// S is at most `largest_size` if the start and the first corners of a list are at most half of it.
   static bool are_small(Scalar start_size, Scalar any_d_size) {
@@ -81,10 +89,7 @@ inline KernelPath<float>::KernelPath(const Path<float>& path, const GridFrame& f
   const Float4 sizes = max_lanes(absolute(from), absolute(way), far, far);
   from[3] = sizes[2];
   way[3] = are_small(sizes[0], sizes[1]) ? sizes[1] : std::numeric_limits<float>::infinity();
-  static_assert(std::is_standard_layout_v<KernelPath> && sizeof(KernelPath) == 2 * sizeof(Float4));
-  auto* const bytes = reinterpret_cast<unsigned char*>(this);
-  std::memcpy(bytes, &from, sizeof from);
-  std::memcpy(bytes + sizeof from, &way, sizeof way);
+  set(from, way);
 }
 
 }  // namespace surehit::detail

@@ -9,6 +9,7 @@
 #include "filter/kernel_path.hpp"
 #include "grid/grid_frame.hpp"
 #include "path_range.hpp"
+#include "support/double4.hpp"
 #include "support/float4.hpp"
 #include "surehit/path.hpp"
 #include "walk/far_clip.hpp"
@@ -38,11 +39,10 @@ class FarPath {
   ///     of D, of the product and of the two sums add up to v (3 |start - low| + 3 |o| + |point|) in first order.
   ///     Since |o| <= |point| + |low|, this is at most v (3 |start| + 6 |low| + 4 |point|).
   [[gnu::always_inline]] [[nodiscard]] KernelPath<float> kernel_path(const GridFrame& frame) const {
-    using Double4 = double __attribute__((vector_size(32)));
     Double4 point;
     for (int axis = 0; axis < 4; ++axis) point[axis] = clip.point[static_cast<std::size_t>(axis)];
     const Float4 start = {path.start[0], path.start[1], path.start[2], 0};
-    const Float4 from = __builtin_convertvector(point, Float4);
+    const Float4 from = to_float(point);
     const Float4 way = direction_of(path.kind, start, Float4{path.toward[0], path.toward[1], path.toward[2], 0});
     const Float4 far = max(absolute(from - frame.float_box_low), absolute(from - frame.float_box_high));
     const Float4 all = absolute(start) + absolute(frame.float_low) + absolute(from);

@@ -50,10 +50,10 @@ struct KernelInput {
   KernelInput(const Path<Scalar>& any_path, const PathRange<Scalar>& range, const GridFrame& frame)
       : path(any_path, frame), weights(range) {}
   KernelInput(const KernelPath<Scalar>& any_path, const PathRange<Scalar>& range) : path(any_path), weights(range) {}
-  /// A placed path has the same form in all frames of a mesh.
+  /// A placed path has the same form in all frames of a mesh, and a range of its own.
   template <typename SceneScalar>
-  KernelInput(const PlacedPath<SceneScalar>& any_path, const PathRange<Scalar>& range, const GridFrame&)
-      : path(any_path.template kernel_path<Scalar>()), weights(range) {}
+  KernelInput(const PlacedPath<SceneScalar>& any_path, const PathRange<Scalar>&, const GridFrame&)
+      : path(any_path.template kernel_path<Scalar>()), weights(any_path.template kernel_weights<Scalar>()) {}
   KernelInput(const FarPath& any_path, const PathRange<Scalar>&, const GridFrame& frame)
       : path(any_path.kernel_path(frame)), weights(any_path.kernel_range()) {}
   KernelPath<Scalar> path;       ///< The path.

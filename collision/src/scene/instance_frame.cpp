@@ -119,24 +119,29 @@ InstanceFrame InstanceFrame::of(const Placement<Scalar>& placement, const Box<do
   const bool is_accurate = det_share <= 0x1p-45;
   frame.is_usable = true;
   frame.moves = placement.moves;
+  frame.is_turned = placement.pose.linear != Pose<Scalar>::Matrix3::Identity();
   frame.inverse_error = is_accurate ? 8 * eps + 2 * det_share : eps;
+  if (!frame.is_turned) frame.inverse_error = 0;
+  Matrix inverse;
   if (is_accurate) {
     frame.is_mirrored = cofactors.det < 0;
     for (std::size_t row = 0; row < 3; ++row) {
-      for (std::size_t column = 0; column < 3; ++column) {
-        frame.inverse[row][column] = cofactors.of[column][row] / cofactors.det;
-      }
+      for (std::size_t column = 0; column < 3; ++column)
+        inverse[row][column] = cofactors.of[column][row] / cofactors.det;
     }
   } else {
     frame.is_mirrored = ExactMatrix<Scalar>(placement.pose.linear).det().sign() < 0;
-    invert_exactly<Scalar>(placement.pose.linear, frame.inverse);
+    invert_exactly<Scalar>(placement.pose.linear, inverse);
   }
   double farthest = 0;
   for (std::size_t row = 0; row < 3; ++row) {
-    const Doubles& entries = frame.inverse[row];
+    const Doubles& entries = inverse[row];
+    for (std::size_t column = 0; column < 3; ++column) frame.inverse[column][row] = entries[column];
     frame.row_size[row] = (std::fabs(entries[0]) + std::fabs(entries[1]) + std::fabs(entries[2])) * (1 + 0x1p-50);
+    frame.largest_row_size = std::max(frame.largest_row_size, frame.row_size[row]);
     const auto i = static_cast<Eigen::Index>(row);
     frame.anchor[row] = mesh_box.low[i] / 2 + mesh_box.high[i] / 2;
+    frame.anchor_size = std::max(frame.anchor_size, std::fabs(frame.anchor[row]));
     const double half = std::max(mesh_box.high[i] - frame.anchor[row], frame.anchor[row] - mesh_box.low[i]);
     frame.half_size[row] = half * (1 + 0x1p-50) + std::numeric_limits<double>::denorm_min();
     frame.largest_half_size = std::max(frame.largest_half_size, frame.half_size[row]);
@@ -158,10 +163,11 @@ InstanceFrame InstanceFrame::of(const Placement<Scalar>& placement, const Box<do
     sum = exact_difference(sum[0], -sum[1]);
     frame.placed_anchor[row] = sum[0];
     frame.placed_anchor_rest[row] = sum[1];
-    frame.anchor_slack += std::fabs(sum[0]) * 0x1p-50 + std::numeric_limits<double>::min();
-    frame.placed_anchor_error[row] = size * 0x1p-100 + 0x1p-1000;
+    const double error = size * 0x1p-100 + 0x1p-1000;
+    frame.anchor_slack += std::fabs(sum[0]) * 0x1p-50 + error;
+    frame.largest_placed_anchor_error = std::max(frame.largest_placed_anchor_error, error);
     // I3
-    reach = (reach + frame.placed_anchor_error[row]) * (1 + 0x1p-48) + std::numeric_limits<double>::min();
+    reach = (reach + error) * (1 + 0x1p-48) + std::numeric_limits<double>::min();
     farthest += reach * reach;
     const double motion = placement.moves ? double{placement.motion[i]} : 0;
     const double margin = (size + reach + std::fabs(motion)) * 0x1p-50;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "scene/placement.hpp"
+#include "support/double4.hpp"
 #include "surehit/box.hpp"
 
 namespace surehit::detail {
@@ -14,23 +15,29 @@ using Doubles = std::array<double, 3>;
 /// them, and the code cites its lemmas.
 struct InstanceFrame {
   // Most paths that come to an instance pass beside it, and they need no more than this.
-  Doubles placed_anchor = {};  ///< Where the anchor is at t = 0.
+  Double4 placed_anchor = {};  ///< Where the anchor is at t = 0.
   double radius = 0;           ///< No point of the instance is farther than this from the placed anchor.
-  double anchor_slack = 0;     ///< More than the sum of all components of `placed_anchor_rest`.
+  double anchor_slack = 0;     ///< The placed anchor is off by less than this. All axes are added.
   bool is_usable = false;      ///< If false, each triangle of the instance must be decided exactly.
   bool is_mirrored = false;    ///< True if the determinant of the pose's matrix is negative.
   bool moves = false;          ///< True if the instance has a motion.
+  bool is_turned = true;       ///< False if the pose only translates.
 
-  std::array<Doubles, 3> inverse = {};  ///< The rows of the inverse of the pose's matrix.
-  Doubles row_size = {};                ///< The sum of the sizes of each row of `inverse`, rounded up.
+  std::array<Double4, 3> inverse = {};  ///< The columns of the inverse of the pose's matrix.
+  Double4 anchor = {};                  ///< The middle of the mesh's box.
+  Double4 row_size = {};                ///< The sum of the sizes of each row of `inverse`, rounded up.
+  double largest_row_size = 0;          ///< The largest component of `row_size`.
   double inverse_error = 0;             ///< No entry of `inverse` is off by more than this share of itself.
-  Doubles anchor = {};                  ///< The middle of the mesh's box.
-  Doubles half_size = {};               ///< Half of the mesh's box, rounded up.
+  double anchor_size = 0;               ///< The largest component of `anchor`.
   double largest_half_size = 0;         ///< The largest component of `half_size`.
-  Doubles placed_anchor_rest = {};      ///< What `placed_anchor` leaves out.
-  Doubles placed_anchor_error = {};     ///< The sum of both is off by at most this.
-  Doubles low = {};                     ///< The low corner of a box around the instance and its way.
-  Doubles high = {};                    ///< The high corner.
+  Double4 half_size = {};               ///< Half of the mesh's box, rounded up.
+
+  // These are for paths that need more than double.
+  Double4 placed_anchor_rest = {};         ///< What `placed_anchor` leaves out.
+  double largest_placed_anchor_error = 0;  ///< No component of the sum of both is off by more than this.
+
+  Doubles low = {};   ///< The low corner of a box around the instance and its way.
+  Doubles high = {};  ///< The high corner.
 
   /// Computes all of it. The mesh's box must not be empty, and the pose must be valid.
   template <typename Scalar>

@@ -168,8 +168,8 @@ void InstanceTree::refit(std::span<const InstanceBox> boxes) noexcept {
       if (child == no_child) continue;
       std::array<double, 3> sides;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        float& low = node.low[axis][lane];
-        float& high = node.high[axis][lane];
+        float& low = node.low(axis)[lane];
+        float& high = node.high(axis)[lane];
         if ((child & instance_bit) != 0) {
           const InstanceBox& box = boxes[child & ~instance_bit];
           // Two roundings, of the difference and of this margin.
@@ -179,9 +179,9 @@ void InstanceTree::refit(std::span<const InstanceBox> boxes) noexcept {
           if (std::isnan(low)) low = -std::numeric_limits<float>::infinity();
           if (std::isnan(high)) high = std::numeric_limits<float>::infinity();
         } else {
-          const Node& below = nodes_[child];
-          low = *std::min_element(below.low[axis].begin(), below.low[axis].end());
-          high = *std::max_element(below.high[axis].begin(), below.high[axis].end());
+          Node& below = nodes_[child];
+          low = *std::min_element(below.low(axis).begin(), below.low(axis).end());
+          high = *std::max_element(below.high(axis).begin(), below.high(axis).end());
         }
         sides[axis] = double{high} - double{low};
       }
@@ -205,8 +205,8 @@ void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<con
   constexpr float far = std::numeric_limits<float>::infinity();
   Node empty;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    empty.low[axis].fill(far);
-    empty.high[axis].fill(-far);
+    empty.low(axis).fill(far);
+    empty.high(axis).fill(-far);
   }
   empty.child.fill(no_child);
   nodes_.push_back(empty);

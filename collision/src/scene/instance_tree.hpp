@@ -30,9 +30,12 @@ class InstanceTree {
   static constexpr std::uint32_t no_child = ~std::uint32_t{0};
 
   struct alignas(32) Node {
-    std::array<std::array<float, width>, 3> low;   ///< The low corners of the children's boxes, by axis.
-    std::array<std::array<float, width>, 3> high;  ///< The high corners.
-    std::array<std::uint32_t, width> child;        ///< The children.
+    /// The planes of the children's boxes: the low ones of each axis, and then the high ones.
+    std::array<std::array<float, width>, 6> planes;
+    std::array<std::uint32_t, width> child;  ///< The children.
+
+    [[nodiscard]] std::array<float, width>& low(std::size_t axis) { return planes[axis]; }
+    [[nodiscard]] std::array<float, width>& high(std::size_t axis) { return planes[3 + axis]; }
   };
 
   /// Sorts these instances into a tree. `boxes` has the box of each index. May throw
@@ -43,7 +46,9 @@ class InstanceTree {
 
   [[nodiscard]] bool is_empty() const { return nodes_.empty(); }
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
-  [[nodiscard]] const Doubles& origin() const { return origin_; }
+  [[nodiscard]] const Double4& origin() const { return origin_; }
+  /// Returns the largest component of the origin.
+  [[nodiscard]] double origin_size() const { return max_lane(absolute(origin_)); }
   [[nodiscard]] double scale() const { return scale_; }
   /// Returns the box of all instances, in the scene's unit of length.
   [[nodiscard]] const InstanceBox& box() const { return box_; }
@@ -56,7 +61,7 @@ class InstanceTree {
   void set_frame(std::span<const InstanceBox> boxes) noexcept;
 
   std::vector<Node> nodes_;  ///< Each node comes before its children.
-  Doubles origin_ = {};
+  Double4 origin_ = {};
   double scale_ = 1;
   InstanceBox box_ = {};
   double cost_ = 0;        ///< The sum of the surfaces of all boxes, over that of the first one.

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <string>
 #include <utility>
 
@@ -48,19 +47,18 @@ class SingleSceneQuery {
   detail::SceneQuery<Scalar> query_;
 };
 
-/// Answers a batch. `ask(query, path, index)` answers one path.
-template <typename Scalar, typename Ask>
-void answer_batch(const SceneStateOf<Scalar>& state, const PathSpan<Scalar>& paths, std::size_t answers,
-                  const SceneBatchOptions<Scalar>& options, const Ask& ask) noexcept {
+/// Answers a batch in parts. `search` is one of the searches for batches.
+template <typename Scalar, typename Answer, typename Search>
+void answer_batch(const SceneStateOf<Scalar>& state, const PathSpan<Scalar>& paths, std::span<Answer> answers,
+                  const SceneBatchOptions<Scalar>& options, const Search& search) noexcept {
   const SceneHitFilter<Scalar>* const filter = options.filter ? &*options.filter : nullptr;
   const auto ask_part = [&](std::size_t first, std::size_t last, std::span<const SceneQueryOptions<Scalar>> own_options,
                             QueryStatistics& statistics) {
-    for (std::size_t i = first; i < last; ++i) {
-      const auto& its_options = own_options.empty() ? options.options : own_options[i - first];
-      ask(detail::SceneQuery<Scalar>{state.committed, state.tree, its_options, filter, statistics, i}, paths[i], i);
-    }
+    const FloatingPointEnvironment environment;
+    const detail::SceneQuery<Scalar> part{state.committed, state.tree, options.options, filter, statistics, first};
+    search(part, paths.subspan(first, last - first), own_options, answers.subspan(first, last - first));
   };
-  detail::answer_batch(paths, answers, options, scene_paths_in_a_task, ask_part);
+  detail::answer_batch(paths, answers.size(), options, scene_paths_in_a_task, ask_part);
 }
 
 /// The instances go the same share of their ways as the point.
@@ -86,9 +84,13 @@ template <FloatOrDouble Scalar>
 const SceneStateOf<Scalar>& Scene<Scalar>::state() const noexcept {
   if (state_) return *state_;
   // It is never destroyed, because a scene may be asked until the program ends.
-  alignas(SceneStateOf<Scalar>) static std::byte memory[sizeof(SceneStateOf<Scalar>)];
-  static const SceneStateOf<Scalar>& empty = *new (memory) SceneStateOf<Scalar>;
-  return empty;
+  union Kept {
+    Kept() : empty() {}
+    ~Kept() {}
+    SceneStateOf<Scalar> empty;
+  };
+  static const Kept kept;
+  return kept.empty;
 }
 
 template <FloatOrDouble Scalar>
@@ -361,18 +363,13 @@ void Scene<Scalar>::all_hits(const Path<Scalar>& path, std::vector<SceneHit<Scal
 template <FloatOrDouble Scalar>
 void Scene<Scalar>::first_hits(const PathSpan<Scalar>& paths, std::span<SceneHit<Scalar>> hits,
                                const SceneBatchOptions<Scalar>& options) const noexcept {
-  answer_batch(state(), paths, hits.size(), options, [&](const auto& query, const Path<Scalar>& path, std::size_t i) {
-    hits[i] = state().searches->first(query, path).value_or(SceneHit<Scalar>{});
-  });
+  answer_batch(state(), paths, hits, options, state().searches->each_first);
 }
 
 template <FloatOrDouble Scalar>
 void Scene<Scalar>::any_hits(const PathSpan<Scalar>& paths, std::span<std::uint8_t> blocked,
                              const SceneBatchOptions<Scalar>& options) const noexcept {
-  answer_batch(state(), paths, blocked.size(), options,
-               [&](const auto& query, const Path<Scalar>& path, std::size_t i) {
-                 blocked[i] = state().searches->any(query, path) ? 1 : 0;
-               });
+  answer_batch(state(), paths, blocked, options, state().searches->each_any);
 }
 
 template <FloatOrDouble Scalar>

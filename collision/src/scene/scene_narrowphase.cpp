@@ -69,13 +69,23 @@ void SceneNarrowphase<Scalar>::sort(std::vector<PlacedCandidate<Scalar>>& found)
 }
 
 template <typename Scalar>
+bool SceneNarrowphase<Scalar>::try_round(const PlacedPath<Scalar>& path, const PlacedCandidate<Scalar>& candidate,
+                                         std::uint32_t generation, SceneHit<Scalar>& hit) const {
+  const BoundedContact bounded = placed_contact(path, candidate.placed->frame.is_mirrored, candidate.local);
+  hit.triangle = candidate.id;
+  hit.side = bounded.contact.side;
+  hit.instance = {candidate.instance, generation};
+  return detail::try_round<Scalar>(bounded, hit);
+}
+
+template <typename Scalar>
 SceneHit<Scalar> SceneNarrowphase<Scalar>::hit(const PlacedCandidate<Scalar>& candidate,
                                                std::uint32_t generation) const {
   SceneHit<Scalar> hit;
   hit.triangle = candidate.id;
   hit.side = candidate.bounded.contact.side;
   hit.instance = {candidate.instance, generation};
-  if (!try_round<Scalar>(candidate.bounded, hit)) round_exactly(candidate, hit);
+  if (!detail::try_round<Scalar>(candidate.bounded, hit)) round_exactly(candidate, hit);
   return hit;
 }
 

@@ -47,6 +47,10 @@ class SceneNarrowphase {
   /// Sorts the candidates by `comes_before`, and keeps each triangle of an instance once.
   void sort(std::vector<PlacedCandidate<Scalar>>& found) const;
 
+  /// Rounds a hit with stage 2 alone. Returns false if stage 2 cannot decide the pair, or cannot round the hit.
+  [[nodiscard]] bool try_round(const PlacedPath<Scalar>& path, const PlacedCandidate<Scalar>& candidate,
+                               std::uint32_t generation, SceneHit<Scalar>& hit) const;
+
   /// Returns the contact as it is reported. `generation` is that of the instance.
   [[nodiscard]] SceneHit<Scalar> hit(const PlacedCandidate<Scalar>& candidate, std::uint32_t generation) const;
 

@@ -9,8 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,44 +26,113 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// Keeps the first hit of a path in a scene.
+/// The t of a hit, which the kernel has found in the mesh of an instance.
+struct HitInterval {
+  double lower;  ///< The exact t is at least this.
+  double upper;  ///< The exact t is at most this.
+
+  /// Takes an interval of the kernel's t. A product with a power of two and a sum are rounded.
+  template <typename Scalar>
+  HitInterval(const PlacedPath<Scalar>& path, double kernel_lower, double kernel_upper) {
+    const double scale = path.kernel_scale();
+    const auto moved = [&](double t, double sign) {
+      const double sum = path.moved.moved_t + t * scale;
+      return sum + sign * (std::fabs(sum) * 0x1p-51 + std::numeric_limits<double>::min());
+    };
+    lower = moved(kernel_lower, -1);
+    upper = moved(kernel_upper, 1);
+  }
+};
+
+/// Keeps the first hit of a path in a scene. If the kernel is certain of a hit and of its order, the narrowphase
+/// decides it when the path ends. The narrowphase decides all others at once.
 template <typename Scalar>
 class KeepFirst {
  public:
   static constexpr bool shortens = true;
+  static constexpr bool wants_order = true;
   KeepFirst(const SceneQuery<Scalar>& query, const SceneNarrowphase<Scalar>& narrowphase)
       : query_(query), narrowphase_(narrowphase) {}
 
+  /// Takes a hit that the kernel is certain of, if it certainly comes before the best one. Returns whether it does.
+  template <typename MeshScalar>
+  HWY_INLINE bool take_certain(const CandidateBlock<MeshScalar, PlacedPath<Scalar>>& block, std::size_t lane,
+                               std::uint32_t instance, const HitInterval& t) {
+    if (!(t.upper < t_lower_)) return false;
+    state_ = State::certain;
+    t_lower_ = t.lower;
+    t_upper_ = t.upper;
+    grid_ = &block.query.grid;
+    entry_ = block.entry(lane);
+    path_.emplace(block.path);
+    const auto& [a, b, c] = block.triangle(lane);
+    best_.instance = instance;
+    best_.local = {a.template cast<Scalar>(), b.template cast<Scalar>(), c.template cast<Scalar>()};
+    best_.placed = &query_.instances[instance].placed;
+    return true;
+  }
   /// Returns true if this triangle need not be decided, because it is the best one already.
   [[nodiscard]] bool has(std::uint32_t instance, std::uint32_t id) const {
-    return is_found_ && best_.instance == instance && best_.id == id;
+    return is_found() && best_.instance == instance && best_id() == id;
   }
   /// Takes a candidate that the path meets. Returns true if it is the first one now.
   bool take(const PlacedCandidate<Scalar>& candidate) {
-    if (is_found_ && !narrowphase_.comes_before(candidate, best_)) return false;
+    if (is_found() && !narrowphase_.comes_before(candidate, decided())) return false;
     if (query_.filter != nullptr && !query_.accepts(hit_of(candidate))) return false;
     best_ = candidate;
-    is_found_ = true;
+    state_ = State::decided;
+    t_lower_ = best_.bounded.contact.t_lower;
+    t_upper_ = best_.bounded.contact.t_upper;
     return true;
   }
   /// Returns the t at which the search may end.
-  [[nodiscard]] double limit() const {
-    return is_found_ ? best_.bounded.contact.t_upper : std::numeric_limits<double>::infinity();
-  }
+  [[nodiscard]] double limit() const { return t_upper_; }
   [[nodiscard]] bool is_done() const { return false; }
-  [[nodiscard]] std::optional<SceneHit<Scalar>> hit() const {
-    return is_found_ ? std::optional(hit_of(best_)) : std::nullopt;
+  [[nodiscard]] std::optional<SceneHit<Scalar>> hit() {
+    if (!is_found()) return std::nullopt;
+    SceneHit<Scalar> hit;
+    if (state_ == State::certain && try_round_certain(hit)) return hit;
+    return hit_of(decided());
   }
 
  private:
+  enum class State : std::uint8_t {
+    none,     ///< There is no hit yet.
+    certain,  ///< The kernel is certain of the best hit.
+    decided,  ///< The narrowphase has decided the best hit.
+  };
+
+  [[nodiscard]] bool is_found() const { return state_ != State::none; }
+  [[nodiscard]] std::uint32_t best_id() const { return state_ == State::certain ? grid_->entries()[entry_] : best_.id; }
   [[nodiscard]] SceneHit<Scalar> hit_of(const PlacedCandidate<Scalar>& candidate) const {
     return narrowphase_.hit(candidate, query_.instances[candidate.instance].generation);
+  }
+  /// Rounds a certain hit with the path as it was placed. Returns false if its errors are too large for that.
+  bool try_round_certain(SceneHit<Scalar>& hit) {
+    best_.id = best_id();
+    return narrowphase_.try_round(*path_, best_, query_.instances[best_.instance].generation, hit);
+  }
+  /// Returns the best hit. If only the kernel has decided it, the narrowphase decides it first.
+  const PlacedCandidate<Scalar>& decided() {
+    if (state_ == State::certain) {
+      best_.id = best_id();
+      const bool is_hit = narrowphase_.find_contact(path_->refined(), best_);
+      assert(is_hit);
+      (void)is_hit;
+      state_ = State::decided;
+    }
+    return best_;
   }
 
   const SceneQuery<Scalar>& query_;
   const SceneNarrowphase<Scalar>& narrowphase_;
-  bool is_found_ = false;
-  PlacedCandidate<Scalar> best_;  ///< The best hit. It is not set before there is one.
+  State state_ = State::none;                                 ///< Who has decided the best hit.
+  const Grid* grid_ = nullptr;                                ///< The grid of a certain hit.
+  std::size_t entry_ = 0;                                     ///< The index of a certain hit among its entries.
+  double t_lower_ = std::numeric_limits<double>::infinity();  ///< The exact t of the best hit is at least this.
+  double t_upper_ = std::numeric_limits<double>::infinity();  ///< The exact t of the best hit is at most this.
+  std::optional<PlacedPath<Scalar>> path_;                    ///< The path as the instance of a certain hit sees it.
+  PlacedCandidate<Scalar> best_;  ///< The best hit. It is not set before there is one. A certain hit has no id yet.
 };
 
 /// Notes whether a path has a hit in a scene.
@@ -67,9 +140,12 @@ template <typename Scalar>
 class KeepAny {
  public:
   static constexpr bool shortens = false;
+  static constexpr bool wants_order = false;
   KeepAny(const SceneQuery<Scalar>& query, const SceneNarrowphase<Scalar>& narrowphase)
       : query_(query), narrowphase_(narrowphase) {}
 
+  /// Notes that the kernel is certain of a hit that counts.
+  void take_certain() { is_done_ = true; }
   [[nodiscard]] bool has(std::uint32_t, std::uint32_t) const { return false; }
   bool take(const PlacedCandidate<Scalar>& candidate) {
     const std::uint32_t generation = query_.instances[candidate.instance].generation;
@@ -90,6 +166,7 @@ template <typename Scalar>
 class KeepAll {
  public:
   static constexpr bool shortens = false;
+  static constexpr bool wants_order = false;
 
   [[nodiscard]] bool has(std::uint32_t, std::uint32_t) const { return false; }
   bool take(const PlacedCandidate<Scalar>& candidate) {
@@ -119,24 +196,48 @@ class InstanceVisitor {
  public:
   using Kernel = BlockKernel<MeshScalar>;
   using AnyPath = PlacedPath<Scalar>;
-  static constexpr bool wants_order = false;
+  static constexpr bool wants_order = Keep::wants_order;
   static constexpr bool shortens = Keep::shortens;
   /// The candidates are decided by the narrowphase of the scene, for this path.
   struct Narrowphase {
     Narrowphase(const PlacedPath<Scalar>& placed, const QueryOptions<MeshScalar>&, const PathRange<MeshScalar>&,
                 QueryStatistics&)
-        : path(placed) {}
-    const PlacedPath<Scalar>& path;
+        : path(placed.refined()) {}
+    const PlacedPath<Scalar> path;
   };
 
+  /// If `trusts_kernel`, every hit of which the kernel is certain counts.
   InstanceVisitor(const SceneNarrowphase<Scalar>& narrowphase, std::uint32_t index,
-                  const PlacedInstance<Scalar>& placed, Keep& keep)
-      : narrowphase_(narrowphase), index_(index), placed_(placed), keep_(keep) {}
+                  const PlacedInstance<Scalar>& placed, bool trusts_kernel, Keep& keep)
+      : narrowphase_(narrowphase), index_(index), placed_(placed), trusts_kernel_(trusts_kernel), keep_(keep) {}
 
-  template <typename Path>
-  HWY_INLINE std::uint64_t take_certain(const CandidateBlock<MeshScalar, Path>& block, bool& /*is_nearer*/) {
-    return block.verdicts.possible;
+  /// Takes what the kernel is certain of. Returns the lanes that are still to be decided.
+  HWY_INLINE std::uint64_t take_certain(const CandidateBlock<MeshScalar, PlacedPath<Scalar>>& block, bool& is_nearer) {
+    const auto& [possible, certain] = block.verdicts;
+    if constexpr (Keep::wants_order) {
+      if (!trusts_kernel_ || certain == 0) return possible;
+      const FirstLanes<MeshScalar>& first = block.first;
+      const HitInterval t(block.path, first.t_lower, first.t_upper);
+      const std::uint64_t undecided = possible & ~certain;
+      const bool is_alone = std::has_single_bit(first.lanes);
+      const auto lane = static_cast<std::size_t>(std::countr_zero(first.lanes));
+      is_nearer = is_alone && keep_.take_certain(block, lane, index_, t);
+      if (is_nearer || t.lower > keep_.limit()) return undecided;
+      // Most triangles come again in the next cell.
+      const bool is_best = is_alone && keep_.has(index_, block.query.grid.entries()[block.entry(lane)]);
+      return is_best ? undecided : undecided | first.lanes;
+    } else if constexpr (requires { keep_.take_certain(); }) {
+      if (!trusts_kernel_ || certain == 0) return possible;
+      keep_.take_certain();
+      return 0;
+    } else {
+      return possible;
+    }
   }
+  /// Takes nothing: the narrowphase decides which of several hits at one t comes first.
+  bool take_tie(const CandidateBlock<MeshScalar, PlacedPath<Scalar>>&, std::uint64_t, bool&) { return false; }
+  /// Returns infinity. The kernel counts its t in another way.
+  [[nodiscard]] MeshScalar t_upper() const { return std::numeric_limits<MeshScalar>::infinity(); }
   HWY_NOINLINE bool take(const Query<MeshScalar>& query, const Narrowphase& narrowphase,
                          const Candidate<MeshScalar>& candidate, Closeness) {
     if (!query.takes_part(candidate.id) || keep_.has(index_, candidate.id)) return false;
@@ -155,6 +256,7 @@ class InstanceVisitor {
   const SceneNarrowphase<Scalar>& narrowphase_;
   const std::uint32_t index_;
   const PlacedInstance<Scalar>& placed_;
+  const bool trusts_kernel_;
   Keep& keep_;
 };
 
@@ -162,7 +264,7 @@ class InstanceVisitor {
 template <typename Scalar, typename MeshScalar, typename Visitor>
 HWY_NOINLINE void walk_mesh(const Query<MeshScalar>& query, const PlacedPath<Scalar>& path, Visitor& visitor) {
   constexpr MeshScalar infinity = std::numeric_limits<MeshScalar>::infinity();
-  const PathRange<MeshScalar> range(-infinity, infinity);  // The second stage knows the range.
+  const PathRange<MeshScalar> range(-infinity, infinity);  // The placed path has the range that counts.
   const Grid& grid = query.grid;
   if (path.status == PlacedPath<Scalar>::Status::rough) {
     visit_all(query, path, range, visitor);
@@ -208,7 +310,10 @@ HWY_INLINE void search_mesh(const SceneQuery<Scalar>& query, const ColliderState
   options.mask = query.options.mask;
   if (query.is_ignored(index)) options.ignored_triangle = query.options.ignored_triangle;
   const Query<MeshScalar> of_mesh{mesh.grid, mesh.mesh, mesh.masks, options, nullptr, query.statistics, 0};
-  InstanceVisitor<Scalar, MeshScalar, Keep> visitor(narrowphase, index, query.instances[index].placed, keep);
+  const bool trusts_kernel =
+      query.filter == nullptr && query.options.culling == Culling::none && counts_every_hit(of_mesh);
+  InstanceVisitor<Scalar, MeshScalar, Keep> visitor(narrowphase, index, query.instances[index].placed, trusts_kernel,
+                                                    keep);
   walk_mesh(of_mesh, path, visitor);
 }
 
@@ -221,35 +326,48 @@ class SceneSearch {
   SceneSearch(const SceneSearch&) = delete;
   SceneSearch& operator=(const SceneSearch&) = delete;
 
+  [[nodiscard]] const ScenePath<Scalar>& path() const { return path_; }
   /// Returns what decides the path's candidates.
   [[nodiscard]] const SceneNarrowphase<Scalar>& narrowphase() const { return narrowphase_; }
+  /// Returns true if the path can have no hit.
+  [[nodiscard]] bool is_in_vain() const {
+    return range_.is_empty() || query_.tree.is_empty() || !is_finite(path_.path);
+  }
 
   /// Gives `keep` the hits of the path, from one instance to the next.
   template <typename Keep>
   HWY_INLINE void run(Keep& keep) const {
     ++query_.statistics.paths;
-    if (range_.is_empty() || query_.tree.is_empty() || !is_finite(path_.path)) return;
+    if (is_in_vain()) return;
     const auto prefetch = [&](std::uint32_t index) { hwy::Prefetch(&query_.instances[index]); };
-    walk_tree(query_.tree, path_, keep, prefetch, [&](std::uint32_t index) { search_instance(index, keep); });
+    TreeWalk<max_open_children> walk(query_.tree, path_);
+    while (!walk.at_end()) {
+      const std::uint32_t index = walk.template advance<Keep::shortens>(query_.tree, prefetch);
+      if (index == no_instance || !query_.takes_part(index)) continue;
+      search_instance(
+          PlacedPath<Scalar>(path_, query_.instances[index].placed.placement, query_.instances[index].placed.frame),
+          index, keep);
+      if (keep.is_done()) return;
+      if constexpr (Keep::shortens) walk.shorten(keep.limit());
+    }
   }
 
- private:
+  /// Gives `keep` the hits of the path in one instance. `placed` is the path as the instance sees it.
   template <typename Keep>
-  HWY_INLINE void search_instance(std::uint32_t index, Keep& keep) const {
-    if (!query_.takes_part(index)) return;
-    const CommittedInstance<Scalar>& instance = query_.instances[index];
-    const PlacedPath<Scalar> placed(path_, instance.placed.placement, instance.placed.frame);
+  HWY_INLINE void search_instance(const PlacedPath<Scalar>& placed, std::uint32_t index, Keep& keep) const {
     if (placed.status == PlacedPath<Scalar>::Status::beside) return;
     ++query_.statistics.instances;
+    const InstanceMesh<Scalar>& mesh = query_.instances[index].mesh;
     if constexpr (std::is_same_v<Scalar, double>) {
-      if (instance.mesh.floats != nullptr) {
-        search_mesh(query_, *instance.mesh.floats, placed, index, narrowphase_, keep);
+      if (mesh.floats != nullptr) {
+        search_mesh(query_, *mesh.floats, placed, index, narrowphase_, keep);
         return;
       }
     }
-    search_mesh(query_, *instance.mesh.own, placed, index, narrowphase_, keep);
+    search_mesh(query_, *mesh.own, placed, index, narrowphase_, keep);
   }
 
+ private:
   const SceneQuery<Scalar>& query_;
   const PathRange<Scalar> range_;
   const ScenePath<Scalar> path_;

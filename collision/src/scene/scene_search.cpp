@@ -5,7 +5,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "scene/scene_search.cpp"
 #include <hwy/foreach_target.h>
-// This header must come after foreach_target.h.
+// These headers must come after foreach_target.h.
+#include "scene/scene_batch-inl.hpp"
 #include "scene/scene_search-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -14,7 +15,8 @@ namespace surehit::detail::HWY_NAMESPACE {
 /// The searches that are compiled for this instruction set.
 template <typename Scalar>
 constexpr SceneSearches<Scalar> scene_searches = {search_scene_first<Scalar>, search_scene_any<Scalar>,
-                                                  search_scene_all<Scalar>};
+                                                  search_scene_all<Scalar>, search_scene_each_first<Scalar>,
+                                                  search_scene_each_any<Scalar>};
 
 // Highway cannot choose among templates, so these are functions.
 const SceneSearches<float>* scene_searches_float() { return &scene_searches<float>; }

@@ -11,6 +11,7 @@
 #include "collider_state.hpp"
 #include "scene/instance_tree.hpp"
 #include "scene/scene_narrowphase.hpp"
+#include "surehit/path_span.hpp"
 #include "surehit/scene.hpp"
 
 namespace surehit::detail {
@@ -23,13 +24,15 @@ struct InstanceMesh {
   std::uint64_t version = 0;                     ///< The version of the mesh. No two meshes have the same one.
 };
 
-/// An instance, as queries see it. What most paths need lies in the first cache line.
+/// An instance, as queries see it. What most paths need lies in the first `hot_lines` cache lines.
 template <typename Scalar>
 struct alignas(64) CommittedInstance {
+  static constexpr std::size_t hot_lines = 5;
+
   std::uint32_t mask = 0;         ///< The mask. It is 0 if there is no instance at this index.
   std::uint32_t generation = 0;   ///< The generation of the id.
-  PlacedInstance<Scalar> placed;  ///< Where it is.
   InstanceMesh<Scalar> mesh;      ///< The mesh.
+  PlacedInstance<Scalar> placed;  ///< Where it is.
   bool is_in_tree = false;        ///< True if there is an instance, and its mesh has triangles.
 
   /// Returns the box around the instance and its way.
@@ -44,8 +47,8 @@ struct SceneQuery {
   const SceneQueryOptions<Scalar>& options;                 ///< The options of the query.
   const SceneHitFilter<Scalar>* filter;                     ///< The filter, or null.
   QueryStatistics& statistics;                              ///< The query counts here.
-  std::size_t path;                                         ///< The index of the path in its batch.
-  Scalar share = 1;                                         ///< The share of each motion that a segment sees.
+  std::size_t path;  ///< The index of the path in its batch. For a part of a batch, it is that of the first path.
+  Scalar share = 1;  ///< The share of each motion that a segment sees.
 
   /// Returns true if the filter accepts a hit, or if there is no filter.
   [[nodiscard]] bool accepts(const SceneHit<Scalar>& hit) const { return filter == nullptr || (*filter)(path, hit); }
@@ -70,6 +73,16 @@ struct SceneSearches {
   bool (*any)(const SceneQuery<Scalar>& query, const Path<Scalar>& path) noexcept;
   /// Appends all hits of a path in order. It may throw std::bad_alloc.
   void (*all)(const SceneQuery<Scalar>& query, const Path<Scalar>& path, std::vector<SceneHit<Scalar>>& hits);
+
+  // The searches for batches. There are as many answers as paths. `own_options` has one element for each path, or none
+  // at all.
+
+  /// Sets each answer to the first hit of the path. A miss is SceneHit{}.
+  void (*each_first)(const SceneQuery<Scalar>& batch, const PathSpan<Scalar>& paths,
+                     std::span<const SceneQueryOptions<Scalar>> own_options, std::span<SceneHit<Scalar>> hits) noexcept;
+  /// Sets each answer to 1 if the path has a hit, else to 0.
+  void (*each_any)(const SceneQuery<Scalar>& batch, const PathSpan<Scalar>& paths,
+                   std::span<const SceneQueryOptions<Scalar>> own_options, std::span<std::uint8_t> blocked) noexcept;
 };
 
 /// Returns the searches for the best instruction set that the machine has.

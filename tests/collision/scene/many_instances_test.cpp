@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -70,6 +71,38 @@ TYPED_TEST(ManyInstances, ten_thousand_in_one_place_are_all_hit_in_order) {
   ASSERT_EQ(hits.size(), 10'000U);
   for (std::size_t i = 1; i < hits.size(); ++i) ASSERT_LT(hits[i - 1].instance, hits[i].instance);
   EXPECT_EQ(this->scene.first_hit(through_stack<TypeParam>(1, -1))->instance, hits[0].instance);
+}
+
+TYPED_TEST(ManyInstances, a_batch_answers_a_path_that_has_a_hundred_boxes_ahead) {
+  // Each instance is in front of all larger ones, and the path goes between its two triangles.
+  GeneratedMesh<TypeParam> gap;
+  gap.add({{-1, -1, -1}, {-1, -1, 1}, {1, -1, -1}});
+  gap.add({{1, 1, 1}, {1, 1, -1}, {-1, 1, 1}});
+  const auto pair = std::make_shared<Collider<TypeParam>>(gap.view());
+  for (int i = 0; i < 120; ++i) {
+    const auto size = static_cast<TypeParam>(std::exp2(i / 2.0));
+    Pose<TypeParam> pose = Pose<TypeParam>::translated({TypeParam(1.25) * size, 0, 0});
+    pose.linear *= size / 8;
+    this->scene.add(pair, pose);
+  }
+  GeneratedMesh<TypeParam> triangle;
+  triangle.add({{1, -9, -9}, {1, 9, -9}, {1, 0, 18}});
+  Pose<TypeParam> far;
+  far.linear *= static_cast<TypeParam>(0x1p61);
+  const InstanceId wall = this->scene.add(std::make_shared<Collider<TypeParam>>(triangle.view()), far);
+  this->scene.commit();
+  const std::vector<Segment<TypeParam>> segments(40, {{0, 0, 0}, {static_cast<TypeParam>(0x1p62), 0, 0}});
+  std::vector<SceneHit<TypeParam>> hits(segments.size());
+  std::vector<std::uint8_t> blocked(segments.size());
+  QueryStatistics statistics;
+  this->scene.first_hits(segments, hits, {.statistics = &statistics});
+  this->scene.any_hits(segments, blocked);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    ASSERT_EQ(hits[i].instance, wall);
+    ASSERT_EQ(hits[i].t, TypeParam(0.5));
+    ASSERT_EQ(blocked[i], 1);
+  }
+  EXPECT_EQ(statistics.paths, segments.size());
 }
 
 TYPED_TEST(ManyInstances, few_changes_among_many_are_seen_after_each_commit) {

@@ -9,7 +9,12 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "collision/filter/on_every_instruction_set.hpp"
+#include "place_lanes_on_targets.hpp"
 #include "support/case_count.hpp"
 #include "support/random.hpp"
 #include "support/scalars.hpp"
@@ -168,13 +173,13 @@ void expect_frame(const Case<Scalar>& drawn, const InstanceFrame& frame, Shares&
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
     for (std::size_t j = 0; j < 3; ++j) {
-      const mpq_class error = drawn.inverse_matrix[i][j] - mpq_class(frame.inverse[i][j]);
-      shares.inverse = std::max(shares.inverse, share_of(error, frame.inverse_error * std::fabs(frame.inverse[i][j])));
+      const mpq_class error = drawn.inverse_matrix[i][j] - mpq_class(frame.inverse[j][i]);
+      shares.inverse = std::max(shares.inverse, share_of(error, frame.inverse_error * std::fabs(frame.inverse[j][i])));
     }
     mpq_class anchor(double{drawn.placement.pose.translation[axis]});
     for (std::size_t j = 0; j < 3; ++j) anchor += drawn.matrix[i][j] * mpq_class(frame.anchor[j]);
     anchor -= mpq_class(frame.placed_anchor[i]) + mpq_class(frame.placed_anchor_rest[i]);
-    shares.anchor = std::max(shares.anchor, share_of(anchor, frame.placed_anchor_error[i]));
+    shares.anchor = std::max(shares.anchor, share_of(anchor, frame.largest_placed_anchor_error));
   }
   const ExactVector motion = exact(drawn.placement.motion);
   for (unsigned corner = 0; corner < 8; ++corner) {
@@ -229,8 +234,7 @@ void expect_kernel_path(const Case<Scalar>& drawn, const detail::PlacedPath<Scal
   const auto kernel = placed.template kernel_path<MeshScalar>();
   if (std::isinf(kernel.d_size)) return;
   const double eps = std::numeric_limits<MeshScalar>::epsilon() / 2;
-  const auto& d = placed.moved.direction;
-  const mpq_class scale(detail::inverse_power(std::max({std::fabs(d[0]), std::fabs(d[1]), std::fabs(d[2])})));
+  const mpq_class scale(placed.kernel_scale());
   const ExactVector start = drawn.local_at(mpq_class(placed.moved.moved_t));
   const ExactVector way = scale * (drawn.inverse_matrix * drawn.direction);
   mpq_class start_off, way_off, s_size, d_size;
@@ -245,6 +249,36 @@ void expect_kernel_path(const Case<Scalar>& drawn, const detail::PlacedPath<Scal
   }
   EXPECT_TRUE(mpq_class(double{kernel.reach}) >= s_size + start_off / mpq_class(8 * eps));
   EXPECT_TRUE(mpq_class(double{kernel.d_size}) >= d_size + way_off / mpq_class(8 * eps));
+}
+
+/// The kernel's range must be the exact one, or the kernel must be certain of nothing.
+template <typename MeshScalar, typename Scalar>
+void expect_kernel_range(const Case<Scalar>& drawn, const detail::PlacedPath<Scalar>& placed) {
+  const auto weights = placed.template kernel_weights<MeshScalar>();
+  const mpq_class moved_t(placed.moved.moved_t);
+  const mpq_class scale(placed.kernel_scale());
+  const auto expect_end = [&](double t, MeshScalar t_weight, MeshScalar det_weight, int sign) {
+    if (t_weight == 0) {  // There is no such end, or it is too far away for the kernel.
+      EXPECT_TRUE(!weights.decides || std::isinf(t));
+      return;
+    }
+    EXPECT_EQ(t_weight, static_cast<MeshScalar>(sign));
+    EXPECT_EQ(mpq_class(double{det_weight}) * -sign * scale, mpq_class(t) - moved_t);
+    EXPECT_LE(1 + std::fabs(det_weight), weights.det_size);
+  };
+  expect_end(drawn.range.first, weights.t_first, weights.det_first, 1);
+  expect_end(drawn.range.last, weights.t_last, weights.det_last, -1);
+}
+
+template <typename Scalar>
+void expect_placed(const Case<Scalar>& drawn, const detail::PlacedPath<Scalar>& placed, Shares& shares) {
+  expect_path(drawn, placed, shares);
+  expect_kernel_path<Scalar>(drawn, placed);
+  expect_kernel_range<Scalar>(drawn, placed);
+  if constexpr (std::is_same_v<Scalar, double>) {
+    expect_kernel_path<float>(drawn, placed);
+    expect_kernel_range<float>(drawn, placed);
+  }
 }
 
 TYPED_TEST(PlacedPathOf, IsNeverFartherOffThanItsBounds) {
@@ -266,9 +300,8 @@ TYPED_TEST(PlacedPathOf, IsNeverFartherOffThanItsBounds) {
     }
     if (placed.status != Status::near) continue;
     ++near;
-    expect_path(drawn, placed, shares);
-    expect_kernel_path<TypeParam>(drawn, placed);
-    if constexpr (std::is_same_v<TypeParam, double>) expect_kernel_path<float>(drawn, placed);
+    expect_placed(drawn, placed, shares);
+    expect_path(drawn, placed.refined(), shares);
     if (testing::Test::HasFailure()) FAIL() << "case " << i;
   }
   for (const double share :
@@ -280,11 +313,57 @@ TYPED_TEST(PlacedPathOf, IsNeverFartherOffThanItsBounds) {
   EXPECT_GT(shares.start, 0.01);
   EXPECT_GT(shares.direction, 0.01);
   EXPECT_GT(shares.reach, 0.9);
-  EXPECT_GT(near, cases / 4);
+  EXPECT_GT(near, cases / 6);
   EXPECT_GT(beside, cases / 20);
   testing::Test::RecordProperty(
       "shares", testing::PrintToString(std::array{shares.inverse, shares.anchor, shares.start, shares.direction,
                                                   shares.position, shares.reach}));
+}
+
+TYPED_TEST(PlacedPathOf, HasTheSameBoundsSideBySide) {
+  constexpr std::size_t lanes = detail::PlacedLanes::max_lanes;
+  on_every_instruction_set([&] {
+    Random random(20261126);
+    Shares shares;
+    std::size_t near = 0;
+    std::size_t beside = 0;
+    const std::size_t batches = case_count(1600);
+    for (std::size_t i = 0; i < batches; ++i) {
+      const auto kind = static_cast<PathKind>(random.below(3));
+      std::vector<Case<TypeParam>> cases;
+      while (cases.size() < lanes) {
+        Case<TypeParam> drawn = draw_case<TypeParam>(random);
+        if (drawn.path.kind == kind) cases.push_back(std::move(drawn));
+      }
+      std::vector<InstanceFrame> frames;
+      std::vector<detail::ScenePath<TypeParam>> paths;
+      for (const auto& drawn : cases) {
+        frames.push_back(InstanceFrame::of(drawn.placement, drawn.box));
+        paths.emplace_back(drawn.path, drawn.range, drawn.share);
+      }
+      std::vector<PairToPlace<TypeParam>> pairs;
+      for (std::size_t lane = 0; lane < lanes; ++lane) pairs.push_back({&paths[lane], &frames[lane]});
+      const std::size_t count = 1 + random.below(lanes);
+      detail::PlacedLanes side_by_side;
+      place_side_by_side<TypeParam>(std::span(pairs).first(count), kind == PathKind::segment, side_by_side);
+      EXPECT_EQ(side_by_side.near & side_by_side.beside, 0u);
+      EXPECT_EQ((side_by_side.near | side_by_side.beside) >> count, 0u);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        const Case<TypeParam>& drawn = cases[lane];
+        if ((side_by_side.beside >> lane & 1) != 0) {
+          ++beside;
+          EXPECT_FALSE(drawn.in_box()) << "a path that comes to the mesh is called beside it";
+        }
+        if ((side_by_side.near >> lane & 1) == 0) continue;
+        ++near;
+        expect_placed(drawn, {paths[lane], drawn.placement, frames[lane], side_by_side, lane}, shares);
+      }
+      if (testing::Test::HasFailure()) FAIL() << "batch " << i;
+    }
+    for (const double share : {shares.start, shares.direction, shares.position, shares.reach}) EXPECT_LE(share, 1);
+    EXPECT_GT(near, batches / 16);
+    EXPECT_GT(beside, batches / 2);
+  });
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -541,6 +542,53 @@ TEST(SceneOfDoubles, takes_colliders_of_both) {
   for (const SceneHitd& hit : hits) {
     EXPECT_EQ(hit.u, 0.1);
     EXPECT_EQ(hit.v, 0.2);
+  }
+}
+
+// "An instance is the exact image of its mesh", where doubles lose all of it.
+
+TEST(SceneOfDoubles, knows_where_the_middle_of_a_mesh_is_though_its_image_cancels) {
+  constexpr double a = 0x1.93de7e4f16d7ap+60, b = 0x1.4c1634efd96efp+7;
+  constexpr double x = 0x1.b1a55f88176edp+0, z = 0x1.6d5b5c5ebf07cp+0;
+  GeneratedMesh<double> planes;
+  for (const double y : {-5.0, 5.0}) planes.add({{0, y, 0}, {2 * x, y, 0}, {x, y, 2 * z}});
+  Posed pose;
+  pose.linear << 1, 0, 0, a, 0x1p-64, b, 0, 0, 1;
+  pose.translation = {-x, -0x1.56101c60b9536p+61, -z};
+  Scened scene;
+  scene.add(std::make_shared<Collider<double>>(planes.view()), pose);
+  scene.commit();
+  // In the mesh, the origin of the scene is far above both planes. So only the way down meets them.
+  const std::vector<Rayd> rays = {{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {-1, 0, 0}}};
+  std::vector<SceneHitd> hits(rays.size());
+  scene.first_hits(rays, hits);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto alone = scene.first_hit(rays[i]);
+    EXPECT_EQ(alone ? alone->triangle : no_triangle, i == 0 ? 1 : no_triangle);
+    EXPECT_EQ(hits[i].triangle, i == 0 ? 1 : no_triangle);
+  }
+}
+
+TEST(SceneOfDoubles, meets_boxes_without_bounds_far_from_their_middle) {
+  constexpr double huge = 1e305;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto turned = [&](double x, double y, double z) {
+      const std::array<double, 3> all = {x, y, z};
+      const auto at = [&](int i) { return all[static_cast<std::size_t>((i + axis) % 3)]; };
+      return Vector3d(at(0), at(1), at(2));
+    };
+    GeneratedMesh<double> wall;
+    wall.add({turned(0.5, -huge, -huge), turned(0.5, huge, -huge), turned(0.5, 0, huge)});
+    Scened scene;
+    scene.add(std::make_shared<Collider<double>>(wall.view()));
+    scene.commit();
+    for (const double far : {1e13, -1e13, 1e25, -1e25}) {
+      const Segmentd segment{turned(-1, 0.25, far), turned(2, 0.25, far)};
+      const auto hit = scene.first_hit(segment);
+      ASSERT_TRUE(hit) << axis << ' ' << far;
+      EXPECT_EQ(hit->t, 0.5);
+      EXPECT_TRUE(scene.any_hit(segment));
+    }
   }
 }
 

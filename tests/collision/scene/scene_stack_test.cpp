@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -95,6 +96,22 @@ TYPED_TEST(SceneStack, of_batches) {
   std::vector<std::uint8_t> blocked(segments.size());
   this->expect_within_promise("first_hits", [&] { this->scene_.first_hits(segments, hits); });
   this->expect_within_promise("any_hits", [&] { this->scene_.any_hits(segments, blocked); });
+  // Each instance has a box in front of all larger ones. So paths leave more boxes for later than a batch has room for.
+  GeneratedMesh<TypeParam> crossing;
+  crossing.add({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}});
+  const auto collider = std::make_shared<Collider<TypeParam>>(crossing.view());
+  for (int i = 0; i < 120; ++i) {
+    const auto size = static_cast<TypeParam>(std::exp2(i / 2.0));
+    Pose<TypeParam> pose = Pose<TypeParam>::translated({TypeParam(1.25) * size, 0, 0});
+    pose.linear *= size / 8;
+    this->scene_.add(collider, pose);
+  }
+  this->scene_.commit();
+  const std::vector<Segment<TypeParam>> along(20, {{0, 0, 0}, {static_cast<TypeParam>(0x1p62), 0, 0}});
+  hits.resize(along.size());
+  blocked.resize(along.size());
+  this->expect_within_promise("first_hits_of_many", [&] { this->scene_.first_hits(along, hits); });
+  this->expect_within_promise("any_hits_of_many", [&] { this->scene_.any_hits(along, blocked); });
 }
 
 TYPED_TEST(SceneStack, of_triangles_and_normals) {

@@ -1,0 +1,56 @@
+#include "place_lanes_on_targets.hpp"
+
+// This file is compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "collision/scene/place_lanes_on_targets.cpp"
+#include <hwy/foreach_target.h>
+// This header must come after foreach_target.h.
+#include "scene/place_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace surehit::detail::HWY_NAMESPACE {
+
+template <typename Scalar>
+void place_pairs(std::span<const test::PairToPlace<Scalar>> pairs, bool has_end, PlacedLanes& placed) {
+  PlaceLanes place;
+  for (std::size_t lane = 0; lane < pairs.size(); ++lane) place.set(lane, *pairs[lane].path, *pairs[lane].frame);
+  place.place(pairs.size(), has_end, placed);
+}
+
+void place_floats(std::span<const test::PairToPlace<float>> pairs, bool has_end, PlacedLanes& placed) {
+  place_pairs(pairs, has_end, placed);
+}
+void place_doubles(std::span<const test::PairToPlace<double>> pairs, bool has_end, PlacedLanes& placed) {
+  place_pairs(pairs, has_end, placed);
+}
+
+}  // namespace surehit::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace surehit::detail {
+
+HWY_EXPORT(place_floats);
+HWY_EXPORT(place_doubles);
+
+void chosen_place(std::span<const test::PairToPlace<float>> pairs, bool has_end, PlacedLanes& placed) {
+  HWY_DYNAMIC_DISPATCH(place_floats)(pairs, has_end, placed);
+}
+void chosen_place(std::span<const test::PairToPlace<double>> pairs, bool has_end, PlacedLanes& placed) {
+  HWY_DYNAMIC_DISPATCH(place_doubles)(pairs, has_end, placed);
+}
+
+}  // namespace surehit::detail
+
+namespace surehit::test {
+
+template <typename Scalar>
+void place_side_by_side(std::span<const PairToPlace<Scalar>> pairs, bool has_end, detail::PlacedLanes& placed) {
+  detail::chosen_place(pairs, has_end, placed);
+}
+
+template void place_side_by_side(std::span<const PairToPlace<float>>, bool, detail::PlacedLanes&);
+template void place_side_by_side(std::span<const PairToPlace<double>>, bool, detail::PlacedLanes&);
+
+}  // namespace surehit::test
+#endif
