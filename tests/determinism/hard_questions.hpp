@@ -39,7 +39,8 @@ class HardQuestions {
     while (questions.all.size() < question_count) {
       const std::size_t id = questions.all.size();
       const Path<Scalar> path = id % 400 == 0 ? draw_of_any_magnitude() : draw(id % families);
-      questions.all.push_back({path, random_.one_in(4) ? 1 + random_.below(2) : 0});
+      const std::uint64_t options = random_.one_in(4) ? 1 + random_.below(2) : 0;
+      questions.all.push_back({path, static_cast<std::size_t>(options)});
     }
   }
 

@@ -2,14 +2,26 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <mutex>
 #include <span>
+#if !defined(_LIBCPP_HAS_NO_THREADS)
+#include <mutex>
+#endif
 
 #include "support/in_parts.hpp"
 #include "surehit/path_span.hpp"
 #include "surehit/query_statistics.hpp"
 
 namespace surehit::detail {
+
+#if defined(_LIBCPP_HAS_NO_THREADS)
+/// Locks nothing, because all tasks run on one thread where there are no others.
+struct StatisticsMutex {
+  void lock() {}
+  void unlock() {}
+};
+#else
+using StatisticsMutex = std::mutex;
+#endif
 
 /// Answers a batch in parts of `paths_in_a_task` paths, in tasks of the executor. Without an executor, there is one
 /// part. `ask(first, last, own_options, statistics)` answers the paths [first, last), and counts its work.
@@ -22,13 +34,14 @@ void answer_batch(const PathSpan<Scalar>& paths, std::size_t answers, const Opti
   const auto all_options = options.path_options;
   const std::size_t count = std::min({paths.size(), answers, all_options.empty() ? paths.size() : all_options.size()});
   if (count == 0) return;
-  std::mutex mutex;
+  StatisticsMutex mutex;
   in_parts(address_of(options.executor), count, paths_in_a_task, [&](std::size_t first, std::size_t last) {
     QueryStatistics statistics;
     ask(first, last, all_options.empty() ? all_options : all_options.subspan(first, last - first), statistics);
     if (options.statistics == nullptr) return;
-    const std::lock_guard lock(mutex);
+    mutex.lock();
     *options.statistics += statistics;
+    mutex.unlock();
   });
 }
 
