@@ -1,0 +1,23 @@
+// The answers to the hard questions, and about the hard scene, are those that are published for all machines.
+
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { readFile } from 'node:fs/promises';
+import test from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { WASI } from 'node:wasi';
+
+const self = fileURLToPath(import.meta.url);
+
+if (process.argv[2] === 'run') {
+  const wasi = new WASI({ version: 'preview1', args: ['answer_hash'], returnOnExit: true });
+  const module = await WebAssembly.compile(await readFile(new URL('../../answer_hash.wasm', import.meta.url)));
+  process.exitCode = wasi.start(await WebAssembly.instantiate(module, wasi.getImportObject()));
+} else {
+  test('the hashes of the answers are the published ones', () => {
+    const run = spawnSync(process.execPath, ['--no-warnings', self, 'run'], { encoding: 'utf8' });
+    console.log(run.stdout);
+    assert.equal(run.status, 0, run.stderr);
+    assert.equal(run.stdout.match(/, as published/g)?.length, 4);
+  });
+}
