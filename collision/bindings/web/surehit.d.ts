@@ -141,7 +141,10 @@ export class Surehit {
   readonly memoryBytes: number;
 }
 
-/** Compiles and starts a module. The default is the file `surehit.wasm` beside this one. */
+/**
+ * Compiles and starts a module. The default is the file `surehit.wasm` beside surehit.js. An address in text counts from
+ * there too.
+ */
 export function load(
   source?: string | URL | BufferSource | WebAssembly.Module | Response | Promise<Response>,
 ): Promise<Surehit>;
