@@ -25,9 +25,9 @@ struct CameraOptions {
 
 /// A pinhole camera.
 ///
-/// The ray of the pixel in column i and row j goes through x = (2 (i + 0.5) / width - 1) aspect scale and
-/// y = (1 - 2 (j + 0.5) / height) scale in the plane z = -1 of the camera's own frame. There, the eye is at the origin,
-/// x is to the right and y is up. `scale` is the tangent of half of the angle of view.
+/// In the camera's own frame, the eye is at the origin, x is to the right and y is up. The ray of the pixel in column i
+/// and row j goes through a point of the plane z = -1. Its x is (2 (i + 0.5) / width - 1) aspect scale, and its y is
+/// (1 - 2 (j + 0.5) / height) scale. `scale` is the tangent of half of the angle of view.
 class Camera {
  public:
   /// Throws InputError if the eye is at the target, or if `up` is along the view.

@@ -63,7 +63,7 @@ std::vector<std::uint32_t> PairPlan::partners(std::uint32_t cell) const {
   std::vector<std::uint32_t> partners;
   for (auto at = begin; at != end; ++at) {
     const std::uint32_t other = *at;
-    // Of two cells whose numbers have the same parity, the higher one has the pair, and of others the lower one.
+    // If the numbers of two cells have the same parity, the higher one has the pair. Otherwise the lower one has it.
     const bool is_mine = (other > cell) == ((cell ^ other) % 2 != 0) && other != cell;
     if (!is_mine) continue;
     if ((floors_[other] - floor).squaredNorm() <= options_.range * options_.range) partners.push_back(other);
