@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <future>
@@ -38,6 +39,14 @@ int lowest_rank(int rank) {
   int lowest = nobody;
   MPI_Allreduce(&rank, &lowest, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
   return lowest;
+}
+
+/// Says what is wrong, and ends all ranks. Those that wait for a message from this one would wait forever.
+[[noreturn]] void abort_all_ranks(int rank, const std::exception& error) {
+  std::fprintf(stderr, "visibility_bake: rank %d: %s\n", rank, error.what());
+  std::fflush(stderr);
+  MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
+  std::abort();
 }
 
 /// What a rank has found about its unit: for each row a byte for each partner. Rank 0 knows the cells and the partners.
@@ -77,19 +86,17 @@ class HeadRank {
   HeadRank(const Colliderf& collider, const PairPlan& plan, RowQueue& queue, int ranks)
       : collider_(collider), plan_(plan), queue_(queue), working_(ranks - 1), units_(static_cast<std::size_t>(ranks)) {}
 
-  /// Returns after all ranks have finished. Throws the first error then.
+  /// Returns after all ranks have finished. Throws the first error of its own work then. If it cannot serve the others,
+  /// it ends them all.
   void run(unsigned threads) {
     std::vector<std::future<void>> helpers;
-    for (unsigned i = 0; i < threads; ++i) {
-      helpers.push_back(std::async(std::launch::async, [this] { work(); }));
-    }
-    ProgressBar bar("visibility", std::max(queue_.row_count(), std::size_t{1}));
-    while (working_ > 0 || has_running(helpers)) {
-      if (serve_one()) continue;
-      stop_on_error([] { stop_if_interrupted(); });
-      bar.show(queue_.added(), queue_.rate());
-      // A look at the messages in a loop would take the core from a rank that works.
-      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    try {
+      for (unsigned i = 0; i < threads; ++i) {
+        helpers.push_back(std::async(std::launch::async, [this] { work(); }));
+      }
+      serve(helpers);
+    } catch (const std::exception& error) {
+      abort_all_ranks(0, error);
     }
     for (auto& helper : helpers) stop_on_error([&] { helper.get(); });
     if (error_) std::rethrow_exception(error_);
@@ -101,6 +108,17 @@ class HeadRank {
       if (helper.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return true;
     }
     return false;
+  }
+
+  void serve(const std::vector<std::future<void>>& helpers) {
+    ProgressBar bar("visibility", std::max(queue_.row_count(), std::size_t{1}));
+    while (working_ > 0 || has_running(helpers)) {
+      if (serve_one()) continue;
+      stop_on_error([] { stop_if_interrupted(); });
+      bar.show(queue_.added(), queue_.rate());
+      // A look at the messages in a loop would take the core from a rank that works.
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
   }
 
   template <typename Step>
@@ -204,7 +222,13 @@ bool Ranks::are_ready(const std::function<std::uint64_t()>& prepare) const {
 void Ranks::bake(const Colliderf& collider, const PairPlan& plan, const Checkpoint& checkpoint,
                  const BakeOptions& options, Visibility& visibility) const {
   if (size_ == 1) return example::bake(collider, plan, checkpoint, options, visibility);
-  if (rank_ != 0) return work_for_rank_0(collider, plan, options.threads);
+  if (rank_ != 0) {
+    try {
+      return work_for_rank_0(collider, plan, options.threads);
+    } catch (const std::exception& error) {
+      abort_all_ranks(rank_, error);
+    }
+  }
   RowQueue queue(plan, checkpoint, options.checkpoint_seconds, visibility);
   try {
     HeadRank(collider, plan, queue, size_).run(options.threads);

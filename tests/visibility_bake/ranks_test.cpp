@@ -5,8 +5,21 @@
 
 #include "support/program_run.hpp"
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // GCC
+#define SUREHIT_HAS_SANITIZER true
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SUREHIT_HAS_SANITIZER true
+#endif
+#endif
+#ifndef SUREHIT_HAS_SANITIZER
+#define SUREHIT_HAS_SANITIZER false
+#endif
+
 namespace surehit::test {
 namespace {
+
+constexpr bool has_sanitizer = SUREHIT_HAS_SANITIZER;
 
 /// Runs the program with mpirun on this machine, with more ranks than it may have cores.
 class RanksTest : public testing::Test {
@@ -87,6 +100,18 @@ TEST_F(RanksTest, notice_that_one_has_another_mesh) {
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.error.find("rank 1 has another mesh, other cells or other options than rank 0"), std::string::npos)
       << outcome.error;
+}
+
+TEST_F(RanksTest, all_end_if_one_fails_at_work) {
+  if (has_sanitizer) GTEST_SKIP() << "a sanitizer takes more addresses than the limit allows";
+  // Rank 1 has no room for the stacks of so many threads. It starts them with its first unit.
+  const std::string limited = ": -n 1 bash -c 'ulimit -v 3000000; exec \"$0\" \"$@\"' \"$program\" --threads 1024 ";
+  const auto outcome =
+      run_.run_command(surroundings_ + "timeout 60 '" SUREHIT_MPIRUN "' -n 1 \"$program\" --spacing 2" + files("some") +
+                       limited + "--spacing 2" + files("some"));
+  EXPECT_EQ(outcome.status, 1) << "124 is that of a timeout";
+  EXPECT_NE(outcome.error.find("visibility_bake: rank 1: "), std::string::npos) << outcome.error;
+  EXPECT_FALSE(std::filesystem::exists(run_.folder().at("some.pvs")));
 }
 
 TEST_F(RanksTest, stop_if_the_disk_is_full) {
