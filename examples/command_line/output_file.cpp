@@ -11,7 +11,8 @@ namespace surehit::example {
 
 namespace fs = std::filesystem;
 
-OutputFile::OutputFile(const std::string& path) : path_(path) {
+OutputFile::OutputFile(const std::string& path, Durability durability)
+    : name_(path), durability_(durability), path_(path) {
   if (path == "-") {
     file_ = stdout;
     return;
@@ -19,7 +20,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
   if (!fs::exists(path) || fs::is_regular_file(path)) {
     // Through a symbolic link the file it points to is replaced, not the link.
     path_ = fs::weakly_canonical(path).string();
-    written_path_ = path_ + "." + std::to_string(getpid()) + ".partial";
+    written_path_ = path_ + (durability == Durability::machine ? "" : "." + std::to_string(getpid())) + ".partial";
   }
   file_ = std::fopen(written_path_.empty() ? path_.c_str() : written_path_.c_str(), "wb");
   if (file_ == nullptr) throw_errno();
@@ -39,20 +40,23 @@ void OutputFile::write(std::string_view text) {
 void OutputFile::finish() {
   if (std::fflush(file_) != 0) throw_errno();
   if (file_ == stdout) return;
+  if (durability_ == Durability::machine && !written_path_.empty() && fsync(fileno(file_)) != 0 && errno != EINVAL) {
+    throw_errno();
+  }
   if (std::fclose(std::exchange(file_, nullptr)) != 0) throw_errno();
   if (written_path_.empty()) return;
-  fs::rename(written_path_, path_);
+  if (std::rename(written_path_.c_str(), path_.c_str()) != 0) throw_errno();
   written_path_.clear();
 }
 
 void OutputFile::throw_errno() const {
   const int reason = errno;
   throw std::system_error(reason, std::generic_category(),
-                          (path_ == "-" ? "standard output" : path_) + ": cannot be written");
+                          (name_ == "-" ? "standard output" : name_) + ": cannot be written");
 }
 
-void write_file(const std::string& path, std::string_view bytes) {
-  OutputFile file(path);
+void write_file(const std::string& path, std::string_view bytes, Durability durability) {
+  OutputFile file(path, durability);
   file.write(bytes);
   file.finish();
 }

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <string_view>
 
+#include "command_line/output_file.hpp"
 #include "mesh_io/byte_reader.hpp"
 #include "mesh_io/input_error.hpp"
 #include "mesh_io/read_file.hpp"
 #include "visibility_bake/checked_bytes.hpp"
-#include "visibility_bake/replaced_file.hpp"
 
 namespace surehit::example {
 namespace {
@@ -60,7 +60,7 @@ void Checkpoint::save(const Visibility& visibility) const {
   }
   writer.add(as_text(visibility.has_row_));
   writer.add(as_text(visibility.bits_));
-  replace_file(path_, writer.finish());
+  write_file(path_, writer.finish(), Durability::machine);
 }
 
 void Checkpoint::remove() const {

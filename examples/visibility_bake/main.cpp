@@ -1,14 +1,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "command_line/interruption.hpp"
+#include "command_line/output_file.hpp"
 #include "command_line/parse_point.hpp"
 #include "command_line/program.hpp"
 #include "command_line/read_with_z_up.hpp"
@@ -19,7 +23,6 @@
 #include "visibility_bake/bake_picture.hpp"
 #include "visibility_bake/cells.hpp"
 #include "visibility_bake/ranks.hpp"
-#include "visibility_bake/replaced_file.hpp"
 #include "visibility_bake/visible_sets.hpp"
 
 namespace surehit::example {
@@ -160,9 +163,9 @@ void write_files(const Request& request, const PairPlan& plan, const Visibility&
                  const std::optional<Vector3f>& start) {
   const std::string sets = encode_visible_sets(plan, visibility);
   const std::uint32_t shown = cell_to_show(request, plan, visibility, start);
-  replace_file(request.sets_path, sets);
-  replace_file(request.csv_path, figures_csv(plan, visibility));
-  replace_file(request.picture_path, encode_png(draw_bake(plan, visibility, shown)));
+  write_file(request.sets_path, sets, Durability::machine);
+  write_file(request.csv_path, figures_csv(plan, visibility), Durability::machine);
+  write_file(request.picture_path, encode_png(draw_bake(plan, visibility, shown)), Durability::machine);
   std::printf("%s: a matrix of %zu bytes in %zu\n%s\n%s\n", request.sets_path.c_str(),
               visibility.cell_count() * visibility.bytes_of_a_row(), sets.size(), request.csv_path.c_str(),
               request.picture_path.c_str());
@@ -232,10 +235,29 @@ void work(const Request& request) {
   job.checkpoint->remove();
 }
 
+/// One file would replace the other. Devices take both.
+void refuse_equal_outputs(const Request& request) {
+  const auto place_of = [](const std::string& path) { return std::filesystem::weakly_canonical(path); };
+  const std::array<std::pair<const char*, std::string>, 3> outputs = {
+      {{"-o", request.sets_path}, {"--csv", request.csv_path}, {"--picture", request.picture_path}}};
+  for (std::size_t i = 1; i < outputs.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const std::string& path = outputs[i].second;
+      const bool is_file = !std::filesystem::exists(path) || std::filesystem::is_regular_file(path);
+      if (!is_file ||
+          place_of(std::filesystem::absolute(path)) != place_of(std::filesystem::absolute(outputs[k].second))) {
+        continue;
+      }
+      throw InputError(std::string(outputs[k].first) + " and " + outputs[i].first + " are the same file, " + path);
+    }
+  }
+}
+
 Work describe_program(CLI::App& app) {
   const auto request = std::make_shared<Request>();
   describe(app, *request);
   return [request] {
+    refuse_equal_outputs(*request);
     work(*request);
     return success;
   };

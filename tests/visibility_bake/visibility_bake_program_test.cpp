@@ -127,6 +127,23 @@ TEST_F(VisibilityBakeProgram, says_that_the_disk_is_full) {
   EXPECT_FALSE(std::filesystem::exists(run_.folder().at("some.pvs")));
 }
 
+TEST_F(VisibilityBakeProgram, writes_to_what_is_no_regular_file_and_through_links) {
+  static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
+  static_cast<void>(run_.folder().write("places.txt", "-2 0 0\n-1 0 0\n1 0 0\n"));
+  const auto outcome = run_.run_command(
+      "mkfifo pipe; touch old.pvs; ln -s old.pvs link.pvs; cat pipe >piped.csv & \"$program\" wall.obj --places "
+      "places.txt -o link.pvs --csv pipe && wait && [ -p pipe ] && [ -L link.pvs ]");
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_TRUE(run_.folder().read("old.pvs").starts_with("surehit potentially visible sets"));
+  EXPECT_TRUE(run_.folder().read("piped.csv").starts_with("cell,x,y,z"));
+}
+
+TEST_F(VisibilityBakeProgram, refuses_one_file_for_two_outputs) {
+  expect_bad_input("-o a --csv b --picture ./a", "-o and --picture are the same file, ./a");
+  expect_bad_input("-o a --csv a", "-o and --csv are the same file, a");
+  expect_bad_input("--csv visibility.png", "--csv and --picture are the same file, visibility.png");
+}
+
 TEST_F(VisibilityBakeProgram, names_what_is_wrong) {
   static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
   static_cast<void>(run_.folder().write("empty.txt", "# nothing\n"));
