@@ -116,6 +116,9 @@ std::vector<Vector3f> asked_floors(const Request& request, const Colliderf& coll
     floors = read_places(request.places_path);
     if (floors.empty()) throw InputError(request.places_path + ": there is no place in it");
   } else {
+    if (request.pairs.eye_height > request.walk.headroom) {
+      throw InputError("--eye-height: it must not be above --headroom");
+    }
     floors = find_floors(collider, request.walk);
     if (floors.empty()) throw InputError("the mesh has no walkable place: --up or --headroom may be wrong");
     if (start) floors = reachable_floors(collider, floors, *start, request.walk);

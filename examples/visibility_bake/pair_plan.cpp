@@ -33,6 +33,15 @@ class Fingerprint {
   std::uint64_t hash_ = 0xcbf29ce484222325u;
 };
 
+/// The middle eye of a cell. Below a ceiling or another floor that is too low, it is at the last free point above its
+/// own floor.
+Vector3f middle_eye(const Colliderf& collider, const Vector3f& floor, float eye_height) {
+  // The floor's height is rounded, so the way begins a little above it.
+  const Segmentf way{floor + Vector3f(0, 0, eye_height / 256), floor + Vector3f(0, 0, eye_height)};
+  const auto hit = collider.first_hit(way);
+  return hit ? collider.last_free_point(way, *hit) : way.end;
+}
+
 }  // namespace
 
 PairPlan::PairPlan(const Colliderf& collider, std::vector<Vector3f> floors, const PairOptions& options)
@@ -40,13 +49,15 @@ PairPlan::PairPlan(const Colliderf& collider, std::vector<Vector3f> floors, cons
   std::iota(by_y_.begin(), by_y_.end(), 0u);
   std::ranges::stable_sort(by_y_, {}, [&](std::uint32_t cell) { return floors_[cell].y(); });
   for (std::uint32_t cell = 0; cell < cell_count(); ++cell) {
-    const Vector3f middle = floors_[cell] + Vector3f(0, 0, options.eye_height);
+    const Vector3f middle = middle_eye(collider, floors_[cell], options.eye_height);
+    const bool is_lowered = middle != floors_[cell] + Vector3f(0, 0, options.eye_height);
+    const float height = is_lowered ? middle.z() - floors_[cell].z() : options.eye_height;
     eyes_.push_back(middle);
     for (std::uint32_t number = 1; number < eyes_of_a_cell; ++number) {
       const std::uint64_t bits = mixed(std::uint64_t{cell} * eyes_of_a_cell + number);
       const Vector3f offset((share_of(bits, 0) - 0.5f) * options.cell_width,
                             (share_of(bits, 1) - 0.5f) * options.cell_width,
-                            (0.25f + 0.75f * share_of(bits, 2)) * options.eye_height);
+                            (0.25f + 0.75f * share_of(bits, 2)) * height);
       const Vector3f eye = floors_[cell] + offset;
       eyes_.push_back(collider.any_hit(Segmentf{middle, eye}) ? middle : eye);
     }

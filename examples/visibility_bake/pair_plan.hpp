@@ -10,7 +10,7 @@ struct PairOptions {
   float range = 20;           ///< Cells that are farther apart are not asked about.
   std::uint32_t samples = 8;  ///< segments for each pair of cells
   float cell_width = 1;       ///< Eyes are up to half of this away from the middle of a cell, along x and y.
-  float eye_height = 1.6f;    ///< Eyes are between a quarter of this and this above the floor.
+  float eye_height = 1.6f;  ///< Eyes are between a quarter of this and this above the floor, or lower below a ceiling.
 };
 
 /// Which pairs of cells are asked about, and by which segments. It is a function of the cells and the options.
@@ -19,8 +19,8 @@ class PairPlan {
   static constexpr std::uint32_t eyes_of_a_cell = 16;
   static constexpr std::uint32_t max_samples = 255;  ///< A byte counts those of a pair.
 
-  /// `floors` has the middle of each cell's floor. An eye that the middle one does not see, as it is behind a wall, is
-  /// moved to the middle.
+  /// `floors` has the middle of each cell's floor. The middle eye is lowered if something is in the way from the floor
+  /// up to it. Another eye that the middle one does not see, as it is behind a wall, is moved to the middle.
   PairPlan(const Colliderf& collider, std::vector<Vector3f> floors, const PairOptions& options);
 
   [[nodiscard]] std::uint32_t cell_count() const { return static_cast<std::uint32_t>(floors_.size()); }

@@ -55,6 +55,21 @@ TEST_F(PairPlanTest, eyes_are_in_their_cells) {
   }
 }
 
+TEST_F(PairPlanTest, eyes_are_below_a_ceiling) {
+  MeshBuilder builder(1);
+  builder.add_box({0, 0, -1}, {8, 4, 0});
+  builder.add_box({0, 0, 1.2f}, {4, 4, 1.4f});
+  const Mesh<float> mesh = builder.take();
+  const Colliderf collider(mesh.view());
+  const PairPlan plan(collider, {{2, 2, 0}, {6, 2, 0}}, {.cell_width = 0.5f, .eye_height = 1.6f});
+  for (std::uint32_t number = 0; number < PairPlan::eyes_of_a_cell; ++number) {
+    EXPECT_GE(plan.eye(0, number).z(), 0.2999f);
+    EXPECT_LT(plan.eye(0, number).z(), 1.2f);
+  }
+  EXPECT_GT(plan.eye(0, 0).z(), 1.1999f);
+  EXPECT_EQ(plan.eye(1, 0), Vector3f(6, 2, 1.6f));
+}
+
 TEST_F(PairPlanTest, segments_of_a_pair_differ) {
   const PairPlan plan = this->plan();
   constexpr std::uint32_t all = PairPlan::eyes_of_a_cell * PairPlan::eyes_of_a_cell;

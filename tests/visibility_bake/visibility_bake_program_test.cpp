@@ -152,6 +152,7 @@ TEST_F(VisibilityBakeProgram, names_what_is_wrong) {
   expect_bad_input("wall.obj --places empty.txt", "empty.txt: there is no place in it");
   expect_bad_input("--start 1,2", "--start: three numbers X,Y,Z are needed, not '1,2'");
   expect_bad_input("--start 1000,2,3", "--start: there is no walkable place near it");
+  expect_bad_input("--eye-height 1.9", "--eye-height: it must not be above --headroom");
   expect_bad_input("--spacing 8 --cell 100000", "--cell: there is no cell 100000, there are 75");
   EXPECT_EQ(run_.run("--samples 0").status, 2);
   EXPECT_EQ(run_.run("--places a --start 1,2,3").status, 2);
