@@ -63,21 +63,19 @@ TEST_F(RanksTest, write_the_same_bytes_as_one_process) {
 }
 
 TEST_F(RanksTest, go_on_after_they_were_killed) {
-  const std::string arguments = "--spacing 2 --samples 128 --checkpoint-seconds 0.02 ";
+  const std::string arguments = "--spacing 2 --samples 255 --checkpoint-seconds 0.02 ";
   ASSERT_EQ(run_.run(arguments + files("whole")).status, 0);
-  int continued = 0;
-  int kills = 0;
-  for (double seconds = 0.5;; seconds *= 1.2) {
-    ASSERT_LT(seconds, 120);
-    const auto outcome = run_ranks(kills % 2 == 0 ? 2 : 4, arguments + files("killed"),
-                                   "& mpirun=$!; sleep " + std::to_string(seconds) +
-                                       "; kill -KILL $(cat /proc/$mpirun/task/$mpirun/children); wait $mpirun");
-    continued += outcome.output.find("goes on with") != std::string::npos;
-    if (outcome.status == 0) break;
-    ++kills;
+  for (const int ranks : {2, 4}) {
+    // As soon as there is a new checkpoint.
+    const auto outcome = run_ranks(
+        ranks, arguments + files("killed"),
+        "& mpirun=$!; touch start; sleep 0.01; until [ killed.pvs.checkpoint -nt start ] || ! kill -0 $mpirun; do "
+        "sleep 0.01; done; kill -KILL $(cat /proc/$mpirun/task/$mpirun/children); wait $mpirun");
+    ASSERT_NE(outcome.status, 0) << "it was too quick to be killed";
   }
-  EXPECT_GT(kills, 0);
-  EXPECT_GT(continued, 0);
+  const auto outcome = run_ranks(2, arguments + files("killed"));
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_NE(outcome.output.find("goes on with"), std::string::npos) << outcome.output;
   expect_same_files("whole", "killed");
   EXPECT_FALSE(std::filesystem::exists(run_.folder().at("killed.pvs.checkpoint")));
 }
