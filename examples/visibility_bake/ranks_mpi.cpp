@@ -24,6 +24,7 @@ namespace {
 
 constexpr int tag_of_results = 1;
 constexpr int tag_of_units = 2;
+constexpr int tag_of_leave = 3;
 constexpr int nobody = std::numeric_limits<int>::max();
 
 /// Whether there are other ranks. What starts them sets one of these. A program that is started alone does without MPI.
@@ -56,7 +57,10 @@ Results bake_unit(const Colliderf& collider, const PairPlan& plan, std::span<con
                   unsigned threads) {
   std::vector<RowOfPairs> rows(unit.size());
   run_in_chunks("", unit.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) rows[i] = bake_row(collider, plan, unit[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      stop_if_interrupted();
+      rows[i] = bake_row(collider, plan, unit[i]);
+    }
   });
   Results results;
   for (const RowOfPairs& row : rows) {
@@ -65,7 +69,8 @@ Results bake_unit(const Colliderf& collider, const PairPlan& plan, std::span<con
   return results;
 }
 
-/// Brings results to rank 0, and takes the next unit, until there is none.
+/// Brings results to rank 0, and takes the next unit, until there is none. A rank that is asked to stop takes its leave
+/// of rank 0 instead, without the results of its unit.
 void work_for_rank_0(const Colliderf& collider, const PairPlan& plan, unsigned threads) {
   Results results;
   std::vector<std::uint32_t> unit(RowQueue::rows_of_a_unit);
@@ -76,7 +81,12 @@ void work_for_rank_0(const Colliderf& collider, const PairPlan& plan, unsigned t
     MPI_Recv(unit.data(), static_cast<int>(unit.size()), MPI_UINT32_T, 0, tag_of_units, MPI_COMM_WORLD, &status);
     MPI_Get_count(&status, MPI_UINT32_T, &rows);
     if (rows == 0) return;
-    results = bake_unit(collider, plan, std::span(unit).first(static_cast<std::size_t>(rows)), threads);
+    try {
+      results = bake_unit(collider, plan, std::span(unit).first(static_cast<std::size_t>(rows)), threads);
+    } catch (const Interrupted&) {
+      MPI_Send(nullptr, 0, MPI_BYTE, 0, tag_of_leave, MPI_COMM_WORLD);
+      return;
+    }
   }
 }
 
@@ -114,11 +124,22 @@ class HeadRank {
     ProgressBar bar("visibility", std::max(queue_.row_count(), std::size_t{1}));
     while (working_ > 0 || has_running(helpers)) {
       if (serve_one()) continue;
-      stop_on_error([] { stop_if_interrupted(); });
+      try {
+        if (!error_) stop_if_interrupted();
+      } catch (const Interrupted&) {
+        stop_early();
+      }
       bar.show(queue_.added(), queue_.rate());
       // A look at the messages in a loop would take the core from a rank that works.
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
+  }
+
+  /// The others may still need some time for their rows. What started them may not give it to them, so what is known is
+  /// saved before.
+  void stop_early() {
+    stop_on_error([] { throw Interrupted(); });
+    stop_on_error([&] { queue_.save(); });
   }
 
   template <typename Step>
@@ -140,17 +161,22 @@ class HeadRank {
     }
   }
 
-  /// Takes the results of a rank, and gives it the next unit. Returns false if there is no message.
+  /// Takes the results of a rank, and gives it the next unit, or lets it go. Returns false if there is no message.
   bool serve_one() {
     int is_there = 0;
     MPI_Status status;
-    MPI_Iprobe(MPI_ANY_SOURCE, tag_of_results, MPI_COMM_WORLD, &is_there, &status);
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &is_there, &status);
     if (is_there == 0) return false;
     int size = 0;
     MPI_Get_count(&status, MPI_BYTE, &size);
     Results results(static_cast<std::size_t>(size));
     const int rank = status.MPI_SOURCE;
-    MPI_Recv(results.data(), size, MPI_BYTE, rank, tag_of_results, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    MPI_Recv(results.data(), size, MPI_BYTE, rank, status.MPI_TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    if (status.MPI_TAG == tag_of_leave) {
+      --working_;
+      if (!error_) stop_early();
+      return true;
+    }
     auto& unit = units_[static_cast<std::size_t>(rank)];
     stop_on_error([&] { add(unit, results); });
     unit = queue_.take();

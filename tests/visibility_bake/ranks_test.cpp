@@ -121,18 +121,36 @@ TEST_F(RanksTest, stop_if_the_disk_is_full) {
       << outcome.error;
 }
 
+/// A run of many seconds. Each rank tells its process id, and rank 0 what it says.
+const std::string long_run =
+    "bash -c 'echo $$ >pid$OMPI_COMM_WORLD_RANK; exec \"$0\" --samples 255 --checkpoint-seconds 100000 -o stopped.pvs "
+    "--csv stopped.csv --picture stopped.png >output$OMPI_COMM_WORLD_RANK' \"$program\" & mpirun=$!; "
+    "until grep -q cells output0; do sleep 0.01; done; sleep 0.5; ";
+
 TEST_F(RanksTest, keep_a_checkpoint_when_they_are_asked_to_stop) {
-  const std::string arguments = "--spacing 1.5 --samples 255 ";
-  ProgramRun::Outcome outcome{};
-  for (double seconds = 1; seconds < 30; seconds *= 1.3) {
-    outcome = run_ranks(3, arguments + files("stopped"),
-                        "& mpirun=$!; sleep " + std::to_string(seconds) + "; kill -TERM $mpirun; wait $mpirun");
-    if (outcome.status == 0 || std::filesystem::exists(run_.folder().at("stopped.pvs.checkpoint"))) break;
-  }
-  ASSERT_NE(outcome.status, 0) << "it was too quick to be stopped";
-  outcome = run_.run(arguments + files("stopped"));
-  EXPECT_EQ(outcome.status, 0) << outcome.error;
-  EXPECT_NE(outcome.output.find("goes on with"), std::string::npos) << outcome.output;
+  const auto stopped =
+      run_.run_command(surroundings_ + "'" SUREHIT_MPIRUN "' -n 3 " + long_run + "kill -TERM $mpirun; wait $mpirun");
+  ASSERT_NE(stopped.status, 0) << "it was too quick to be stopped";
+  EXPECT_TRUE(std::filesystem::exists(run_.folder().at("stopped.pvs.checkpoint")));
+}
+
+TEST_F(RanksTest, stop_when_one_is_asked_to) {
+  const auto stopped = run_.run_command(surroundings_ + "timeout 60 '" SUREHIT_MPIRUN "' -n 3 " + long_run +
+                                        "kill -TERM $(cat pid2); wait $mpirun");
+  EXPECT_EQ(stopped.status, 130);
+  EXPECT_NE(stopped.error.find("visibility_bake: interrupted"), std::string::npos) << stopped.error;
+  EXPECT_TRUE(std::filesystem::exists(run_.folder().at("stopped.pvs.checkpoint")));
+  EXPECT_FALSE(std::filesystem::exists(run_.folder().at("stopped.pvs")));
+}
+
+TEST_F(RanksTest, keep_a_checkpoint_before_all_have_stopped) {
+  // Rank 1 never brings its unit. It gets no time to end, as if what started it were impatient.
+  const auto stopped = run_.run_command(
+      surroundings_ + "'" SUREHIT_MPIRUN "' -n 2 " + long_run +
+      "kill -STOP $(cat pid1); kill -TERM $(cat pid0); for i in $(seq 300); do [ -e stopped.pvs.checkpoint ] && break; "
+      "sleep 0.05; done; ls *.checkpoint; kill -KILL $(cat pid0 pid1); wait $mpirun");
+  EXPECT_NE(stopped.status, 0);
+  EXPECT_EQ(stopped.output.substr(0, 23), "stopped.pvs.checkpoint\n") << stopped.error;
 }
 
 }  // namespace
