@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -33,6 +35,26 @@ Stage dark_stage(const Vector3f& eye, const Vector3f& target) {
 void add(Stage& stage, Model model, const Material& material) {
   set_material(model, material);
   stage.model.append(model);
+}
+
+/// Four corners, which turn to the left as its normal sees them.
+Model rectangle(const std::array<Vector3f, 4>& corners) {
+  Model model;
+  for (const Vector3f& corner : corners) model.mesh.vertices.push_back({corner.x(), corner.y(), corner.z()});
+  model.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Vector3f normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  model.normals.assign(2, {normal, normal, normal});
+  const Eigen::Vector2f place = Eigen::Vector2f::Zero();
+  model.texture_coordinates.assign(2, {place, place, place});
+  return model;
+}
+
+/// The two sides of a level slab of glass that is wider than what is seen.
+void add_slab(Stage& stage, float bottom, float top, float refraction) {
+  constexpr float far = 200;
+  const Material glass{.is_glass = true, .refraction = refraction};
+  add(stage, rectangle({{{-far, -far, top}, {far, -far, top}, {far, far, top}, {-far, far, top}}}), glass);
+  add(stage, rectangle({{{-far, -far, bottom}, {-far, far, bottom}, {far, far, bottom}, {far, -far, bottom}}}), glass);
 }
 
 /// Where the ray of a pixel meets the plane z = 0.
@@ -162,6 +184,72 @@ TEST(ShadedPicture, glass_that_refracts_as_air_is_invisible) {
     }
   }
   EXPECT_GT(different, 500);
+}
+
+TEST(ShadedPicture, slab_of_glass_shifts_what_is_behind_it) {
+  constexpr float thickness = 1;
+  constexpr float index = 1.5f;
+  Stage stage = dark_stage({0.1f, -4, 4}, {0, 0, 0});
+  stage.ambient = Light::Ones();
+  add(stage, chess_board({0, 0, 0}, 200, 200), {.second_colour = Light::Zero()});
+  add_slab(stage, 1, 1 + thickness, index);
+  const Canvas canvas = draw(stage);
+  const Camera camera = camera_of(stage, small.width, small.height);
+  const auto is_first_square = [](float x, float y) { return (std::lround(std::floor(x) + std::floor(y)) & 1) == 0; };
+  int shifted = 0;
+  for (int j = 0; j < small.height; ++j) {
+    for (int i = 0; i < small.width; ++i) {
+      const Vector3f straight = on_ground(camera, i, j);
+      const Vector3f direction = camera.ray(i, j).direction.normalized();
+      const float sine = direction.head<2>().norm();
+      // Inside, the ray is steeper, as Snell says.
+      const float tangent = sine / std::sqrt(1 - sine * sine);
+      const float tangent_inside = sine / std::sqrt(index * index - sine * sine);
+      const Eigen::Vector2f place =
+          straight.head<2>() - thickness * (tangent - tangent_inside) * direction.head<2>() / sine;
+      const auto is_in_doubt = [](float x) { return std::abs(x - std::round(x)) < 1e-3f; };
+      if (is_in_doubt(place.x()) || is_in_doubt(place.y())) continue;
+      const bool is_first = is_first_square(place.x(), place.y());
+      EXPECT_EQ(canvas.at(i, j).red > 0.5f, is_first) << i << ' ' << j;
+      shifted += is_first != is_first_square(straight.x(), straight.y());
+    }
+  }
+  EXPECT_GT(shifted, 3'000) << "without the shift, all of these would be wrong";
+}
+
+TEST(ShadedPicture, glass_turns_light_round_beyond_the_critical_angle) {
+  // Half of a cube, cut from edge to edge. The ray goes straight in, and meets the cut at 45 degrees. For an index of
+  // 1.5, this is beyond the critical angle of 41.8 degrees, so all light comes from the floor below. For an index
+  // of 1.3, the angle is 50.3 degrees, and hardly any does.
+  const auto middle = [&](float index) {
+    Stage stage = dark_stage({0, -3, 1}, {0, 1, 1});
+    stage.ambient = Light::Ones();
+    const Light white = Light::Ones();
+    add(stage, chess_board({0, 0, -1}, 4, 4), {.colour = white, .second_colour = white});
+    const Material glass{.is_glass = true, .refraction = index};
+    add(stage, rectangle({{{-1, 0, 0}, {1, 0, 0}, {1, 0, 2}, {-1, 0, 2}}}), glass);
+    add(stage, rectangle({{{-1, 0, 0}, {-1, 2, 0}, {1, 2, 0}, {1, 0, 0}}}), glass);
+    add(stage, rectangle({{{-1, 0, 2}, {1, 0, 2}, {1, 2, 0}, {-1, 2, 0}}}), glass);
+    const float root = draw(stage).at(80, 60).red;
+    return root * root;
+  };
+  // What goes in and out loses four percent each time.
+  EXPECT_NEAR(middle(1.5f), 0.96f * 0.96f, 2e-3);
+  EXPECT_LT(middle(1.3f), 0.1f);
+}
+
+TEST(ShadedPicture, glass_dims_the_light_of_lamps) {
+  Stage stage = dark_stage({0, 0, 1}, {0, 0.001f, 0});
+  add(stage, chess_board({0, 0, 0}, 40, 4), {});
+  stage.lamps = {{{1, 1, 6}, Light::Constant(0.5f)}};
+  const auto middle = [&] {
+    const float root = draw(stage).at(80, 60).red;
+    return root * root;
+  };
+  const float without = middle();
+  ASSERT_GT(without, 0.1f);
+  add_slab(stage, 3, 4, 1.5f);
+  EXPECT_NEAR(middle(), 0.7f * without, 1e-6);
 }
 
 TEST(ShadedPicture, culled_sides_are_not_there) {
