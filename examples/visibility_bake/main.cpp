@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -109,8 +111,21 @@ Place asked_place(const Request& request) {
   return place;
 }
 
+/// Rank 0 has the matrix, and a second one while it writes.
+void refuse_more_than_memory(std::size_t cells) {
+  const double needed = 2 * static_cast<double>(cells) * static_cast<double>(cells) / 8;
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (needed <= memory) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%zu cells need %.0f GB of memory, and the machine has %.0f GB: there must be fewer, as with a larger "
+                "--spacing",
+                cells, needed / 1e9, memory / 1e9);
+  throw InputError(text);
+}
+
 std::vector<Vector3f> asked_floors(const Request& request, const Colliderf& collider,
-                                   const std::optional<Vector3f>& start) {
+                                   const std::optional<Vector3f>& start, bool is_rank_0) {
   std::vector<Vector3f> floors;
   if (!request.places_path.empty()) {
     floors = read_places(request.places_path);
@@ -126,9 +141,9 @@ std::vector<Vector3f> asked_floors(const Request& request, const Colliderf& coll
   }
   constexpr std::size_t max_cells = 1 << 20;
   if (floors.size() > max_cells) {
-    throw InputError(std::to_string(floors.size()) + " cells are too many, there may be " + std::to_string(max_cells) +
-                     ": --spacing must be larger");
+    throw InputError(std::to_string(floors.size()) + " cells are too many, there may be " + std::to_string(max_cells));
   }
+  if (is_rank_0) refuse_more_than_memory(floors.size());
   return floors;
 }
 
@@ -191,7 +206,7 @@ std::uint64_t prepare(const Request& request, bool is_rank_0, Job& job) {
   }
   PairOptions pairs = request.pairs;
   pairs.cell_width = request.walk.spacing;
-  job.plan.emplace(job.collider, asked_floors(request, job.collider, job.place.start), pairs);
+  job.plan.emplace(job.collider, asked_floors(request, job.collider, job.place.start, is_rank_0), pairs);
   if (request.shown_cell && *request.shown_cell >= job.plan->cell_count()) {
     throw InputError("--cell: there is no cell " + std::to_string(*request.shown_cell) + ", there are " +
                      std::to_string(job.plan->cell_count()));

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -151,6 +152,19 @@ TEST_F(VisibilityBakeProgram, names_what_is_wrong) {
   expect_bad_input("--spacing 8 --cell 100000", "--cell: there is no cell 100000, there are 75");
   EXPECT_EQ(run_.run("--samples 0").status, 2);
   EXPECT_EQ(run_.run("--places a --start 1,2,3").status, 2);
+}
+
+TEST_F(VisibilityBakeProgram, refuses_more_cells_than_it_has_memory_for) {
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (memory > 250e9) GTEST_SKIP() << "as many cells as there may be fit into the memory";
+  static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
+  std::string places;
+  for (int i = 0; i < 1 << 20; ++i) places += std::to_string(i) + " 0 0\n";
+  static_cast<void>(run_.folder().write("places.txt", places));
+  const auto outcome = run_.run("wall.obj --places places.txt");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.error.find("1048576 cells need 275 GB of memory, and the machine has "), std::string::npos)
+      << outcome.error;
 }
 
 TEST_F(VisibilityBakeProgram, has_help) {
