@@ -8,6 +8,7 @@
 
 #include "command_line/output_file.hpp"
 #include "command_line/program.hpp"
+#include "command_line/refuses_nan.hpp"
 #include "game_physics/arena.hpp"
 #include "game_physics/arena_picture.hpp"
 #include "game_physics/epsilon_sweep.hpp"
@@ -36,10 +37,12 @@ void describe(CLI::App& app, Request& request) {
   app.add_flag("--full", request.full, "20000 points for 2000 steps")->excludes(points)->excludes(steps);
   app.add_option("--speed", request.trial.speed, "Metres a second at the start")
       ->check(CLI::Range(0.0f, 10'000.0f).description(""))
+      ->check(refuses_nan())
       ->capture_default_str();
   app.add_option("--seed", request.trial.seed, "Of the starts")->capture_default_str();
   app.add_option("--skin", request.skin, "Metres by which the float test for contrast pushes its points off a wall")
       ->check(CLI::Range(0.0f, 1.0f).description(""))
+      ->check(refuses_nan())
       ->capture_default_str();
   app.add_option("--threads", request.trial.threads, "Threads that share the points; they fly the same for any number")
       ->check(CLI::Range(1u, 1024u).description(""))

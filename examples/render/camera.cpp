@@ -15,7 +15,9 @@ float tangent_of_half(float degrees) {
 Camera::Camera(const CameraOptions& options)
     : options_(options), aspect_(static_cast<float>(options.width) / static_cast<float>(options.height)) {
   const Vector3f view = options.target - options.eye;
-  if (!(view.norm() > 0) || !std::isfinite(view.norm())) throw InputError("the eye and the target are the same point");
+  if (options.target == options.eye) throw InputError("the eye and the target are the same point");
+  if (!(view.norm() > 0)) throw InputError("the eye and the target are too near to each other");
+  if (!std::isfinite(view.norm())) throw InputError("the eye and the target are too far from each other");
   forward_ = view / view.norm();
   const Vector3f right = forward_.cross(options.up);
   if (!(right.norm() > 1e-6f * options.up.norm())) throw InputError("the camera looks straight along its upward axis");

@@ -30,7 +30,7 @@ struct CameraOptions {
 /// (1 - 2 (j + 0.5) / height) scale. `scale` is the tangent of half of the angle of view.
 class Camera {
  public:
-  /// Throws InputError if the eye is at the target, or if `up` is along the view.
+  /// Throws InputError if the eye is at the target, if their distance is beyond float, or if `up` is along the view.
   explicit Camera(const CameraOptions& options);
 
   [[nodiscard]] int width() const { return options_.width; }

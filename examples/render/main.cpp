@@ -14,6 +14,7 @@
 #include "command_line/parse_point.hpp"
 #include "command_line/program.hpp"
 #include "command_line/read_with_z_up.hpp"
+#include "command_line/refuses_nan.hpp"
 #include "level/level.hpp"
 #include "mesh_io/input_error.hpp"
 #include "mesh_io/lower_case.hpp"
@@ -84,7 +85,8 @@ void describe(CLI::App& app, Request& request) {
   app.add_option("--eye", request.eye, "Where the eye is")->type_name("X,Y,Z");
   app.add_option("--target", request.target, "What is in the middle of the picture")->type_name("X,Y,Z");
   app.add_option("--degrees", request.degrees, "The angle of view from top to bottom")
-      ->check(CLI::Range(0.001f, 179.0f).description(""));
+      ->check(CLI::Range(0.001f, 179.0f).description(""))
+      ->check(refuses_nan());
   app.add_flag("--unit-directions", request.has_unit_directions,
                "Rays have directions of length 1, not directions that lead to the image plane");
   app.add_option("--width", request.width,
@@ -108,6 +110,9 @@ void describe(CLI::App& app, Request& request) {
 std::string encode(const Canvas& canvas, const std::string& path) {
   return lower_case(path).ends_with(".ppm") ? encode_ppm(canvas) : encode_png(canvas);
 }
+
+/// Where the program says what it does. It does not mix with a picture.
+std::FILE* text_stream(const Request& request) { return request.picture_path == "-" ? stderr : stdout; }
 
 Stage asked_stage(const Request& request) {
   Stage stage;
@@ -136,8 +141,10 @@ Canvas draw_cracks(const Request& request) {
   const Mesh<float> mesh = mesh_with_cracks(request);
   const CrackView view = find_crack_view(mesh, request.vertex, request.width.value_or(512));
   Cracks cracks = draw_cracks(mesh, view, request.threads);
-  std::printf("vertex %u, a view of %g across, %zu rays\n", view.vertex, double{view.width}, cracks.rays);
-  std::printf("  plain floats: %zu holes\n  surehit: %zu holes\n", cracks.holes_of_plain, cracks.holes_of_surehit);
+  std::fprintf(text_stream(request), "vertex %u, a view of %g across, %zu rays\n", view.vertex, double{view.width},
+               cracks.rays);
+  std::fprintf(text_stream(request), "  plain floats: %zu holes\n  surehit: %zu holes\n", cracks.holes_of_plain,
+               cracks.holes_of_surehit);
   return std::move(cracks.picture);
 }
 
@@ -165,9 +172,11 @@ Canvas draw_stage(const Request& request) {
   }
   const auto seconds = [](auto from, auto to) { return std::chrono::duration<double>(to - from).count(); };
   const double drawn = seconds(start, std::chrono::steady_clock::now());
-  std::printf("%zu triangles, ready after %.3f s\n", stage.model.mesh.triangles.size(), seconds(build_start, start));
-  std::printf("%zu rays: %.3f s, %s on %u thread%s\n%s", counts.all(), drawn, rate_text(counts.all(), drawn).c_str(),
-              request.threads, request.threads == 1 ? "" : "s", counts.text().c_str());
+  std::fprintf(text_stream(request), "%zu triangles, ready after %.3f s\n", stage.model.mesh.triangles.size(),
+               seconds(build_start, start));
+  std::fprintf(text_stream(request), "%zu rays: %.3f s, %s on %u thread%s\n%s", counts.all(), drawn,
+               rate_text(counts.all(), drawn).c_str(), request.threads, request.threads == 1 ? "" : "s",
+               counts.text().c_str());
   return canvas;
 }
 
@@ -177,12 +186,15 @@ Work describe_program(CLI::App& app) {
   return [request] {
     stop_when_asked();
     try {
+      // What cannot be written is better known before the work than after it.
+      OutputFile file(request->picture_path);
       const Canvas canvas = request->mode == "cracks" ? draw_cracks(*request) : draw_stage(*request);
-      write_file(request->picture_path, encode(canvas, request->picture_path));
+      file.write(encode(canvas, request->picture_path));
+      file.finish();
     } catch (const InvalidMesh& error) {
       throw InputError(request->mesh_path + ": " + error.what());
     }
-    std::printf("%s\n", request->picture_path.c_str());
+    if (request->picture_path != "-") std::printf("%s\n", request->picture_path.c_str());
     return success;
   };
 }

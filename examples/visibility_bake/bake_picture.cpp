@@ -38,7 +38,8 @@ class CellView {
     const float cell = plan.options().cell_width;
     box_.low -= Vector3f::Constant(cell / 2);
     box_.high += Vector3f::Constant(cell / 2);
-    const Vector3f size = box_.high - box_.low;
+    // Far from the origin, half of a cell may be nothing.
+    const Vector3f size = (box_.high - box_.low).cwiseMax(cell);
     scale_ = std::min(plan_width / size.x(), 900 / size.y());
     half_cell_ = std::max(0.75f, scale_ * cell / 2 - 0.5f);
     order_.resize(plan.cell_count());

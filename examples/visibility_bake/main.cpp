@@ -18,6 +18,7 @@
 #include "command_line/parse_point.hpp"
 #include "command_line/program.hpp"
 #include "command_line/read_with_z_up.hpp"
+#include "command_line/refuses_nan.hpp"
 #include "level/level.hpp"
 #include "mesh_io/input_error.hpp"
 #include "picture/png.hpp"
@@ -48,7 +49,10 @@ struct Request {
 
 void describe(CLI::App& app, Request& request) {
   const auto length = [&](const std::string& name, float& value, const std::string& what) {
-    return app.add_option(name, value, what)->check(CLI::Range(1e-3f, 1e6f).description(""))->capture_default_str();
+    return app.add_option(name, value, what)
+        ->check(CLI::Range(1e-3f, 1e6f).description(""))
+        ->check(refuses_nan())
+        ->capture_default_str();
   };
   app.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off (default: a level that it builds itself)")
       ->type_name("");
@@ -80,6 +84,7 @@ void describe(CLI::App& app, Request& request) {
       ->check(CLI::Range(1u, 1024u).description(""));
   app.add_option("--checkpoint-seconds", request.bake.checkpoint_seconds, "Between two checkpoints")
       ->check(CLI::Range(0.0, 1e6).description(""))
+      ->check(refuses_nan())
       ->capture_default_str();
   app.add_flag("--restart", request.begins_again, "Begins again, and removes the checkpoint of an earlier run");
   app.add_option("-o", request.sets_path, "The set of each cell")->type_name("PVS")->capture_default_str();
@@ -143,6 +148,12 @@ std::vector<Vector3f> asked_floors(const Request& request, const Colliderf& coll
   if (floors.size() > max_cells) {
     throw InputError(std::to_string(floors.size()) + " cells are too many, there may be " + std::to_string(max_cells));
   }
+  // Squares of greater distances, and a picture of them, are beyond float.
+  constexpr float max_coordinate = 1e9f;
+  for (std::size_t cell = 0; cell < floors.size(); ++cell) {
+    if (floors[cell].cwiseAbs().maxCoeff() <= max_coordinate) continue;
+    throw InputError("cell " + std::to_string(cell) + " is too far away: coordinates may be up to 1e9");
+  }
   if (is_rank_0) refuse_more_than_memory(floors.size());
   return floors;
 }
@@ -177,13 +188,28 @@ struct Totals {
   }
 };
 
+/// Opened before the bake, so that what cannot be written is known before it.
+struct OutputFiles {
+  OutputFile sets;
+  OutputFile csv;
+  OutputFile picture;
+
+  explicit OutputFiles(const Request& request)
+      : sets(request.sets_path, Durability::machine),
+        csv(request.csv_path, Durability::machine),
+        picture(request.picture_path, Durability::machine) {}
+};
+
 void write_files(const Request& request, const PairPlan& plan, const Visibility& visibility,
-                 const std::optional<Vector3f>& start) {
+                 const std::optional<Vector3f>& start, OutputFiles& files) {
   const std::string sets = encode_visible_sets(plan, visibility);
   const std::uint32_t shown = cell_to_show(request, plan, visibility, start);
-  write_file(request.sets_path, sets, Durability::machine);
-  write_file(request.csv_path, figures_csv(plan, visibility), Durability::machine);
-  write_file(request.picture_path, encode_png(draw_bake(plan, visibility, shown)), Durability::machine);
+  const std::string csv = figures_csv(plan, visibility);
+  const std::string picture = encode_png(draw_bake(plan, visibility, shown));
+  for (const auto& [file, bytes] : {std::pair{&files.sets, &sets}, {&files.csv, &csv}, {&files.picture, &picture}}) {
+    file->write(*bytes);
+    file->finish();
+  }
   std::printf("%s: a matrix of %zu bytes in %zu\n%s\n%s\n", request.sets_path.c_str(),
               visibility.cell_count() * visibility.bytes_of_a_row(), sets.size(), request.csv_path.c_str(),
               request.picture_path.c_str());
@@ -196,6 +222,7 @@ struct Job {
   std::optional<PairPlan> plan;
   std::optional<Checkpoint> checkpoint;
   Visibility visibility{0};
+  std::optional<OutputFiles> files;  ///< of rank 0
 };
 
 /// Returns the fingerprint of the plan. Rank 0 also reads the checkpoint.
@@ -214,6 +241,7 @@ std::uint64_t prepare(const Request& request, bool is_rank_0, Job& job) {
   const std::uint64_t fingerprint = job.plan->fingerprint(job.collider);
   job.checkpoint.emplace(request.sets_path + ".checkpoint", fingerprint);
   if (!is_rank_0) return fingerprint;
+  job.files.emplace(request);
   if (request.begins_again) job.checkpoint->remove();
   job.visibility = job.checkpoint->load(job.plan->cell_count());
   return fingerprint;
@@ -249,7 +277,7 @@ void work(const Request& request) {
   std::printf("%.0f segments: %.3f s, %.2f M segments/s by %d process%s of %u thread%s\n", segments, seconds,
               segments / seconds / 1e6, ranks.size(), ranks.size() == 1 ? "" : "es", options.threads,
               options.threads == 1 ? "" : "s");
-  write_files(request, plan, job.visibility, job.place.start);
+  write_files(request, plan, job.visibility, job.place.start, *job.files);
   job.checkpoint->remove();
 }
 

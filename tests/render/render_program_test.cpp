@@ -83,6 +83,9 @@ TEST_F(RenderProgram, names_what_is_wrong) {
   expect_failure("--eye 1,2", 2, "--eye: three numbers X,Y,Z are needed, not '1,2'");
   expect_failure("--eye 1,2,three", 2, "--eye: 'three' is not a number");
   expect_failure("--eye 1,2,3 --target 1,2,3", 2, "the eye and the target are the same point");
+  expect_failure("--eye 0,0,0 --target 1e-30,0,0", 2, "the eye and the target are too near to each other");
+  expect_failure("--eye 0,0,0 --target 1e30,0,0", 2, "the eye and the target are too far from each other");
+  EXPECT_EQ(run_.run("--degrees nan").status, 2);
   expect_failure("--eye 1,2,3 --target 1,2,8", 2, "the camera looks straight along its upward axis");
   expect_failure("--mode cracks --vertex 9999", 2, "--vertex: there is no vertex 9999, the mesh has 642");
   expect_failure("tetrahedron.obj --mode cracks --vertex 0", 2,
@@ -91,8 +94,15 @@ TEST_F(RenderProgram, names_what_is_wrong) {
   EXPECT_EQ(run_.run("--scene level tetrahedron.obj").status, 2);
 }
 
+TEST_F(RenderProgram, writes_a_picture_alone_to_standard_output) {
+  const auto outcome = run_.run(small_ + "-o picture.png && \"$program\" " + small_ + "-o - | cmp - picture.png >&2");
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_NE(outcome.error.find("rays"), std::string::npos) << outcome.error;
+}
+
 TEST_F(RenderProgram, says_that_a_picture_cannot_be_written) {
-  const auto outcome = run_.run(small_ + "-o absent/picture.png");
+  // Before it renders for hours.
+  const auto outcome = run_.run("--width 16384 --height 16384 --samples 16 -o absent/picture.png");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.error.find("absent/picture.png"), std::string::npos) << outcome.error;
   if (run_.run_command("test -c /dev/full").status == 0) {

@@ -91,8 +91,9 @@ TEST_F(VisibilityBakeProgram, takes_a_mesh_and_places) {
 TEST_F(VisibilityBakeProgram, refuses_checkpoints_that_do_not_fit) {
   static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
   static_cast<void>(run_.folder().write("places.txt", "-2 0 0\n-1 0 0\n1 0 0\n"));
-  // A part that is not saved cannot be written to, so the first checkpoint stays.
-  const std::string keep = "mkdir some.csv && ";
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no disk that is always full";
+  // The figures cannot be written, so the checkpoint stays.
+  const std::string keep = "ln -s /dev/full some.csv && ";
   const auto stopped =
       run_.run_command(keep + "\"$program\" wall.obj --places places.txt --checkpoint-seconds 0" + files("some"));
   EXPECT_EQ(stopped.status, 1);
@@ -108,7 +109,7 @@ TEST_F(VisibilityBakeProgram, refuses_checkpoints_that_do_not_fit) {
   expect_bad_input("wall.obj --places places.txt" + files("some"),
                    "some.pvs.checkpoint: is damaged: its checksum is not that of its bytes; remove it, or begin again "
                    "with --restart");
-  EXPECT_EQ(run_.run_command("rmdir some.csv").status, 0);
+  EXPECT_EQ(run_.run_command("rm some.csv").status, 0);
   const auto again = run_.run("wall.obj --places places.txt --restart" + files("some"));
   EXPECT_EQ(again.status, 0) << again.error;
   EXPECT_FALSE(std::filesystem::exists(run_.folder().at("some.pvs.checkpoint")));
@@ -134,6 +135,16 @@ TEST_F(VisibilityBakeProgram, writes_to_what_is_no_regular_file_and_through_link
   EXPECT_TRUE(run_.folder().read("piped.csv").starts_with("cell,x,y,z"));
 }
 
+TEST_F(VisibilityBakeProgram, says_before_it_bakes_what_cannot_be_written) {
+  for (const std::string option : {"-o", "--csv", "--picture"}) {
+    const auto outcome = run_.run("--spacing 8 " + option + " absent/file");
+    EXPECT_EQ(outcome.status, 1) << option;
+    EXPECT_EQ(outcome.error, "visibility_bake: absent/file: cannot be written: No such file or directory\n");
+    EXPECT_EQ(outcome.output, "") << "it has not begun";
+  }
+  EXPECT_EQ(run_.folder().file_count(), 0u);
+}
+
 TEST_F(VisibilityBakeProgram, refuses_one_file_for_two_outputs) {
   expect_bad_input("-o a --csv b --picture ./a", "-o and --picture are the same file, ./a");
   expect_bad_input("-o a --csv a", "-o and --csv are the same file, a");
@@ -150,6 +161,13 @@ TEST_F(VisibilityBakeProgram, names_what_is_wrong) {
   expect_bad_input("--start 1000,2,3", "--start: there is no walkable place near it");
   expect_bad_input("--eye-height 1.9", "--eye-height: it must not be above --headroom");
   expect_bad_input("--spacing 8 --cell 100000", "--cell: there is no cell 100000, there are 75");
+  static_cast<void>(run_.folder().write("far.txt", "0 0 0\n3e38 0 0\n-3e38 0 0\n"));
+  expect_bad_input("wall.obj --places far.txt", "cell 1 is too far away: coordinates may be up to 1e9");
+  for (const std::string option : {"--range", "--eye-height", "--checkpoint-seconds", "--spacing"}) {
+    const auto outcome = run_.run(option + " nan");
+    EXPECT_EQ(outcome.status, 2) << option;
+    EXPECT_NE(outcome.error.find(option + ": nan is not a number"), std::string::npos) << outcome.error;
+  }
   EXPECT_EQ(run_.run("--samples 0").status, 2);
   EXPECT_EQ(run_.run("--places a --start 1,2,3").status, 2);
 }
