@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <mutex>
 
@@ -65,7 +66,8 @@ std::vector<std::uint64_t> costs_of(const Colliderf& collider, const Camera& cam
   const auto height = static_cast<std::size_t>(camera.height());
   std::vector<std::uint64_t> costs(width * height);
   std::mutex mutex;
-  run_in_chunks("cost", height, 8, threads, [&](std::size_t begin, std::size_t end) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto draw_rows = [&](std::size_t begin, std::size_t end) {
     stop_if_interrupted();
     RayCounts counts_of_rows;
     counts_of_rows.measure(RayKind::primary, (end - begin) * width, [&] {
@@ -78,6 +80,10 @@ std::vector<std::uint64_t> costs_of(const Colliderf& collider, const Camera& cam
     });
     const std::lock_guard lock(mutex);
     counts += counts_of_rows;
+  };
+  run_in_chunks("cost", height, 8, threads, draw_rows, [&] {
+    const std::lock_guard lock(mutex);
+    return rate_since(start, counts.all());
   });
   return costs;
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <string>
 #include <surehit/collider.hpp>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "render/frame_colours.hpp"
 #include "render/id_picture.hpp"
 #include "render/plain_intersect.hpp"
+#include "render/ray_counts.hpp"
 
 namespace surehit::example {
 namespace {
@@ -33,17 +36,39 @@ Vector3f vertex_of(const Mesh<float>& mesh, std::uint32_t vertex) {
   return {x, y, z};
 }
 
-Fan fan_of(const Mesh<float>& mesh, std::uint32_t vertex) {
-  Fan fan;
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (std::ranges::find(mesh.triangles[i], vertex) == mesh.triangles[i].end()) continue;
-    fan.triangles.push_back(i);
-    for (const std::uint32_t corner : mesh.triangles[i]) {
-      fan.longest_edge = std::max(fan.longest_edge, (vertex_of(mesh, corner) - vertex_of(mesh, vertex)).norm());
+/// The triangles at each vertex of a mesh.
+class VertexFans {
+ public:
+  explicit VertexFans(const Mesh<float>& mesh) : mesh_(mesh), ends_(mesh.vertices.size() + 1) {
+    for (const auto& corners : mesh.triangles) {
+      for (const std::uint32_t corner : corners) ++ends_[corner + 1];
+    }
+    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+    triangles_.resize(ends_.back());
+    std::vector<std::size_t> next(ends_.begin(), ends_.end() - 1);
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+      for (const std::uint32_t corner : mesh.triangles[i]) triangles_[next[corner]++] = i;
     }
   }
-  return fan;
-}
+
+  [[nodiscard]] Fan fan(std::uint32_t vertex) const {
+    Fan fan;
+    const auto begin = triangles_.begin();
+    fan.triangles.assign(begin + static_cast<std::ptrdiff_t>(ends_[vertex]),
+                         begin + static_cast<std::ptrdiff_t>(ends_[vertex + 1]));
+    for (const std::uint32_t triangle : fan.triangles) {
+      for (const std::uint32_t corner : mesh_.triangles[triangle]) {
+        fan.longest_edge = std::max(fan.longest_edge, (vertex_of(mesh_, corner) - vertex_of(mesh_, vertex)).norm());
+      }
+    }
+    return fan;
+  }
+
+ private:
+  const Mesh<float>& mesh_;
+  std::vector<std::size_t> ends_;  ///< where the triangles of the next vertex begin
+  std::vector<std::uint32_t> triangles_;
+};
 
 /// Whether all triangles of a fan face upwards, and each edge at the vertex is one of two of them in turn.
 bool surrounds(const Mesh<float>& mesh, const Fan& fan, std::uint32_t vertex) {
@@ -126,21 +151,21 @@ CrackView find_crack_view(const Mesh<float>& mesh, std::optional<std::uint32_t> 
     }
     vertices = {*vertex};
   } else {
-    for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) vertices.push_back(i);
-    const std::size_t tried = std::min(vertices.size(), std::size_t{256});
-    std::ranges::partial_sort(vertices, vertices.begin() + static_cast<std::ptrdiff_t>(tried), std::ranges::greater(),
-                              [&](std::uint32_t i) { return mesh.vertices[i][2]; });
-    vertices.resize(tried);
+    vertices.resize(mesh.vertices.size());
+    std::iota(vertices.begin(), vertices.end(), 0u);
+    std::ranges::stable_sort(vertices, std::ranges::greater(), [&](std::uint32_t i) { return mesh.vertices[i][2]; });
   }
+  const VertexFans fans(mesh);
   for (const std::uint32_t candidate : vertices) {
-    const Fan fan = fan_of(mesh, candidate);
+    const Fan fan = fans.fan(candidate);
     if (!surrounds(mesh, fan, candidate)) continue;
     CrackView view = view_of(mesh, candidate, fan, size);
     if (is_seen(collider, fan, view)) return view;
   }
-  throw InputError(vertex ? "--vertex: the triangles at vertex " + std::to_string(*vertex) +
-                                " do not lie around it in sight from above"
-                          : "no vertex at the top of the mesh has triangles all around it that face upwards");
+  throw InputError(vertex
+                       ? "--vertex: the triangles at vertex " + std::to_string(*vertex) +
+                             " do not lie around it in sight from above"
+                       : "no vertex of the mesh has triangles all around it that face upwards, and is seen from above");
 }
 
 Cracks draw_cracks(const Mesh<float>& mesh, const CrackView& view, unsigned threads) {
@@ -157,20 +182,24 @@ Cracks draw_cracks(const Mesh<float>& mesh, const CrackView& view, unsigned thre
     if (!seen) ++holes;
     cracks.picture.at(x, y) = seen ? mix(paper, colour_of_id(*seen), 0.75f) : hole;
   };
-  run_in_chunks("cracks", static_cast<std::size_t>(camera.height()), 4, threads,
-                [&](std::size_t begin, std::size_t end) {
-                  stop_if_interrupted();
-                  for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
-                    for (int column = 0; column < size; ++column) {
-                      const Rayf ray = camera.ray(column, row);
-                      draw(margin + column, margin + row, seen_by_plain_test(mesh, triangles, ray), holes_of_plain);
-                      const auto hit = collider.first_hit(ray);
-                      const bool is_seen = hit && hit->side != Side::back;
-                      draw(2 * margin + size + column, margin + row,
-                           is_seen ? std::optional(hit->triangle) : std::nullopt, holes_of_surehit);
-                    }
-                  }
-                });
+  std::atomic<std::size_t> rays = 0;
+  const auto start = std::chrono::steady_clock::now();
+  const auto draw_rows = [&](std::size_t begin, std::size_t end) {
+    stop_if_interrupted();
+    for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
+      for (int column = 0; column < size; ++column) {
+        const Rayf ray = camera.ray(column, row);
+        draw(margin + column, margin + row, seen_by_plain_test(mesh, triangles, ray), holes_of_plain);
+        const auto hit = collider.first_hit(ray);
+        const bool is_seen = hit && hit->side != Side::back;
+        draw(2 * margin + size + column, margin + row, is_seen ? std::optional(hit->triangle) : std::nullopt,
+             holes_of_surehit);
+      }
+    }
+    rays += (end - begin) * static_cast<std::size_t>(size);
+  };
+  run_in_chunks("cracks", static_cast<std::size_t>(camera.height()), 4, threads, draw_rows,
+                [&] { return rate_since(start, rays); });
   cracks.holes_of_plain = holes_of_plain;
   cracks.holes_of_surehit = holes_of_surehit;
   const auto caption = [&](int x, const char* name, std::size_t holes) {

@@ -1,6 +1,7 @@
 #include "render/id_picture.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <mutex>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "render/frame_colours.hpp"
 
 namespace surehit::example {
+
 Colour colour_of_id(std::uint32_t triangle) {
   // Neighbours in the mesh have numbers that differ little. Their colours must not.
   std::uint32_t bits = triangle + 1;
@@ -25,25 +27,29 @@ Canvas draw_ids(const World& world, const Camera& camera, unsigned threads, RayC
   const auto width = static_cast<std::size_t>(camera.width());
   const std::size_t rows = std::max(std::size_t{1}, (std::size_t{1} << 14) / width);
   std::mutex mutex;
-  run_in_chunks(
-      "ids", static_cast<std::size_t>(camera.height()), rows, threads, [&](std::size_t begin, std::size_t end) {
-        stop_if_interrupted();
-        std::vector<Rayf> rays;
-        for (std::size_t i = begin * width; i < end * width; ++i) {
-          rays.push_back(camera.ray(static_cast<int>(i % width), static_cast<int>(i / width)));
-        }
-        std::vector<Hitf> hits(rays.size());
-        RayCounts counts_of_rows;
-        counts_of_rows.measure(RayKind::primary, rays.size(),
-                               [&] { world.collider().first_hits(rays, hits, {.options = world.options()}); });
-        for (std::size_t i = 0; i < hits.size(); ++i) {
-          if (hits[i].triangle == no_triangle) continue;
-          const std::size_t pixel = begin * width + i;
-          canvas.at(static_cast<int>(pixel % width), static_cast<int>(pixel / width)) = colour_of_id(hits[i].triangle);
-        }
-        const std::lock_guard lock(mutex);
-        counts += counts_of_rows;
-      });
+  const auto start = std::chrono::steady_clock::now();
+  const auto draw_rows = [&](std::size_t begin, std::size_t end) {
+    stop_if_interrupted();
+    std::vector<Rayf> rays;
+    for (std::size_t i = begin * width; i < end * width; ++i) {
+      rays.push_back(camera.ray(static_cast<int>(i % width), static_cast<int>(i / width)));
+    }
+    std::vector<Hitf> hits(rays.size());
+    RayCounts counts_of_rows;
+    counts_of_rows.measure(RayKind::primary, rays.size(),
+                           [&] { world.collider().first_hits(rays, hits, {.options = world.options()}); });
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      if (hits[i].triangle == no_triangle) continue;
+      const std::size_t pixel = begin * width + i;
+      canvas.at(static_cast<int>(pixel % width), static_cast<int>(pixel / width)) = colour_of_id(hits[i].triangle);
+    }
+    const std::lock_guard lock(mutex);
+    counts += counts_of_rows;
+  };
+  run_in_chunks("ids", static_cast<std::size_t>(camera.height()), rows, threads, draw_rows, [&] {
+    const std::lock_guard lock(mutex);
+    return rate_since(start, counts.all());
+  });
   return canvas;
 }
 

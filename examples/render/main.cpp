@@ -138,13 +138,21 @@ Mesh<float> mesh_with_cracks(const Request& request) {
 }
 
 Canvas draw_cracks(const Request& request) {
+  constexpr int max_width = 4096;
+  if (request.width.value_or(0) > max_width) {
+    throw InputError("--width: at most " + std::to_string(max_width) + " in --mode cracks, which draws two pictures");
+  }
   const Mesh<float> mesh = mesh_with_cracks(request);
   const CrackView view = find_crack_view(mesh, request.vertex, request.width.value_or(512));
+  const auto start = std::chrono::steady_clock::now();
   Cracks cracks = draw_cracks(mesh, view, request.threads);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::fprintf(text_stream(request), "vertex %u, a view of %g across, %zu rays\n", view.vertex, double{view.width},
                cracks.rays);
   std::fprintf(text_stream(request), "  plain floats: %zu holes\n  surehit: %zu holes\n", cracks.holes_of_plain,
                cracks.holes_of_surehit);
+  std::fprintf(text_stream(request), "by both: %.3f s, %s on %u thread%s\n", seconds,
+               rate_text(cracks.rays, seconds).c_str(), request.threads, request.threads == 1 ? "" : "s");
   return std::move(cracks.picture);
 }
 

@@ -31,6 +31,10 @@ std::string RayCounts::text() const {
   return lines;
 }
 
+std::string rate_since(std::chrono::steady_clock::time_point start, std::size_t rays) {
+  return rate_text(rays, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
 std::string rate_text(std::size_t rays, double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2f M rays/s", seconds > 0 ? static_cast<double>(rays) / seconds / 1e6 : 0.0);

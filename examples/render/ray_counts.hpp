@@ -46,5 +46,7 @@ class RayCounts {
 
 /// A number of rays in a time, such as "2.1 M rays/s".
 [[nodiscard]] std::string rate_text(std::size_t rays, double seconds);
+/// The same for rays since a start.
+[[nodiscard]] std::string rate_since(std::chrono::steady_clock::time_point start, std::size_t rays);
 
 }  // namespace surehit::example

@@ -64,7 +64,7 @@ Canvas draw_shaded(const World& world, const Stage& stage, const ShadingOptions&
   };
   const auto rate = [&] {
     const std::lock_guard lock(mutex);
-    return rate_text(counts.all(), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    return rate_since(start, counts.all());
   };
   run_in_chunks("render", static_cast<std::size_t>(options.height), rows, options.threads, draw_rows, rate);
   return canvas;

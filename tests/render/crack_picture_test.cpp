@@ -42,6 +42,18 @@ TEST(CrackPicture, shows_the_vertex_in_the_middle) {
   EXPECT_EQ(find_crack_view(mesh, view.vertex, 64).vertex, view.vertex);
 }
 
+TEST(CrackPicture, finds_a_vertex_below_many_others) {
+  // A wall of tall spikes whose tops are no vertices that face upwards, and a sphere below.
+  Mesh<float> mesh = tessellated_sphere({0, 0, 0}, 1, 2).mesh;
+  for (int i = 0; i < 200; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    const float x = 5 + static_cast<float>(i);
+    mesh.vertices.insert(mesh.vertices.end(), {{x, 0, 9}, {x, 1, 9}, {x, 0, 5}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  EXPECT_LT(mesh.vertices[find_crack_view(mesh, std::nullopt, 64).vertex][2], 1.1f);
+}
+
 TEST(CrackPicture, says_why_there_is_no_view) {
   const Mesh<float> sphere = tessellated_sphere({0, 0, 0}, 1, 2).mesh;
   const auto bottom = static_cast<std::uint32_t>(
