@@ -185,6 +185,15 @@ TEST_F(VisibilityBakeProgram, refuses_more_cells_than_it_has_memory_for) {
       << outcome.error;
 }
 
+#ifdef SUREHIT_WITHOUT_MPI
+TEST_F(VisibilityBakeProgram, is_not_one_of_several_without_MPI) {
+  const auto outcome = run_.run_command("OMPI_COMM_WORLD_SIZE=2 \"$program\" --spacing 8");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.error, "visibility_bake: this build is without MPI, and cannot be one of 2 processes\n");
+  EXPECT_EQ(run_.run_command("OMPI_COMM_WORLD_SIZE=1 \"$program\" --spacing 8").status, 0);
+}
+#endif
+
 TEST_F(VisibilityBakeProgram, has_help) {
   const auto outcome = run_.run("--help");
   EXPECT_EQ(outcome.status, 0);
