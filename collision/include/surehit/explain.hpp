@@ -50,6 +50,9 @@ struct FilterNumber {
 
 /// The five determinants of Möller and Trumbore as the filter computes them, in the type of the mesh. With D = end -
 /// start, E1 = b - a, E2 = c - a and S = start - a, a hit has t = t_det / det, u = u_det / det and v = v_det / det.
+///
+/// For a path that starts far away, these are the numbers of its own start. A query may move the start along the path
+/// first. So it may decide where these numbers do not.
 struct FilterNumbers {
   FilterNumber det;    ///< E1·(D × E2).
   FilterNumber t_det;  ///< E2·(S × E1), called T elsewhere.
@@ -132,8 +135,9 @@ struct Explanation {
 /// pictures. `Collider::first_hit` is not slower because of it.
 ///
 /// The answer is the same, to the bit. The way to it is that of a single query without shortcuts: it decides each
-/// candidate by itself, where a query may know enough before. The numbers of the filter are those of the best
-/// instruction set that the machine has, and may differ between machines and versions. The answer may not.
+/// candidate by itself, where a query may know enough before. The numbers of the filter are those of the path's own
+/// start, on the best instruction set that the machine has. They may differ between machines and versions. The answer
+/// may not. A query may move a start that is far away along the path first, and so decide where these numbers do not.
 ///
 /// Allocates memory for what it tells, and may throw std::bad_alloc. No query may run while the collider changes.
 template <FloatOrDouble Scalar>
