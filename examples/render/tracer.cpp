@@ -9,8 +9,9 @@
 namespace surehit::example {
 namespace {
 
-/// Rays with less light than this change no pixel.
-constexpr float invisible = 1.0f / 1024;
+/// Rays with less light than this are left out, to save time. On black they would still show a little: what is shown is
+/// the root of the light, and that of 1/1024 is 1/32.
+constexpr float too_faint = 1.0f / 1024;
 
 /// Rays that are asked about together. The arrays have an element for each.
 struct Wave {
@@ -20,7 +21,7 @@ struct Wave {
   std::vector<std::uint32_t> pixels;
 
   void add(const Rayf& ray, Medium medium, const Light& weight, std::uint32_t pixel) {
-    if (weight.maxCoeff() < invisible) return;
+    if (weight.maxCoeff() < too_faint) return;
     rays.push_back(ray);
     media.push_back(medium);
     weights.push_back(weight);
