@@ -8,8 +8,8 @@ namespace surehit::example {
 
 /// How walkable places are found.
 struct WalkOptions {
-  float spacing = 1;      ///< between the columns of places, along x and y
-  float headroom = 1.8f;  ///< is free above a place
+  float spacing = 1;      ///< The distance between the columns of places, along x and y.
+  float headroom = 1.8f;  ///< What is free above a place.
   float max_slope = 1;    ///< A step from one column to the next rises or falls by up to this share of the spacing.
 };
 

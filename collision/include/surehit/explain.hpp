@@ -48,8 +48,8 @@ struct FilterNumber {
   double bound = 0;  ///< The exact number is at most this far away. It is infinite or NaN if nothing is known.
 };
 
-/// The five determinants of Möller and Trumbore as the filter computes them, in the type of the mesh. With D = end -
-/// start, E1 = b - a, E2 = c - a and S = start - a, a hit has t = t_det / det, u = u_det / det and v = v_det / det.
+/// The five determinants of Möller and Trumbore as the filter computes them, in the type of the mesh. D is end - start,
+/// E1 is b - a, E2 is c - a, and S is start - a. A hit has t = t_det / det, u = u_det / det and v = v_det / det.
 ///
 /// For a path that starts far away, these are the numbers of its own start. A query may move the start along the path
 /// first. So it may decide where these numbers do not.
