@@ -49,7 +49,7 @@ class SceneBatch {
 
  private:
   static constexpr std::size_t slots = 16;     ///< The number of paths that are on their way.
-  static constexpr std::size_t max_open = 64;  ///< The room of a path for children that it leaves for later.
+  static constexpr std::size_t max_open = 32;  ///< The room of a path for children that it leaves for later.
   static constexpr std::size_t lanes = PlaceLanes::max_lanes;
 
   /// A path on its way.

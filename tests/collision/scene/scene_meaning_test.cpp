@@ -466,6 +466,22 @@ TYPED_TEST(SceneMeaning, batch_ends_with_the_shortest_of_its_spans) {
   EXPECT_EQ(hits[3].triangle, no_triangle);
 }
 
+TYPED_TEST(SceneMeaning, each_path_of_a_batch_has_its_options) {
+  this->add();
+  this->scene.commit();
+  const std::vector<Segment<TypeParam>> paths(40, this->across(1, -1));
+  std::vector<SceneQueryOptions<TypeParam>> options(paths.size());
+  for (std::size_t i = 0; i < paths.size(); i += 3) options[i].max_t = TypeParam(0.25);
+  std::vector<SceneHit<TypeParam>> hits(paths.size());
+  std::vector<std::uint8_t> blocked(paths.size());
+  this->scene.first_hits(paths, hits, {.path_options = options});
+  this->scene.any_hits(paths, blocked, {.path_options = options});
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    EXPECT_EQ(hits[i].triangle, i % 3 == 0 ? no_triangle : 0U);
+    EXPECT_EQ(blocked[i], i % 3 == 0 ? 0 : 1);
+  }
+}
+
 TYPED_TEST(SceneMeaning, filter_of_a_batch_sees_the_path) {
   const auto id = this->add();
   this->scene.commit();
