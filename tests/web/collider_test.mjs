@@ -65,6 +65,19 @@ for (const [scalar, Numbers] of both) {
     collider.free();
   });
 
+  test(`${scalar}: what is behind an ignored edge-on hit is found`, () => {
+    const wall = [6, 0, -1, 6, 0, 1, 6, 9, 0];
+    const collider = surehit.collider(new Numbers([...floor, ...wall]), new Uint32Array([...halves, 4, 5, 6]));
+    const ray = [-1, 2, 0, 1, 0, 0];
+    assert.equal(collider.firstHit({ ray }).side, 'edge_on');
+    const [hit, many] = [{ ray }, { rays: new Numbers([...ray, ...ray]) }].map((path) =>
+      (path.ray ? collider.firstHit(path, { ignoreEdgeOn: true }) : collider.firstHits(path, { ignoreEdgeOn: true })));
+    assert.equal(hit.t, 7);
+    assert.equal(hit.triangle, 2);
+    assert.deepEqual([many.at(0), many.at(1)], [hit, hit]);
+    collider.free();
+  });
+
   test(`${scalar}: batches are single queries, at any size`, () => {
     const random = new Random(5);
     const numbers = new Numbers(900).map(() => random.symmetric());

@@ -121,8 +121,10 @@ int store(const std::optional<Hit<Scalar>>& hit, Hit<Scalar>* result) {
 template <typename Scalar>
 std::optional<Hit<Scalar>> first_hit(const WebCollider<Scalar>& self, const Path<Scalar>& path,
                                      const WebOptions<Scalar>& options) {
-  return options.ignores_edge_on() ? self.collider.first_hit(path, has_side, options.query())
-                                   : self.collider.first_hit(path, options.query());
+  const auto hit = self.collider.first_hit(path, options.query());
+  // A filter takes time, and few first hits are edge-on.
+  return hit && !has_side(*hit) && options.ignores_edge_on() ? self.collider.first_hit(path, has_side, options.query())
+                                                             : hit;
 }
 
 template <typename Scalar>
@@ -163,6 +165,16 @@ PathSpan<Scalar> paths_of(std::uint32_t kind, const Scalar* numbers, std::size_t
   }
 }
 
+/// As in a single query, only hits that are edge-on need the filter.
+template <typename Scalar>
+void ask_again_if_edge_on(const Collider<Scalar>& collider, const PathSpan<Scalar>& paths,
+                          const WebOptions<Scalar>& options, std::span<Hit<Scalar>> hits) {
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].triangle == no_triangle || has_side(hits[i])) continue;
+    hits[i] = collider.first_hit(paths[i], has_side, options.query()).value_or(Hit<Scalar>{});
+  }
+}
+
 /// A part of a batch at a time, so that its hits are still in the cache when they go to their columns.
 template <typename Scalar>
 void first_hits(WebCollider<Scalar>* self, const PathSpan<Scalar>& paths, const WebOptions<Scalar>& options,
@@ -171,7 +183,9 @@ void first_hits(WebCollider<Scalar>* self, const PathSpan<Scalar>& paths, const 
   self->hits.resize(std::min(paths.size(), part));
   for (std::size_t first = 0; first < paths.size(); first += part) {
     const std::span hits = std::span(self->hits).first(std::min(part, paths.size() - first));
-    self->collider.first_hits(paths.subspan(first, hits.size()), hits, batch_options(options));
+    const PathSpan<Scalar> some = paths.subspan(first, hits.size());
+    self->collider.first_hits(some, hits, {.options = options.query()});
+    if (options.ignores_edge_on()) ask_again_if_edge_on(self->collider, some, options, hits);
     columns.store(hits, first);
   }
 }
