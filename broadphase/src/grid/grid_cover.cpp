@@ -160,7 +160,7 @@ GridCover::GridCover(const Grid& grid) {
   std::size_t count = 0;
   groups[count++] = PartGroup(std::span(parts).first(listing.boxed(parts)));
   while (count < max_boxes) {
-    PartGroup& best = *std::max_element(groups.begin(), groups.begin() + count,
+    PartGroup& best = *std::max_element(groups.data(), groups.data() + count,
                                         [](const PartGroup& a, const PartGroup& b) { return a.gain < b.gain; });
     if (best.gain <= 0) break;
     const auto middle = std::partition(best.parts.begin(), best.parts.end(),

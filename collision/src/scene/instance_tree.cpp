@@ -72,15 +72,18 @@ class Splitter {
     if (!evenly && size > 0 && std::isfinite(size)) middle_at = part_by_bins(group, axis, low[axis], size);
     if (middle_at == group.first || middle_at == group.last) {
       middle_at = group.first + (group.last - group.first) / 2;
-      std::nth_element(
-          order_.begin() + group.first, order_.begin() + middle_at, order_.begin() + group.last,
-          [&](std::uint32_t x, std::uint32_t y) { return middle(boxes_[x], axis) < middle(boxes_[y], axis); });
+      std::nth_element(place(group.first), place(middle_at), place(group.last), [&](std::uint32_t x, std::uint32_t y) {
+        return middle(boxes_[x], axis) < middle(boxes_[y], axis);
+      });
     }
     return {this->group(group.first, middle_at), this->group(middle_at, group.last)};
   }
 
  private:
   static constexpr std::size_t bins = 16;
+
+  /// Where an index of the order lies.
+  [[nodiscard]] std::uint32_t* place(std::uint32_t i) const { return order_.data() + i; }
 
   /// Brings the instances of the better part to the front, and returns where the other part begins.
   std::uint32_t part_by_bins(const Group& group, std::size_t axis, double low, double size) {
@@ -118,9 +121,9 @@ class Splitter {
       }
     }
     if (best_bin == 0) return group.first;
-    const auto other = std::partition(order_.begin() + group.first, order_.begin() + group.last,
-                                      [&](std::uint32_t index) { return bin_of(index) < best_bin; });
-    return static_cast<std::uint32_t>(other - order_.begin());
+    const std::uint32_t* const other = std::partition(place(group.first), place(group.last),
+                                                      [&](std::uint32_t index) { return bin_of(index) < best_bin; });
+    return static_cast<std::uint32_t>(other - order_.data());
   }
 
   std::vector<std::uint32_t>& order_;
