@@ -87,6 +87,8 @@ step .ci/install_packages.sh library examples tests benchmarks || finish
 if ! $quick; then
   .ci/install_packages.sh web || left_out+=("WebAssembly: its packages cannot be installed")
   command -v npm >/dev/null || .ci/install_packages.sh npm || left_out+=("the comparison with three.js: npm cannot be installed")
+  { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null ||
+    .ci/install_packages.sh browser || left_out+=("the page web_picking: no Chromium can be installed")
 fi
 
 if $quick; then
