@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "mesh_io/input_error.hpp"
 #include "render/plain_intersect.hpp"
@@ -54,18 +57,78 @@ TEST(CrackPicture, finds_a_vertex_below_many_others) {
   EXPECT_LT(mesh.vertices[find_crack_view(mesh, std::nullopt, 64).vertex][2], 1.1f);
 }
 
+TEST(CrackPicture, looks_from_below_a_ceiling) {
+  Mesh<float> mesh = tessellated_sphere({0.3f, 0.7f, -0.2f}, 1.3f, 3).mesh;
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  const float ceiling = 1.8f;
+  mesh.vertices.insert(mesh.vertices.end(), {{-99, -99, ceiling}, {99, -99, ceiling}, {0, 99, ceiling}});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  const CrackView view = find_crack_view(mesh, std::nullopt, 96);
+  EXPECT_LT(view.camera.eye.z(), ceiling);
+  EXPECT_EQ(draw_cracks(mesh, view, 2).holes_of_surehit, 0u);
+}
+
+TEST(CrackPicture, leaves_out_vertices_at_which_the_mesh_touches_itself) {
+  Mesh<float> mesh = tessellated_sphere({0.3f, 0.7f, -0.2f}, 1.3f, 3).mesh;
+  const std::uint32_t vertex = find_crack_view(mesh, std::nullopt, 96).vertex;
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto [x, y, z] = mesh.vertices[vertex];
+  mesh.vertices.insert(mesh.vertices.end(), {{x - 1, y - 1, z}, {x, y + 1, z}, {x + 1, y - 1, z}});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  EXPECT_NE(find_crack_view(mesh, std::nullopt, 96).vertex, vertex);
+}
+
+TEST(CrackPicture, takes_vertices_at_one_place_for_one) {
+  const Mesh<float> joined = tessellated_sphere({0.3f, 0.7f, -0.2f}, 1.3f, 3).mesh;
+  Mesh<float> mesh;
+  for (const auto& triangle : joined.triangles) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const std::uint32_t corner : triangle) mesh.vertices.push_back(joined.vertices[corner]);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  const CrackView view = find_crack_view(mesh, std::nullopt, 96);
+  EXPECT_EQ(mesh.vertices[view.vertex], joined.vertices[find_crack_view(joined, std::nullopt, 96).vertex]);
+  EXPECT_EQ(draw_cracks(mesh, view, 2).holes_of_surehit, 0u);
+}
+
+void expect_error(const Mesh<float>& mesh, std::optional<std::uint32_t> vertex, const std::string& error) {
+  try {
+    static_cast<void>(find_crack_view(mesh, vertex, 64));
+    ADD_FAILURE() << "expected: " << error;
+  } catch (const InputError& caught) {
+    EXPECT_EQ(caught.what(), error);
+  }
+}
+
 TEST(CrackPicture, says_why_there_is_no_view) {
   const Mesh<float> sphere = tessellated_sphere({0, 0, 0}, 1, 2).mesh;
   const auto bottom = static_cast<std::uint32_t>(
       std::ranges::min_element(sphere.vertices, {}, [](const auto& vertex) { return vertex[2]; }) -
       sphere.vertices.begin());
-  EXPECT_THROW(static_cast<void>(find_crack_view(sphere, bottom, 64)), InputError);
-  EXPECT_THROW(static_cast<void>(find_crack_view(sphere, 1'000'000, 64)), InputError);
+  expect_error(sphere, bottom,
+               "--vertex: the triangles at vertex " + std::to_string(bottom) + " do not all face upwards");
+  expect_error(sphere, 1'000'000, "--vertex: there is no vertex 1000000, the mesh has 162");
   Mesh<float> one;
   one.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   one.triangles = {{0, 1, 2}};
-  EXPECT_THROW(static_cast<void>(find_crack_view(one, std::nullopt, 64)), InputError);
-  EXPECT_THROW(static_cast<void>(find_crack_view({}, std::nullopt, 64)), InputError);
+  const std::string need =
+      "no vertex can be shown: it needs triangles all around it that face upwards and that are seen from above. Of ";
+  expect_error(one, 0, "--vertex: the triangles at vertex 0 do not lie all around it");
+  expect_error(one, std::nullopt, need + "3 vertices, 0 have triangles all around them, 0 of these face upwards");
+  expect_error({}, std::nullopt, need + "0 vertices, 0 have triangles all around them, 0 of these face upwards");
+  // A tetrahedron that stands on its tip, and then one under a lid that lies on it.
+  Mesh<float> tetrahedron;
+  tetrahedron.vertices = {{0, 0, -2}, {-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  tetrahedron.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
+  expect_error(tetrahedron, std::nullopt,
+               need + "4 vertices, 4 have triangles all around them, 0 of these face upwards: --up may be wrong");
+  tetrahedron.vertices[0][2] = 1;
+  for (auto& triangle : tetrahedron.triangles) std::swap(triangle[0], triangle[1]);
+  tetrahedron.vertices.insert(tetrahedron.vertices.end(), {{-9, -9, 1.0625f}, {9, -9, 1.0625f}, {0, 9, 1.0625f}});
+  tetrahedron.triangles.push_back({4, 5, 6});
+  expect_error(
+      tetrahedron, std::nullopt,
+      need + "7 vertices, 4 have triangles all around them, 1 of these face upwards, and all of them are hidden");
 }
 
 TEST(CrackPicture, plain_floats_are_right_where_nothing_is_close) {

@@ -89,7 +89,7 @@ TEST_F(RenderProgram, names_what_is_wrong) {
   expect_failure("--eye 1,2,3 --target 1,2,8", 2, "the camera looks straight along its upward axis");
   expect_failure("--mode cracks --vertex 9999", 2, "--vertex: there is no vertex 9999, the mesh has 642");
   expect_failure("tetrahedron.obj --mode cracks --vertex 0", 2,
-                 "--vertex: the triangles at vertex 0 do not lie around it in sight from above");
+                 "--vertex: the triangles at vertex 0 do not all face upwards");
   expect_failure("--mode cracks --width 4097", 2, "--width: at most 4096 in --mode cracks, which draws two pictures");
   EXPECT_EQ(run_.run("--mode bright").status, 2);
   EXPECT_EQ(run_.run("--scene level tetrahedron.obj").status, 2);
