@@ -93,8 +93,9 @@ void describe(CLI::App& app, Request& request) {
       ->type_name("PNG")
       ->capture_default_str();
   app.footer(
-      "An interrupted run goes on from PVS.checkpoint when it is started again. Exit status: 0, 2 for bad input or "
-      "usage, 130 after Ctrl-C, 1 for other failures.");
+      "An interrupted run goes on from PVS.checkpoint when it is started again. One file may be -, which is standard "
+      "output, and the text goes to standard error then. Exit status: 0, 2 for bad input or usage, 130 after Ctrl-C, 1 "
+      "for other failures.");
 }
 
 /// The mesh, and where its walkable places begin.
@@ -188,6 +189,20 @@ struct Totals {
   }
 };
 
+constexpr const char* standard_output = "-";
+
+/// Where the program says what it does. It does not mix with a file.
+std::FILE* text_stream(const Request& request) {
+  const bool has_file = request.sets_path == standard_output || request.csv_path == standard_output ||
+                        request.picture_path == standard_output;
+  return has_file ? stderr : stdout;
+}
+
+/// Beside the sets. Those on standard output have one beside where they would be without -o.
+std::string checkpoint_path(const Request& request) {
+  return (request.sets_path == standard_output ? Request().sets_path : request.sets_path) + ".checkpoint";
+}
+
 /// Opened before the bake, so that what cannot be written is known before it.
 struct OutputFiles {
   OutputFile sets;
@@ -210,9 +225,9 @@ void write_files(const Request& request, const PairPlan& plan, const Visibility&
     file->write(*bytes);
     file->finish();
   }
-  std::printf("%s: a matrix of %zu bytes in %zu\n%s\n%s\n", request.sets_path.c_str(),
-              visibility.cell_count() * visibility.bytes_of_a_row(), sets.size(), request.csv_path.c_str(),
-              request.picture_path.c_str());
+  std::fprintf(text_stream(request), "%s: a matrix of %zu bytes in %zu\n%s\n%s\n", request.sets_path.c_str(),
+               visibility.cell_count() * visibility.bytes_of_a_row(), sets.size(), request.csv_path.c_str(),
+               request.picture_path.c_str());
 }
 
 /// What all ranks have before they begin.
@@ -239,7 +254,7 @@ std::uint64_t prepare(const Request& request, bool is_rank_0, Job& job) {
                      std::to_string(job.plan->cell_count()));
   }
   const std::uint64_t fingerprint = job.plan->fingerprint(job.collider);
-  job.checkpoint.emplace(request.sets_path + ".checkpoint", fingerprint);
+  job.checkpoint.emplace(checkpoint_path(request), fingerprint);
   if (!is_rank_0) return fingerprint;
   job.files.emplace(request);
   if (request.begins_again) job.checkpoint->remove();
@@ -258,12 +273,13 @@ void work(const Request& request) {
   const unsigned cores = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u);
   options.threads = request.threads.value_or(ranks.size() > 1 ? 1 : cores);
   const Totals before(job.visibility);
+  std::FILE* const text = text_stream(request);
   if (is_rank_0) {
-    std::printf("%zu triangles, %u cells\n", job.place.mesh.triangles.size(), plan.cell_count());
+    std::fprintf(text, "%zu triangles, %u cells\n", job.place.mesh.triangles.size(), plan.cell_count());
     if (job.visibility.row_count() > 0) {
-      std::printf("goes on with %u of %u cells done\n", job.visibility.row_count(), plan.cell_count());
+      std::fprintf(text, "goes on with %u of %u cells done\n", job.visibility.row_count(), plan.cell_count());
     }
-    std::fflush(stdout);
+    std::fflush(text);
   }
 
   const auto start = std::chrono::steady_clock::now();
@@ -272,11 +288,11 @@ void work(const Request& request) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Totals totals(job.visibility);
   const auto segments = static_cast<double>((totals.pairs - before.pairs) * plan.options().samples);
-  std::printf("%llu pairs in range, %llu of them see each other\n", static_cast<unsigned long long>(totals.pairs),
-              static_cast<unsigned long long>(totals.seen));
-  std::printf("%.0f segments: %.3f s, %.2f M segments/s by %d process%s of %u thread%s\n", segments, seconds,
-              segments / seconds / 1e6, ranks.size(), ranks.size() == 1 ? "" : "es", options.threads,
-              options.threads == 1 ? "" : "s");
+  std::fprintf(text, "%llu pairs in range, %llu of them see each other\n",
+               static_cast<unsigned long long>(totals.pairs), static_cast<unsigned long long>(totals.seen));
+  std::fprintf(text, "%.0f segments: %.3f s, %.2f M segments/s by %d process%s of %u thread%s\n", segments, seconds,
+               segments / seconds / 1e6, ranks.size(), ranks.size() == 1 ? "" : "es", options.threads,
+               options.threads == 1 ? "" : "s");
   write_files(request, plan, job.visibility, job.place.start, *job.files);
   job.checkpoint->remove();
 }

@@ -1,42 +1,23 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <chrono>
+#include <array>
 #include <filesystem>
 
-#include "support/program_run.hpp"
+#include "visibility_bake_run.hpp"
 
 namespace surehit::test {
 namespace {
 
-class VisibilityBakeProgram : public testing::Test {
+class VisibilityBakeProgram : public VisibilityBakeRun {
  protected:
-  ProgramRun run_{SUREHIT_VISIBILITY_BAKE_PROGRAM};
   /// Seconds of work. Most rows are still missing when the first checkpoint is seen.
   const std::string long_run_ = "--spacing 2 --samples 255 --threads 1 --checkpoint-seconds 0.02 ";
-
-  /// Lets the program that was started go on in the background until it has written a checkpoint.
-  static std::string wait_for_checkpoint(const std::string& name) {
-    return "& child=$!; touch start; sleep 0.01; until [ " + name +
-           ".pvs.checkpoint -nt start ] || ! kill -0 $child; do sleep 0.01; done; ";
-  }
 
   void expect_bad_input(const std::string& arguments, const std::string& error) {
     const auto outcome = run_.run(arguments);
     EXPECT_EQ(outcome.error, "visibility_bake: " + error + "\n") << arguments;
     EXPECT_EQ(outcome.status, 2) << arguments;
-  }
-
-  void expect_same_files(const std::string& one, const std::string& other) const {
-    for (const std::string ending : {".pvs", ".csv", ".png"}) {
-      const std::string bytes = run_.folder().read(one + ending);
-      EXPECT_GT(bytes.size(), 100u) << one << ending;
-      EXPECT_TRUE(bytes == run_.folder().read(other + ending)) << ending;
-    }
-  }
-
-  static std::string files(const std::string& name) {
-    return " -o " + name + ".pvs --csv " + name + ".csv --picture " + name + ".png ";
   }
 };
 
@@ -78,8 +59,7 @@ TEST_F(VisibilityBakeProgram, writes_the_same_bytes_on_any_number_of_threads) {
 }
 
 TEST_F(VisibilityBakeProgram, takes_a_mesh_and_places) {
-  static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
-  static_cast<void>(run_.folder().write("places.txt", "-2 0 0\n-1 0 0\n1 0 0\n"));
+  write_wall_and_places();
   const auto outcome = run_.run("wall.obj --places places.txt" + files("wall"));
   EXPECT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_NE(outcome.output.find("3 pairs in range, 1 of them see each other"), std::string::npos) << outcome.output;
@@ -89,8 +69,7 @@ TEST_F(VisibilityBakeProgram, takes_a_mesh_and_places) {
 }
 
 TEST_F(VisibilityBakeProgram, refuses_checkpoints_that_do_not_fit) {
-  static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
-  static_cast<void>(run_.folder().write("places.txt", "-2 0 0\n-1 0 0\n1 0 0\n"));
+  write_wall_and_places();
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no disk that is always full";
   // The figures cannot be written, so the checkpoint stays.
   const std::string keep = "ln -s /dev/full some.csv && ";
@@ -124,9 +103,28 @@ TEST_F(VisibilityBakeProgram, says_that_the_disk_is_full) {
   EXPECT_FALSE(std::filesystem::exists(run_.folder().at("some.pvs")));
 }
 
+TEST_F(VisibilityBakeProgram, writes_one_file_and_no_text_to_standard_output) {
+  write_wall_and_places();
+  const std::string arguments = "wall.obj --places places.txt";
+  ASSERT_EQ(run_.run(arguments + files("wall")).status, 0);
+  const std::array<std::array<std::string, 2>, 3> outputs = {
+      {{"-o -", ".pvs"}, {"--csv -", ".csv"}, {"--picture -", ".png"}}};
+  for (const auto& [option, ending] : outputs) {
+    const auto outcome = run_.run(arguments + " " + option);
+    EXPECT_EQ(outcome.status, 0) << outcome.error;
+    EXPECT_TRUE(outcome.output == run_.folder().read("wall" + ending)) << option;
+    EXPECT_NE(outcome.error.find("3 pairs in range"), std::string::npos) << outcome.error;
+  }
+  expect_bad_input(arguments + " -o - --csv -", "-o and --csv are the same file, -");
+  // An interrupted run goes on from what the default name says.
+  const auto stopped = run_.run_command("ln -s /dev/full full.csv && \"$program\" " + arguments +
+                                        " -o - --csv full.csv --checkpoint-seconds 0 >sets");
+  EXPECT_EQ(stopped.status, 1);
+  EXPECT_TRUE(std::filesystem::exists(run_.folder().at("visibility.pvs.checkpoint"))) << stopped.error;
+}
+
 TEST_F(VisibilityBakeProgram, writes_to_what_is_no_regular_file_and_through_links) {
-  static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
-  static_cast<void>(run_.folder().write("places.txt", "-2 0 0\n-1 0 0\n1 0 0\n"));
+  write_wall_and_places();
   const auto outcome = run_.run_command(
       "mkfifo pipe; touch old.pvs; ln -s old.pvs link.pvs; cat pipe >piped.csv & \"$program\" wall.obj --places "
       "places.txt -o link.pvs --csv pipe && wait && [ -p pipe ] && [ -L link.pvs ]");
@@ -152,7 +150,7 @@ TEST_F(VisibilityBakeProgram, refuses_one_file_for_two_outputs) {
 }
 
 TEST_F(VisibilityBakeProgram, names_what_is_wrong) {
-  static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
+  write_wall_and_places();
   static_cast<void>(run_.folder().write("empty.txt", "# nothing\n"));
   expect_bad_input("absent.obj", "absent.obj: cannot be read: No such file or directory");
   expect_bad_input("wall.obj", "the mesh has no walkable place: --up or --headroom may be wrong");
@@ -175,7 +173,7 @@ TEST_F(VisibilityBakeProgram, names_what_is_wrong) {
 TEST_F(VisibilityBakeProgram, refuses_more_cells_than_it_has_memory_for) {
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   if (memory > 250e9) GTEST_SKIP() << "as many cells as there may be fit into the memory";
-  static_cast<void>(run_.folder().write("wall.obj", "v 0 -9 -9\nv 0 9 -9\nv 0 0 9\nf 1 2 3\n"));
+  write_wall_and_places();
   std::string places;
   for (int i = 0; i < 1 << 20; ++i) places += std::to_string(i) + " 0 0\n";
   static_cast<void>(run_.folder().write("places.txt", places));
