@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "collider_state.hpp"
+#include "file/collider_file.hpp"
 #include "query/answer_batch.hpp"
 #include "query/free_point.hpp"
 #include "query/query.hpp"
@@ -26,12 +27,6 @@ constexpr std::size_t paths_in_a_task = 4096;
 
 template <typename Scalar>
 using State = detail::ColliderState<Scalar>;
-
-/// Returns another number with each call.
-std::uint64_t next_version() noexcept {
-  static std::atomic<std::uint64_t> last{0};
-  return ++last;
-}
 
 /// A query of one path. It also has what the query needs while it runs: the floating-point environment, and a place to
 /// count.
@@ -93,6 +88,12 @@ void detail::DeleteColliderState<Scalar>::operator()(State<Scalar>* state) const
 }
 
 template <FloatOrDouble Scalar>
+std::uint64_t detail::ColliderState<Scalar>::next_version() noexcept {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+template <FloatOrDouble Scalar>
 Collider<Scalar>::Collider(const Collider& other) : state_(other.state_ ? new State<Scalar>(*other.state_) : nullptr) {
   if (state_) state_->searches = detail::best_searches<Scalar>();  // A new collider chooses them in the same way.
 }
@@ -122,7 +123,7 @@ BuildResult Collider<Scalar>::try_build(const TriangleMeshView<Scalar>& mesh, co
   built->masks.assign(options.masks.begin(), options.masks.end());
   built->grid_options = options.grid;
   built->mesh = MeshBlocks<Scalar>(mesh, built->grid, detail::address_of(options.executor));
-  built->version = next_version();
+  built->version = State<Scalar>::next_version();
   state_ = std::move(built);
   return {};
 }
@@ -141,7 +142,7 @@ BuildResult Collider<Scalar>::try_rebuild(const TriangleMeshView<Scalar>& mesh, 
   state_->masks.assign(options.masks.begin(), options.masks.end());
   state_->grid_options = options.grid;
   state_->box = box;
-  state_->version = next_version();
+  state_->version = State<Scalar>::next_version();
   std::swap(spare.grid, state_->grid);
   std::swap(spare.mesh, state_->mesh);
   return {};
@@ -165,8 +166,32 @@ BuildResult Collider<Scalar>::try_rebuild(const VertexView<Scalar>& vertices, co
   std::swap(spare.grid, state_->grid);
   std::swap(spare.mesh, state_->mesh);
   state_->box = box;
-  state_->version = next_version();
+  state_->version = State<Scalar>::next_version();
   return {};
+}
+
+template <FloatOrDouble Scalar>
+bool Collider<Scalar>::save(const ByteSink& sink) const {
+  return detail::save(state(), sink);
+}
+
+template <FloatOrDouble Scalar>
+LoadResult Collider<Scalar>::try_load(std::span<const std::byte> bytes, const LoadOptions& options) {
+  if (std::optional<InvalidFile> invalid = State<Scalar>::load_into(*this, bytes, 0, options)) {
+    return *std::move(invalid);
+  }
+  return {};
+}
+
+template <FloatOrDouble Scalar>
+std::optional<InvalidFile> detail::ColliderState<Scalar>::load_into(Collider<Scalar>& collider,
+                                                                    std::span<const std::byte> bytes, std::size_t base,
+                                                                    const LoadOptions& options) {
+  const FloatingPointEnvironment environment;
+  typename Collider<Scalar>::StatePointer loaded(new State<Scalar>);
+  std::optional<InvalidFile> invalid = detail::load(bytes, base, options, *loaded);
+  if (!invalid) collider.state_ = std::move(loaded);
+  return invalid;
 }
 
 template <FloatOrDouble Scalar>
@@ -302,6 +327,8 @@ Vector3<Scalar> Collider<Scalar>::normal(std::uint32_t id) const noexcept {
   return surehit::normal(triangle(id));
 }
 
+template struct detail::ColliderState<float>;
+template struct detail::ColliderState<double>;
 template struct SUREHIT_API detail::DeleteColliderState<float>;
 template struct SUREHIT_API detail::DeleteColliderState<double>;
 template class SUREHIT_API Collider<float>;

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "build/grid_scratch.hpp"
@@ -33,6 +36,13 @@ struct ColliderState {
   /// The searches for the best instruction set. They are chosen when the collider is made.
   const Searches<Scalar>* searches = best_searches<Scalar>();
 
+  /// Returns another number with each call.
+  [[nodiscard]] static std::uint64_t next_version() noexcept;
+  /// Loads a collider, which is as before after a failure. Returns what is wrong, or nothing. `base` is the index of the
+  /// first byte in the whole file, if the collider is a part of it.
+  [[nodiscard]] static std::optional<InvalidFile> load_into(Collider<Scalar>& collider,
+                                                            std::span<const std::byte> bytes, std::size_t base,
+                                                            const LoadOptions& options);
   /// Returns the state of a collider. Tests and benchmarks of its parts use it.
   [[nodiscard]] static const ColliderState& of(const Collider<Scalar>& collider) noexcept { return collider.state(); }
 };

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "command_line/program.hpp"
 #include "mesh_io/input_error.hpp"
 #include "mesh_io/read_mesh.hpp"
+#include "surehit_query/baked_collider.hpp"
 #include "surehit_query/exact_ties.hpp"
 #include "surehit_query/hit_text.hpp"
 #include "surehit_query/mask_list.hpp"
@@ -28,6 +30,7 @@ QueryOptions<Scalar> options_of(const QueryRequest& request) {
 
 template <typename Scalar>
 ReadCollider<Scalar> read_collider(const QueryRequest& request) {
+  if (std::optional<Collider<Scalar>> baked = load_baked<Scalar>(request)) return {*std::move(baked), {}};
   Mesh<Scalar> mesh = read_mesh<Scalar>(request.mesh_path);
   for (const std::string& warning : mesh.warnings) warn("surehit-query", request.mesh_path + ": " + warning);
   const std::vector<std::uint32_t> masks = masks_of(request, mesh);

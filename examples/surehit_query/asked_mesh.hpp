@@ -19,7 +19,7 @@ struct ReadCollider {
   [[nodiscard]] std::uint32_t id_of(std::uint32_t triangle) const { return ids.empty() ? triangle : ids[triangle]; }
 };
 
-/// Reads the mesh file that a request names, and says its warnings. Throws InputError.
+/// Reads the mesh file or the saved collider that a request names, and says its warnings. Throws InputError.
 template <typename Scalar>
 [[nodiscard]] ReadCollider<Scalar> read_collider(const QueryRequest& request);
 

@@ -10,6 +10,7 @@
 
 #include "command_line/program.hpp"
 #include "surehit_query/answer_queries.hpp"
+#include "surehit_query/baked_collider.hpp"
 #include "surehit_query/explain_query.hpp"
 
 namespace surehit::example {
@@ -47,11 +48,15 @@ void add_scene(CLI::App& command, QueryRequest& request, CLI::Option& mesh, CLI:
       ->type_name("SCENE");
 }
 
-/// What numbers are, and where the answers go.
-void add_form(CLI::App& command, QueryRequest& request) {
+void add_scalar(CLI::App& command, QueryRequest& request, const std::string& description) {
   add_choice<ScalarKind>(command, "--scalar", request.scalar,
                          {{"float", ScalarKind::single_precision}, {"double", ScalarKind::double_precision}},
-                         "The type that all numbers are read to and answers rounded to");
+                         description);
+}
+
+/// What numbers are, and where the answers go.
+void add_form(CLI::App& command, QueryRequest& request) {
+  add_scalar(command, request, "The type that all numbers are read to and answers rounded to");
   add_choice<PathKind>(command, "--path", request.path,
                        {{"segment", PathKind::segment}, {"ray", PathKind::ray}, {"line", PathKind::line}},
                        "What a path is: from p to q, from p along a direction, or both ways along it");
@@ -66,7 +71,7 @@ CLI::App& add_command(CLI::App& app, QueryRequest& request, Question question, c
   command.callback([&request, question] { request.question = question; });
   CLI::Option* mesh = nullptr;
   if (question != Question::pair) {
-    mesh = command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off; none with --scene");
+    mesh = command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off, or what bake wrote; none with --scene");
     mesh->required()->type_name("");
   }
   CLI::Option* const file =
@@ -149,7 +154,8 @@ constexpr const char* scenes =
     "Of equal exact t, the least instance comes first, and then the least triangle.\n";
 
 constexpr const char* meshes =
-    "MESH: OBJ, PLY, STL or OFF, told apart by the ending of its name; PLY and STL may be binary. Lines end in\n"
+    "MESH: OBJ, PLY, STL or OFF, told apart by the ending of its name; PLY and STL may be binary. A file that bake\n"
+    "wrote is known by its first bytes. It has no faces, and the type of its numbers is fixed. Lines end in\n"
     "\\n, \\r\\n or \\r. Colors, normals and texture coordinates are passed over. Refused, with the line or the\n"
     "element: words that are no numbers, indices out of range, faces of less than 3 corners, coordinates that\n"
     "are not finite where a face uses them, and whatever else is not wholly understood.\n"
@@ -161,7 +167,7 @@ constexpr const char* meshes =
 void add_explain(CLI::App& app, QueryRequest& request) {
   CLI::App& command = *app.add_subcommand("explain", "How does a path come to what it first meets?");
   command.callback([&request] { request.question = Question::explain; });
-  command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off")->required()->type_name("");
+  command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off, or what bake wrote")->required()->type_name("");
   command.add_option("FILE", request.input_path, "The path; - is standard input")->required()->type_name("");
   command.add_option("--index", request.index, "Which path, if FILE has several; they count from 0")->type_name("I");
   command
@@ -182,6 +188,21 @@ void add_explain(CLI::App& app, QueryRequest& request) {
       "orange,\n"
       "and the first hit in red.\n" +
       meshes);
+}
+
+void add_bake(CLI::App& app, QueryRequest& request) {
+  CLI::App& command = *app.add_subcommand("bake", "Save a mesh with its grid, to be asked at once");
+  command.callback([&request] { request.question = Question::bake; });
+  command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off")->required()->type_name("");
+  command.add_option("-o", request.output_path, "Where the bytes go; - is standard output")->required()->type_name("OUT");
+  add_scalar(command, request, "The type that all numbers are read to; the file can be asked in no other");
+  command
+      .add_option("--masks", request.masks_path,
+                  "A file with a mask a line, for each triangle or for each face; without it all bits are set")
+      ->type_name("FILE");
+  command.footer(std::string("OUT takes the place of MESH in all other commands. The bytes are the same on every "
+                             "machine.\ncollision/FORMAT.md describes them.\n") +
+                 meshes);
 }
 
 void describe(CLI::App& app, QueryRequest& request) {
@@ -232,6 +253,7 @@ void describe(CLI::App& app, QueryRequest& request) {
              scenes + meshes);
 
   add_explain(app, request);
+  add_bake(app, request);
 }
 
 /// Whatever else is said of a scene fits it. A single name beside it is that of the paths.
@@ -281,6 +303,8 @@ Work describe_program(CLI::App& app) {
     check(*request);
     if (request->question == Question::explain) {
       explain_query(*request);
+    } else if (request->question == Question::bake) {
+      bake(*request);
     } else {
       answer_queries(*request);
     }

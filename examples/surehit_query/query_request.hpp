@@ -10,7 +10,7 @@
 
 namespace surehit::example {
 
-enum class Question : std::uint8_t { pair, first, any, all, explain };
+enum class Question : std::uint8_t { pair, first, any, all, explain, bake };
 
 enum class ScalarKind : std::uint8_t { single_precision, double_precision };
 

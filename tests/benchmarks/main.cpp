@@ -30,6 +30,7 @@ const std::vector<TableKind>& all_tables() {
   static const std::vector<TableKind> tables = {
       {"queries", measure_queries},
       {"build", measure_builds},
+      {"load", measure_loads},
       {"size", measure_sizes},
       {"tick", measure_ticks},
       {"threads", measure_threads, false},

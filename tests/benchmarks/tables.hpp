@@ -9,6 +9,8 @@ namespace surehit::benchmark {
 void measure_queries(const Request& request, Report& report);
 /// Time and memory of a build on every mesh.
 void measure_builds(const Request& request, Report& report);
+/// Loads of saved colliders beside builds, on every mesh.
+void measure_loads(const Request& request, Report& report);
 /// Cost against the number of triangles.
 void measure_sizes(const Request& request, Report& report);
 /// A physics step: a rebuild, and short paths.

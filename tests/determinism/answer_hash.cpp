@@ -5,6 +5,7 @@
 #include "answers.hpp"
 #include "hard_questions.hpp"
 #include "hard_scene.hpp"
+#include "saved_hash.hpp"
 
 namespace {
 
@@ -19,7 +20,9 @@ bool answers_are_published(const char* name) {
   const surehit::test::HardQuestions<Scalar> hard;
   const surehit::Collider<Scalar> collider = hard.collider();
   const std::uint64_t hash = surehit::test::Answers<Scalar>(collider, hard.questions).hash();
-  return is_published(name, hash, surehit::test::published_hash<Scalar>);
+  const std::uint64_t saved = surehit::test::saved_hash(collider);
+  const bool is_saved = is_published("its bytes", saved, surehit::test::published_saved_hash<Scalar>);
+  return is_published(name, hash, surehit::test::published_hash<Scalar>) && is_saved;
 }
 
 template <typename Scalar>
@@ -27,12 +30,14 @@ bool scene_answers_are_published(const char* name) {
   const surehit::test::HardScene<Scalar> hard;
   const surehit::Scene<Scalar> scene = hard.scene();
   const std::uint64_t hash = surehit::test::SceneAnswers<Scalar>(scene, hard.paths).hash();
-  return is_published(name, hash, surehit::test::published_scene_hash<Scalar>);
+  const std::uint64_t saved = surehit::test::saved_hash(scene);
+  const bool is_saved = is_published("its bytes", saved, surehit::test::published_saved_scene_hash<Scalar>);
+  return is_published(name, hash, surehit::test::published_scene_hash<Scalar>) && is_saved;
 }
 
 }  // namespace
 
-/// The answers to the hard questions, and about the hard scene, of a library that somebody else has compiled.
+/// The answers to the hard questions, and about the hard scene, and the bytes of both, of a library that somebody else has compiled.
 int main() {
   const bool floats = answers_are_published<float>("float");
   const bool doubles = answers_are_published<double>("double");

@@ -20,7 +20,7 @@ replays one is printed.
 USAGE
 }
 
-targets=(pair collider mesh_readers command_line)
+targets=(pair collider mesh_readers command_line saved_file)
 wanted=("${targets[@]}")
 mode=
 seed=1
@@ -76,6 +76,7 @@ limits_of() {
     pair) echo -max_len=128 ;;
     collider) echo -max_len=192 ;;
     mesh_readers) echo -max_len=2048 -malloc_limit_mb=64 "-dict=$root/tests/fuzz/mesh_readers.dict" ;;
+    saved_file) echo -max_len=4096 -malloc_limit_mb=64 ;;
     command_line) echo -max_len=1024 -malloc_limit_mb=64 "-dict=$root/tests/fuzz/command_line.dict" ;;
   esac
 }

@@ -6,6 +6,7 @@
 #include "build/empty_space.hpp"
 #include "build/grid_resolution.hpp"
 #include "build/grid_scratch.hpp"
+#include "build/inner_grid_rule.hpp"
 #include "build/listed_triangles.hpp"
 #include "build/triangle_overlap.hpp"
 #include "grid/grid.hpp"
@@ -30,8 +31,6 @@ constexpr std::size_t triangles_in_a_part = std::size_t{1} << 13;
 constexpr double max_cells = 0x1p24;
 /// The maximum number of inner grids.
 constexpr std::size_t max_inner_grids = std::size_t{1} << 19;
-/// The triangles of all inner grids are at most this many times those of the mesh.
-constexpr std::size_t max_inner_share = 4;
 /// 32 bits number all entries. Each inner grid has at least one entry for each of its triangles, so this many are kept
 /// for inner grids.
 constexpr std::size_t entries_for_inner_grids = std::size_t{1} << 30;
@@ -84,8 +83,6 @@ class GridBuild {
   static constexpr std::size_t large_share = 20;
   /// The minimum number of triangles of an inner grid. For fewer, the way into it would take longer than they do.
   static constexpr std::size_t min_inner_triangles = 64;
-  /// A triangle is small for a cell if its box is at most the cell's edge over this, on all axes.
-  static constexpr float small_share = 4;
   /// The maximum number of cells in bricks. So all cells together have no more lists than a word can number.
   static constexpr std::size_t max_brick_cells = CellWord::max_lists / 2 - static_cast<std::size_t>(max_cells);
   static_assert(max_brick_cells / Grid::brick_size <= CellWord::max_bricks);
@@ -232,11 +229,7 @@ class GridBuild {
                            std::uint32_t size) {
     using namespace detail;
     if (depth_ == Grid::max_depth) return 0;
-    const Float4 max_extent = all_lanes(static_cast<float>(size) / small_share);
-    const auto is_small = [&](std::uint32_t i) {
-      const PaddedBox& box = scratch_.boxes_[i];
-      return !any_lane(box.high - box.low > max_extent);
-    };
+    const auto is_small = [&](std::uint32_t i) { return detail::is_small(scratch_.boxes_[i], size); };
     PaddedBox around = {all_lanes(std::numeric_limits<float>::max()), all_lanes(0.0F)};
     std::size_t count = 0;
     for (const std::uint32_t i : ids) {
@@ -389,6 +382,19 @@ void Grid::shrink() {
   shrink(inner_frames_);
 }
 
+void Grid::complete(std::size_t outer_entries) {
+  lists_.push_back({CellBox(), static_cast<std::uint32_t>(entries_.size())});
+  top_.resize(top_.size() + top_slack, CellWord());
+  // From now on, all is counted in cells of the finest level that there is.
+  for (std::uint32_t level = levels_; level < max_levels; ++level) {
+    frame_.coarsen(brick_edge);
+    for (GridFrame& frame : inner_frames_) frame.coarsen(brick_edge);
+  }
+  is_mostly_inner_ = outer_entries < entries_.size() / 4;
+  is_one_list_ = top_count_ == 1 && lists_.size() == 2 && entries_.size() <= max_unwalked;
+  cover_ = GridCover(*this);
+}
+
 template <typename Scalar>
 void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, const GridOptions& options,
                    GridScratch& scratch, const Executor* executor) {
@@ -405,7 +411,7 @@ void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
   levels_ = 0;
   scratch.pending_.clear();
   scratch.inner_ids_.clear();
-  scratch.max_inner_ids_ = std::min(max_inner_share * mesh.triangle_count(), entries_for_inner_grids);
+  scratch.max_inner_ids_ = std::min(detail::max_inner_share * mesh.triangle_count(), entries_for_inner_grids);
   detail::ListedTriangles<Scalar> triangles(mesh, box, scratch.points_);
   GridBuild<detail::ListedTriangles<Scalar>>(*this, frame_, scratch, triangles, options, 0, executor);
   top_count_ = top_.size();
@@ -419,16 +425,7 @@ void Grid::rebuild(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box,
     GridBuild<detail::InnerTriangles<Scalar>>(*this, inner_frames_.emplace_back(), scratch, some, inner_options,
                                               pending.depth, nullptr);
   }
-  lists_.push_back({CellBox(), static_cast<std::uint32_t>(entries_.size())});
-  top_.resize(top_.size() + top_slack, CellWord());
-  // From now on, all is counted in cells of the finest level that there is.
-  for (std::uint32_t level = levels_; level < max_levels; ++level) {
-    frame_.coarsen(brick_edge);
-    for (GridFrame& frame : inner_frames_) frame.coarsen(brick_edge);
-  }
-  is_mostly_inner_ = outer_entries < entries_.size() / 4;
-  is_one_list_ = top_count_ == 1 && lists_.size() == 2 && entries_.size() <= max_unwalked;
-  cover_ = GridCover(*this);
+  complete(outer_entries);
 }
 
 template Grid::Grid(const TriangleMeshView<float>&, const Box<float>&, const GridOptions&, const Executor*);

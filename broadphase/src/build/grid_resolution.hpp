@@ -48,6 +48,19 @@ std::array<double, 3> mean_extent(const GridFrame& frame, const Listed& listed) 
   return mean;
 }
 
+/// Returns the cube root of a number that is not below 0. It has the same bits on every platform. `std::cbrt` and
+/// `std::pow` do not promise that.
+inline double cube_root(double x) {
+  if (!(x > 0) || std::isinf(x)) return x;
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  const int third = (exponent - (exponent % 3 + 3) % 3) / 3;
+  const double scaled = std::ldexp(x, -3 * third);  // From 1/2 to below 4.
+  double root = 1;
+  for (int step = 0; step < 8; ++step) root -= (root - scaled / (root * root)) / 3;  // Newton's method.
+  return std::ldexp(root, third);
+}
+
 /// Returns a resolution of cubic cells, at most `cells` of them. An axis that is thinner than a cell has one cell.
 inline std::array<double, 3> cubic_resolution(const std::array<double, 3>& width, double cells) {
   std::array<double, 3> resolution = {1, 1, 1};
@@ -61,7 +74,8 @@ inline std::array<double, 3> cubic_resolution(const std::array<double, 3>& width
       ++dimensions;
     }
     if (dimensions == 0) break;
-    const double size = std::pow(volume / cells, 1.0 / dimensions);
+    const double share = volume / cells;
+    const double size = dimensions == 1 ? share : dimensions == 2 ? std::sqrt(share) : cube_root(share);
     bool is_final = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!divided[axis]) continue;

@@ -18,14 +18,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 // centres of the other cells are sums of steps. Steps are exact, because a size is a power of two.
 //
 // The roundings: eps is 2^-24, R is the resolution, and L is |l| + |m| for a shadow's axis (l, m). A corner is off by
-// eps R once it is moved. The rest tests the triangle of the moved corners. With or without fused operations, its ends
-// on the axis are off by 2 eps R L. The half length of a box is off by 1.5, the difference of both by 1.5, and the sum
-// of two steps by 1. In sum that is less than 8 eps R L, as in `TriangleOverlap`.
+// eps R once it is moved. The rest tests the triangle of the moved corners. Its ends on the axis are off by 2 eps R L.
+// The half length of a box is off by 1.5, the difference of both by 1.5, and the sum of two steps by 1. In sum that is less than 8 eps R L, as in `TriangleOverlap`.
 //
 // The normal's components are off by less than 10 eps E^2, where E is the triangle's maximum extent. So the heights of
 // the moved corners differ by less than 30 eps E^3. A height is three products of up to |normal| far, and three
 // differences with steps. The reach is three products of up to |normal| (step / 2 + padding). Together they are off by
 // less than 16 eps |normal| (far + step).
+//
+// No operation is fused where rounding matters, because not every instruction set can fuse. So a grid has the same bytes
+// on all of them, and what one has saved another can check.
 void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float size,
                    OverlapLanes::Row<std::int32_t>& overlaps) {
   const hn::CappedTag<float, OverlapLanes::count> d;
@@ -72,11 +74,11 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
       for (std::size_t i = 0; i < 3; ++i) {
         const V l = edges[i][on_m];
         const V m = hn::Neg(edges[i][on_l]);
-        const auto along = [&](const V(&corner)[3]) { return hn::MulAdd(corner[on_l], l, hn::Mul(corner[on_m], m)); };
+        const auto along = [&](const V(&corner)[3]) { return hn::Add(hn::Mul(corner[on_l], l), hn::Mul(corner[on_m], m)); };
         const V a = along(corners[0]);
         const V b = along(corners[1]);
         const V c = along(corners[2]);
-        const V half_shadow = hn::MulAdd(half[on_l], hn::Abs(l), hn::Mul(half[on_m], hn::Abs(m)));
+        const V half_shadow = hn::Add(hn::Mul(half[on_l], hn::Abs(l)), hn::Mul(half[on_m], hn::Abs(m)));
         const V low = hn::Sub(hn::Min(hn::Min(a, b), c), half_shadow);
         const V high = hn::Add(hn::Max(hn::Max(a, b), c), half_shadow);
         const V step_l = hn::Mul(step, l);
@@ -97,15 +99,15 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
       const std::size_t m = (k + 2) % 3;
-      const V normal = hn::MulSub(edges[0][l], edges[1][m], hn::Mul(edges[0][m], edges[1][l]));
-      height = hn::MulAdd(normal, corners[0][k], height);
-      reach = hn::MulAdd(hn::Abs(normal), half[k], reach);
+      const V normal = hn::Sub(hn::Mul(edges[0][l], edges[1][m]), hn::Mul(edges[0][m], edges[1][l]));
+      height = hn::Add(hn::Mul(normal, corners[0][k]), height);
+      reach = hn::Add(hn::Mul(hn::Abs(normal), half[k]), reach);
       length = hn::Add(length, hn::Abs(normal));
       far = hn::Max(far, hn::Abs(corners[0][k]));
       rise[k] = hn::Mul(normal, step);
     }
-    reach = hn::MulAdd(hn::Mul(hn::Set(d, 64 * eps), extent), hn::Mul(extent, extent), reach);
-    reach = hn::MulAdd(hn::Mul(hn::Set(d, 32 * eps), length), far, reach);
+    reach = hn::Add(hn::Mul(hn::Mul(hn::Set(d, 64 * eps), extent), hn::Mul(extent, extent)), reach);
+    reach = hn::Add(hn::Mul(hn::Mul(hn::Set(d, 32 * eps), length), far), reach);
 
     auto bits = hn::Zero(di);
     for (std::size_t cell = 0; cell < OverlapLanes::cells_of_a_block; ++cell) {

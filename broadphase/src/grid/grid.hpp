@@ -21,6 +21,10 @@ namespace surehit {
 
 class GridScratch;
 
+namespace detail {
+class GridReading;
+}  // namespace detail
+
 /// A uniform grid over a mesh's box. A crowded cell is divided into a brick of 4 × 4 × 4 cells. A crowded cell of a
 /// brick is divided in the same way. Each undivided cell lists the triangles that meet its box, grown by
 /// `GridFrame::padding`.
@@ -127,10 +131,13 @@ class Grid {
  private:
   template <typename Listed>
   friend class GridBuild;
+  friend class detail::GridReading;
   /// A vector load may read so many words beyond the last top cell.
   static constexpr std::size_t top_slack = 64;
 
   void shrink();
+  /// Sets what follows from the frames, the cells, the lists and the entries. The outermost grid has so many entries.
+  void complete(std::size_t outer_entries);
 
   GridFrame frame_;
   std::vector<GridFrame> inner_frames_;

@@ -115,6 +115,13 @@ class PackedIds {
     }
   }
 
+  /// Becomes the ids that lie in these bytes, each in `width` bytes. `clear` must come first.
+  void assign(std::span<const std::byte> bytes) {
+    bytes_.resize(bytes.size() + slack);
+    std::memcpy(bytes_.data(), bytes.data(), bytes.size());
+    size_ = bytes.size() / width_;
+  }
+
   [[nodiscard]] std::uint32_t operator[](std::size_t index) const {
     std::uint32_t value;
     std::memcpy(&value, address(index), sizeof(value));
@@ -122,6 +129,8 @@ class PackedIds {
   }
   /// Returns where an id lies in memory.
   [[nodiscard]] const std::uint8_t* address(std::size_t index) const { return bytes_.data() + index * width_; }
+  /// Returns all ids, one after the other.
+  [[nodiscard]] std::span<const std::uint8_t> bytes() const { return {bytes_.data(), size_ * width_}; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] PackedIdIterator begin() const { return {this, 0}; }

@@ -11,10 +11,12 @@
 #include "surehit/batch_options.hpp"
 #include "surehit/box.hpp"
 #include "surehit/build_result.hpp"
+#include "surehit/byte_sink.hpp"
 #include "surehit/executor.hpp"
 #include "surehit/grid_options.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/hit_filter.hpp"
+#include "surehit/load_result.hpp"
 #include "surehit/path.hpp"
 #include "surehit/path_span.hpp"
 #include "surehit/query_options.hpp"
@@ -137,6 +139,30 @@ class SUREHIT_API Collider {
   BuildResult try_set_masks(std::span<const std::uint32_t> masks);
   /// Returns the mask of a triangle. `triangle` must be below `triangle_count()`.
   [[nodiscard]] std::uint32_t mask(std::uint32_t triangle) const noexcept;
+
+  /// Writes the mesh, the masks, the options and the grid to a sink. `collision/FORMAT.md` describes each byte.
+  ///
+  /// The bytes are the same on every platform, instruction set and number of threads, and after a rebuild as after a
+  /// build. Returns false if the sink did not take all of them. Allocates nothing, and throws what the sink throws.
+  [[nodiscard]] bool save(const ByteSink& sink) const;
+  /// Becomes the collider that was saved in these bytes. The answers have the same bits.
+  ///
+  /// The bytes may come from anyone. Whatever they are, the result is an error that says where the fault is, or a
+  /// collider whose answers are those of its mesh. For this, all cells of all triangles are found anew, so a load takes
+  /// most of the time of a build. `LoadOptions::is_trusted` leaves this out.
+  ///
+  /// Fails for anything that `save` does not write. May throw std::bad_alloc. After any failure, the collider is as
+  /// before. Takes time and memory linear in the bytes. The bytes may change after the load.
+  LoadResult try_load(std::span<const std::byte> bytes, const LoadOptions& options = {});
+#if defined(__cpp_exceptions)
+  /// Returns the collider that was saved in these bytes, as `try_load` reads it. Throws the InvalidFile that it would
+  /// return.
+  [[nodiscard]] static Collider load(std::span<const std::byte> bytes, const LoadOptions& options = {}) {
+    Collider collider;
+    if (const LoadResult loaded = collider.try_load(bytes, options); !loaded) throw loaded.error();
+    return collider;
+  }
+#endif
 
   /// Returns the hit with the lowest exact t, or nothing if the path misses. Among hits with equal exact t, it returns
   /// the one with the lowest triangle id.

@@ -11,9 +11,11 @@
 
 #include "surehit/attributes.hpp"
 #include "surehit/box.hpp"
+#include "surehit/byte_sink.hpp"
 #include "surehit/collider.hpp"
 #include "surehit/executor.hpp"
 #include "surehit/instance.hpp"
+#include "surehit/load_result.hpp"
 #include "surehit/path.hpp"
 #include "surehit/path_span.hpp"
 #include "surehit/pose.hpp"
@@ -118,6 +120,30 @@ class SUREHIT_API Scene {
   /// Takes time linear in the changes, and in the instances with a small constant. After many changes it sorts the
   /// instances anew.
   void commit(const std::optional<Executor>& executor = {});
+
+  /// Writes the scene to a sink, as it was set last: each collider once, and the instances. `collision/FORMAT.md`
+  /// describes each byte.
+  ///
+  /// The bytes are the same on every platform. Returns false if the sink did not take all of them. May throw
+  /// std::bad_alloc, and throws what the sink throws.
+  [[nodiscard]] bool save(const ByteSink& sink) const;
+  /// Becomes the scene that was saved in these bytes, and is committed. The colliders are new ones.
+  ///
+  /// Ids stay valid: an instance has the id that it had in the saved scene. The id of an instance that was removed
+  /// there is stale here too. New instances get the same ids in both scenes.
+  ///
+  /// The bytes may come from anyone, see `Collider::try_load`. May throw std::bad_alloc. After any failure, the scene is
+  /// as before.
+  LoadResult try_load(std::span<const std::byte> bytes, const LoadOptions& options = {});
+#if defined(__cpp_exceptions)
+  /// Returns the scene that was saved in these bytes, as `try_load` reads it. Throws the InvalidFile that it would
+  /// return.
+  [[nodiscard]] static Scene load(std::span<const std::byte> bytes, const LoadOptions& options = {}) {
+    Scene scene;
+    if (const LoadResult loaded = scene.try_load(bytes, options); !loaded) throw loaded.error();
+    return scene;
+  }
+#endif
 
   /// Returns the number of instances, with those that are not yet committed.
   [[nodiscard]] std::size_t instance_count() const noexcept;

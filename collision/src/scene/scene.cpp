@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "exact/exact_contact.hpp"
+#include "file/scene_file.hpp"
 #include "query/answer_batch.hpp"
 #include "query/free_point.hpp"
 #include "scene/invalid_pose.hpp"
@@ -199,6 +200,20 @@ template <FloatOrDouble Scalar>
 void Scene<Scalar>::commit(const std::optional<Executor>& executor) {
   const FloatingPointEnvironment environment;
   if (state_) state_->commit(detail::address_of(executor));
+}
+
+template <FloatOrDouble Scalar>
+bool Scene<Scalar>::save(const ByteSink& sink) const {
+  return detail::save(state(), sink);
+}
+
+template <FloatOrDouble Scalar>
+LoadResult Scene<Scalar>::try_load(std::span<const std::byte> bytes, const LoadOptions& options) {
+  const FloatingPointEnvironment environment;
+  StatePointer loaded(new SceneStateOf<Scalar>);
+  if (std::optional<InvalidFile> invalid = detail::load(bytes, options, *loaded)) return *std::move(invalid);
+  state_ = std::move(loaded);
+  return {};
 }
 
 template <FloatOrDouble Scalar>

@@ -1,6 +1,5 @@
 #include "scene/scene_state.hpp"
 
-#include <limits>
 #include <utility>
 
 #include "support/in_parts.hpp"
@@ -75,11 +74,10 @@ void SceneState<Scalar>::end_changes() noexcept {
   for (const std::uint32_t index : changed) {
     PendingInstance<Scalar>& instance = pending[index];
     instance.has_changed = false;
-    if (instance.is_there || (!instance.collider && !instance.float_collider)) continue;
+    if (!instance.is_removed()) continue;
     instance.collider.reset();
     instance.float_collider.reset();
-    // An index whose generations are used up is not used again.
-    if (instance.generation != std::numeric_limits<std::uint32_t>::max()) unused.push_back(index);
+    if (instance.has_next_generation()) unused.push_back(index);
   }
   changed.clear();
 }

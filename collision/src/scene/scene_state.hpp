@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -100,6 +101,10 @@ struct PendingInstance {
   bool is_there = false;                                  ///< False for an index that is not in use.
   bool has_changed = false;                               ///< True if the index is among the changed ones.
 
+  /// Returns true if it was removed since the last commit.
+  [[nodiscard]] bool is_removed() const { return !is_there && (collider || float_collider); }
+  /// Returns true if the index may be used again. An index whose generations are used up is not.
+  [[nodiscard]] bool has_next_generation() const { return generation != std::numeric_limits<std::uint32_t>::max(); }
   /// Returns the mesh as it is now.
   [[nodiscard]] InstanceMesh<Scalar> mesh() const {
     if (collider) return {&ColliderState<Scalar>::of(*collider), nullptr, ColliderState<Scalar>::of(*collider).version};

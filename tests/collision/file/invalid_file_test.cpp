@@ -1,0 +1,361 @@
+#include "surehit/invalid_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "collision/same_answers.hpp"
+#include "support/case_count.hpp"
+#include "support/path_drawer.hpp"
+#include "support/saved_file.hpp"
+#include "support/saved_meshes.hpp"
+#include "support/scalars.hpp"
+
+namespace surehit::test {
+namespace {
+
+using Reason = InvalidFile::Reason;
+
+/// Returns a collider of the mesh and the masks that another one has, built anew.
+template <typename Scalar>
+Collider<Scalar> built_anew(const Collider<Scalar>& collider, GeneratedMesh<Scalar>& mesh) {
+  std::vector<std::uint32_t> masks;
+  for (std::uint32_t id = 0; id < collider.triangle_count(); ++id) {
+    mesh.add(collider.triangle(id));
+    masks.push_back(collider.mask(id));
+  }
+  return Collider<Scalar>(mesh.view(), BuildOptions{.masks = masks});
+}
+
+template <typename Scalar>
+void expect_answers_of_its_mesh(const Collider<Scalar>& loaded, std::uint64_t seed) {
+  if (loaded.triangle_count() == 0) return;
+  GeneratedMesh<Scalar> mesh;
+  const Collider<Scalar> expected = built_anew(loaded, mesh);
+  PathDrawer<Scalar> drawer(mesh.view(), seed);
+  std::vector<Path<Scalar>> paths;
+  for (int i = 0; i < 10; ++i) paths.push_back(drawer.draw());
+  expect_same_answers(loaded, expected, paths);
+}
+
+template <typename Scalar>
+class InvalidFileOf : public testing::Test {
+ protected:
+  using Damage = std::function<void(Bytes&, const ColliderParts&)>;
+
+  static Bytes saved_mesh(const std::string& name) {
+    for (const SavedMesh<Scalar>& made : saved_meshes<Scalar>()) {
+      if (made.name == name) return saved(made.collider());
+    }
+    return {};
+  }
+
+  /// Expects that a load finds the damage, although the checksum is right.
+  void expect_refused(const std::string& mesh, Reason reason, std::size_t (*offset)(const ColliderParts&),
+                      const Damage& damage, bool is_found_if_trusted = true) {
+    Bytes bytes = saved_mesh(mesh);
+    const ColliderParts parts(bytes);
+    damage(bytes, parts);
+    repair(bytes);
+    Collider<Scalar> collider;
+    const LoadResult result = collider.try_load(bytes);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().reason, reason) << result.error().what();
+    EXPECT_EQ(result.error().offset, offset(parts)) << result.error().what();
+    EXPECT_EQ(collider.triangle_count(), 0U);
+    EXPECT_EQ(collider.try_load(bytes, {.is_trusted = true}).has_value(), !is_found_if_trusted);
+  }
+};
+TYPED_TEST_SUITE(InvalidFileOf, Scalars, ScalarNames);
+
+TYPED_TEST(InvalidFileOf, head) {
+  const Bytes bytes = this->saved_mesh("one triangle");
+  const auto expect = [&](std::size_t offset, unsigned byte, Reason reason) {
+    Bytes changed = bytes;
+    changed[offset] = static_cast<std::byte>(byte);
+    Collider<TypeParam> collider;
+    const LoadResult result = collider.try_load(changed);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().reason, reason);
+    EXPECT_EQ(std::string(result.error().what()).find("byte "), 0U);
+    EXPECT_LE(result.error().offset, offset);
+  };
+  for (std::size_t i = 0; i < 8; ++i) expect(i, 1, Reason::not_saved);
+  expect(8, 1, Reason::wrong_byte_order);
+  expect(12, 2, Reason::newer_version);
+  expect(12, 0, Reason::newer_version);
+  expect(13, 1, Reason::newer_version);
+  expect(14, 's', Reason::wrong_kind);
+  expect(15, 12 - sizeof(TypeParam), Reason::wrong_scalar);
+  expect(16, 0, Reason::wrong_size);
+  expect(23, 1, Reason::wrong_size);
+  expect(bytes.size() - 1, 1, Reason::wrong_checksum);
+}
+
+TYPED_TEST(InvalidFileOf, other_scalar) {
+  using Other = std::conditional_t<std::is_same_v<TypeParam, float>, double, float>;
+  const LoadResult result = Collider<Other>().try_load(this->saved_mesh("one triangle"));
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().reason, Reason::wrong_scalar);
+}
+
+TYPED_TEST(InvalidFileOf, bytes_that_are_missing) {
+  for (const char* const name : {"nothing", "one triangle", "prop in bricks"}) {
+    const Bytes bytes = this->saved_mesh(name);
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      Bytes shorter(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+      Collider<TypeParam> collider;
+      ASSERT_FALSE(collider.try_load(shorter)) << size;
+      repair(shorter);
+      ASSERT_FALSE(collider.try_load(shorter)) << size;
+      ASSERT_FALSE(collider.try_load(shorter, {.is_trusted = true})) << size;
+    }
+    Bytes longer = bytes;
+    longer.push_back({});
+    EXPECT_FALSE(Collider<TypeParam>().try_load(longer));
+    repair(longer);
+    EXPECT_FALSE(Collider<TypeParam>().try_load(longer));
+  }
+}
+
+TYPED_TEST(InvalidFileOf, bytes_that_are_damaged) {
+  Random random(89);
+  for (const char* const name : {"one triangle", "bricks", "prop in bricks"}) {
+    Bytes bytes = this->saved_mesh(name);
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+      const std::byte kept = bytes[at];
+      bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
+      ASSERT_FALSE(Collider<TypeParam>().try_load(bytes)) << at;
+      bytes[at] = kept;
+    }
+  }
+}
+
+/// Whoever makes the checksum right gets an error, or the answers of the mesh that the file now has. A trusted load may
+/// get others, but it still answers.
+TYPED_TEST(InvalidFileOf, bytes_that_are_forged) {
+  Random random(97);
+  std::size_t loaded = 0;
+  std::size_t refused = 0;
+  for (const char* const name : {"nothing", "one triangle", "masks", "bricks", "prop in bricks", "prop in a prop"}) {
+    const Bytes bytes = this->saved_mesh(name);
+    const ColliderParts parts(bytes);
+    for (std::size_t i = 0; i < case_count(600); ++i) {
+      Bytes forged = bytes;
+      for (std::uint64_t changes = 1 + random.below(2); changes > 0; --changes) {
+        // Half of the changes are behind the mesh, which is most of the file.
+        const std::size_t first = random.one_in(2) || parts.frames >= parts.checksum ? 0 : parts.frames;
+        const std::size_t at = first + random.below(forged.size() - 8 - first);
+        forged[at] = random.one_in(2) ? forged[at] ^ static_cast<std::byte>(1 << random.below(8))
+                                      : static_cast<std::byte>(random.below(6));
+      }
+      repair(forged);
+      SCOPED_TRACE(std::string(name) + ", case " + std::to_string(i));
+      Collider<TypeParam> collider;
+      if (collider.try_load(forged)) {
+        ++loaded;
+        expect_answers_of_its_mesh(collider, i);
+        if (this->HasFailure()) return;
+      } else {
+        ++refused;
+        Collider<TypeParam> trusting;
+        if (!trusting.try_load(forged, {.is_trusted = true}) || trusting.triangle_count() == 0) continue;
+        GeneratedMesh<TypeParam> mesh;
+        static_cast<void>(built_anew(trusting, mesh));
+        PathDrawer<TypeParam> drawer(mesh.view(), i);
+        for (int path = 0; path < 5; ++path) static_cast<void>(trusting.first_hit(drawer.draw()));
+      }
+    }
+  }
+  EXPECT_GT(loaded, case_count(100));
+  EXPECT_GT(refused, case_count(1000));
+}
+
+TYPED_TEST(InvalidFileOf, counts_that_do_not_fit) {
+  // Each count of 64 bits, and then each of 32.
+  for (const std::size_t at : {24U, 32U, 40U, 80U, 88U}) {
+    for (const std::uint64_t count :
+         {std::uint64_t{1}, std::uint64_t{1} << 31, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
+      SCOPED_TRACE(std::to_string(count) + " at " + std::to_string(at));
+      this->expect_refused("bricks", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.counts; },
+                           [&](Bytes& bytes, const ColliderParts&) { set_number(bytes, at, count); });
+    }
+  }
+  for (const std::size_t at : {72U, 76U}) {
+    for (const std::uint32_t count : {0U, 1U << 20, ~0U}) {
+      SCOPED_TRACE(std::to_string(count) + " at " + std::to_string(at));
+      this->expect_refused("bricks", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.counts; },
+                           [&](Bytes& bytes, const ColliderParts&) { set_number(bytes, at, count); });
+    }
+  }
+}
+
+TYPED_TEST(InvalidFileOf, mesh) {
+  this->expect_refused(
+      "bricks", Reason::invalid_mesh, [](const ColliderParts& parts) { return parts.vertices + 15 * sizeof(TypeParam); },
+      [](Bytes& bytes, const ColliderParts& parts) {
+        set_number(bytes, parts.vertices + 17 * sizeof(TypeParam), std::numeric_limits<TypeParam>::quiet_NaN());
+      });
+  this->expect_refused(
+      "bricks", Reason::invalid_mesh, [](const ColliderParts& parts) { return parts.triangles + 6; },
+      [](Bytes& bytes, const ColliderParts& parts) { set_number(bytes, parts.triangles + 8, std::uint16_t{60000}); });
+}
+
+TYPED_TEST(InvalidFileOf, frames) {
+  const auto first = [](const ColliderParts& parts) { return parts.frames; };
+  const auto second = [](const ColliderParts& parts) { return parts.frames + parts.frame_width; };
+  const auto grown = [](std::size_t frame) {
+    return [frame](Bytes& bytes, const ColliderParts& parts) {
+      const std::size_t at = parts.frames + frame * parts.frame_width;
+      set_number(bytes, at, number_at<TypeParam>(bytes, at) - 1);
+    };
+  };
+  this->expect_refused("prop in a prop", Reason::invalid_grid, first, grown(0));
+  this->expect_refused("prop in a prop", Reason::invalid_grid, second, grown(1), false);
+  this->expect_refused("prop in a prop", Reason::invalid_grid, second, [](Bytes& bytes, const ColliderParts& parts) {
+    set_number(bytes, parts.frames + parts.frame_width, std::numeric_limits<TypeParam>::infinity());
+  });
+  this->expect_refused("prop in a prop", Reason::invalid_grid, second, [](Bytes& bytes, const ColliderParts& parts) {
+    const std::size_t at = parts.frames + parts.frame_width;  // The low side is above the high one.
+    set_number(bytes, at, number_at<TypeParam>(bytes, at + 3 * sizeof(TypeParam)) + 1);
+  });
+  for (const std::uint32_t cells : {0U, 2049U, ~0U}) {
+    this->expect_refused("prop in a prop", Reason::invalid_grid, first, [&](Bytes& bytes, const ColliderParts& parts) {
+      set_number(bytes, parts.frames + 6 * sizeof(TypeParam), cells);
+    });
+  }
+  // There are not as many cells.
+  this->expect_refused("prop in a prop", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.cells; },
+                       [](Bytes& bytes, const ColliderParts& parts) {
+                         for (std::size_t axis = 0; axis < 3; ++axis) {
+                           set_number(bytes, parts.frames + 6 * sizeof(TypeParam) + 4 * axis, 2000U);
+                         }
+                       });
+}
+
+TYPED_TEST(InvalidFileOf, cells) {
+  const auto first = [](const ColliderParts& parts) { return parts.cells; };
+  const auto set_first = [](unsigned kind) {
+    return [kind](Bytes& bytes, const ColliderParts& parts) { bytes[parts.cells] = static_cast<std::byte>(kind); };
+  };
+  this->expect_refused("one cell", Reason::invalid_grid, first, set_first(4));
+  // The list is then that of no cell, and the triangle is in no list.
+  this->expect_refused("one cell", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.lists; },
+                       set_first(0));
+  this->expect_refused("one cell", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.cells + 1; },
+                       set_first(2));
+  this->expect_refused("one cell", Reason::wrong_counts, first, set_first(3));
+  // More than two levels of bricks.
+  this->expect_refused("bricks", Reason::invalid_grid, [](const ColliderParts& parts) { return parts.cells + 2; },
+                       [](Bytes& bytes, const ColliderParts& parts) {
+                         for (std::size_t i = 0; i < 3; ++i) bytes[parts.cells + i] = std::byte{2};
+                       });
+}
+
+TYPED_TEST(InvalidFileOf, lists) {
+  const auto first_list = [](const ColliderParts& parts) { return parts.lists; };
+  const auto last_list = [](const ColliderParts& parts) { return parts.entries; };
+  for (const std::uint32_t count : {0U, 201U, ~0U}) {
+    this->expect_refused("one cell", Reason::invalid_list, first_list, [&](Bytes& bytes, const ColliderParts& parts) {
+      set_number(bytes, parts.lists + 4, count);
+    });
+  }
+  this->expect_refused("one cell", Reason::wrong_counts, last_list, [](Bytes& bytes, const ColliderParts& parts) {
+    set_number(bytes, parts.lists + 4, 199U);
+  });
+  this->expect_refused("one cell", Reason::invalid_list, first_list, [](Bytes& bytes, const ColliderParts& parts) {
+    set_number(bytes, parts.lists, 0U | 31U << 5 | 31U << 15 | 31U << 25 | 1U << 30);
+  });
+  this->expect_refused("one cell", Reason::invalid_list, first_list, [](Bytes& bytes, const ColliderParts& parts) {
+    set_number(bytes, parts.lists, 5U | 4U << 5);  // The high side is where the low side is.
+    set_number(bytes, parts.lists, 5U | 3U << 5);
+  });
+  // A box that leaves out a part of the triangles.
+  for (const std::uint32_t box : {1U | 31U << 5 | 31U << 15 | 31U << 25, 30U << 5 | 31U << 15 | 31U << 25,
+                                  31U << 5 | 1U << 10 | 31U << 15 | 31U << 25, 31U << 5 | 31U << 15 | 30U << 25}) {
+    this->expect_refused(
+        "one cell", Reason::invalid_list, last_list,
+        [&](Bytes& bytes, const ColliderParts& parts) { set_number(bytes, parts.lists, box); }, false);
+  }
+}
+
+TYPED_TEST(InvalidFileOf, entries) {
+  const auto at = [](std::size_t entry) {
+    return [entry](const ColliderParts& parts) { return parts.entries + entry * parts.entry_width; };
+  };
+  const auto set = [](std::size_t entry, std::uint16_t id) {
+    return [=](Bytes& bytes, const ColliderParts& parts) { set_number(bytes, parts.entries + 2 * entry, id); };
+  };
+  this->expect_refused("one cell", Reason::invalid_list, [](const ColliderParts& parts) { return parts.entries + 14; },
+                       set(7, 6));  // Twice the same.
+  this->expect_refused("one cell", Reason::invalid_list, [](const ColliderParts& parts) { return parts.entries + 14; },
+                       set(7, 5));
+  this->expect_refused("one cell", Reason::invalid_list, [](const ColliderParts& parts) { return parts.entries + 398; },
+                       set(199, 200));
+  static_cast<void>(at);
+}
+
+/// Removes the first entry of some list, or adds one, and makes the counts right.
+TYPED_TEST(InvalidFileOf, lists_that_are_not_complete) {
+  for (const char* const name : {"scattered", "bricks", "prop", "prop in bricks", "prop in a prop"}) {
+    const Bytes bytes = this->saved_mesh(name);
+    const ColliderParts parts(bytes);
+    std::size_t first_entry = 0;
+    for (std::size_t list = 0; list < parts.list_count; ++list) {
+      const auto count = number_at<std::uint32_t>(bytes, parts.lists + 8 * list + 4);
+      const std::size_t at = parts.entries + first_entry * parts.entry_width;
+      first_entry += count;
+      if (count < 2) continue;
+      SCOPED_TRACE(std::string(name) + ", list " + std::to_string(list));
+      const auto changed = [&](std::uint32_t new_count, bool adds) {
+        Bytes forged = bytes;
+        set_number(forged, parts.lists + 8 * list + 4, new_count);
+        set_number(forged, 88, std::uint64_t{adds ? parts.entry_count + 1 : parts.entry_count - 1});
+        const auto entry = forged.begin() + static_cast<std::ptrdiff_t>(at);
+        const std::vector<std::byte> lowest(2, std::byte{0});
+        if (adds) {
+          forged.insert(entry, lowest.begin(), lowest.end());
+        } else {
+          forged.erase(entry, entry + 2);
+        }
+        repair(forged);
+        return forged;
+      };
+      Bytes forged = changed(count - 1, false);
+      LoadResult result = Collider<TypeParam>().try_load(forged);
+      ASSERT_FALSE(result);
+      EXPECT_EQ(result.error().reason, Reason::invalid_list);
+      EXPECT_EQ(result.error().offset, at);
+      EXPECT_TRUE(Collider<TypeParam>().try_load(forged, {.is_trusted = true}));
+      if (number_at<std::uint16_t>(bytes, at) == 0) continue;
+      forged = changed(count + 1, true);
+      result = Collider<TypeParam>().try_load(forged);
+      ASSERT_FALSE(result);
+      EXPECT_EQ(result.error().reason, Reason::invalid_list);
+      EXPECT_EQ(result.error().offset, at);
+    }
+  }
+}
+
+/// An inner grid that has lost the first of its cells' triangles, or all of them.
+TYPED_TEST(InvalidFileOf, inner_grids_that_are_not_complete) {
+  const Bytes bytes = this->saved_mesh("prop in a prop");
+  const ColliderParts parts(bytes);
+  ASSERT_GE(parts.frame_count, 3U);
+  std::size_t cell = parts.cells;
+  while (bytes[cell] != std::byte{3}) ++cell;
+  Bytes forged = bytes;
+  forged[cell] = std::byte{1};
+  repair(forged);
+  LoadResult result = Collider<TypeParam>().try_load(forged);
+  ASSERT_FALSE(result);
+  EXPECT_TRUE(result.error().reason == Reason::invalid_grid || result.error().reason == Reason::invalid_list);
+}
+
+}  // namespace
+}  // namespace surehit::test

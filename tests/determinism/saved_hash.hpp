@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace surehit::test {
+
+/// `saved_hash` of the hard questions' collider, and of the hard scene.
+template <typename Scalar>
+inline constexpr std::uint64_t published_saved_hash = 0;
+template <>
+inline constexpr std::uint64_t published_saved_hash<float> = 0x1u;
+template <>
+inline constexpr std::uint64_t published_saved_hash<double> = 0x2u;
+template <typename Scalar>
+inline constexpr std::uint64_t published_saved_scene_hash = 0;
+template <>
+inline constexpr std::uint64_t published_saved_scene_hash<float> = 0x3u;
+template <>
+inline constexpr std::uint64_t published_saved_scene_hash<double> = 0x4u;
+
+/// Returns the checksum of all bytes that a collider or a scene is saved in: the last of them.
+template <typename T>
+[[nodiscard]] std::uint64_t saved_hash(const T& saved) {
+  std::vector<std::byte> bytes;
+  const auto append = [&](std::span<const std::byte> piece) {
+    bytes.insert(bytes.end(), piece.begin(), piece.end());
+    return true;
+  };
+  std::uint64_t hash = 0;
+  if (saved.save(append)) std::memcpy(&hash, bytes.data() + bytes.size() - sizeof hash, sizeof hash);
+  return hash;
+}
+
+}  // namespace surehit::test
