@@ -38,8 +38,8 @@ struct ColliderState {
 
   /// Returns another number with each call.
   [[nodiscard]] static std::uint64_t next_version() noexcept;
-  /// Loads a collider, which is as before after a failure. Returns what is wrong, or nothing. `base` is the index of the
-  /// first byte in the whole file, if the collider is a part of it.
+  /// Loads a collider, which is as before after a failure. Returns what is wrong, or nothing. `base` is the index of
+  /// the first byte in the whole file, if the collider is a part of it.
   [[nodiscard]] static std::optional<InvalidFile> load_into(Collider<Scalar>& collider,
                                                             std::span<const std::byte> bytes, std::size_t base,
                                                             const LoadOptions& options);

@@ -71,7 +71,8 @@ CLI::App& add_command(CLI::App& app, QueryRequest& request, Question question, c
   command.callback([&request, question] { request.question = question; });
   CLI::Option* mesh = nullptr;
   if (question != Question::pair) {
-    mesh = command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off, or what bake wrote; none with --scene");
+    mesh = command.add_option("MESH", request.mesh_path,
+                              "A mesh: .obj, .ply, .stl or .off, or what bake wrote; none with --scene");
     mesh->required()->type_name("");
   }
   CLI::Option* const file =
@@ -167,7 +168,9 @@ constexpr const char* meshes =
 void add_explain(CLI::App& app, QueryRequest& request) {
   CLI::App& command = *app.add_subcommand("explain", "How does a path come to what it first meets?");
   command.callback([&request] { request.question = Question::explain; });
-  command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off, or what bake wrote")->required()->type_name("");
+  command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off, or what bake wrote")
+      ->required()
+      ->type_name("");
   command.add_option("FILE", request.input_path, "The path; - is standard input")->required()->type_name("");
   command.add_option("--index", request.index, "Which path, if FILE has several; they count from 0")->type_name("I");
   command
@@ -194,7 +197,9 @@ void add_bake(CLI::App& app, QueryRequest& request) {
   CLI::App& command = *app.add_subcommand("bake", "Save a mesh with its grid, to be asked at once");
   command.callback([&request] { request.question = Question::bake; });
   command.add_option("MESH", request.mesh_path, "A mesh: .obj, .ply, .stl or .off")->required()->type_name("");
-  command.add_option("-o", request.output_path, "Where the bytes go; - is standard output")->required()->type_name("OUT");
+  command.add_option("-o", request.output_path, "Where the bytes go; - is standard output")
+      ->required()
+      ->type_name("OUT");
   add_scalar(command, request, "The type that all numbers are read to; the file can be asked in no other");
   command
       .add_option("--masks", request.masks_path,

@@ -12,15 +12,15 @@ namespace surehit::test {
 template <typename Scalar>
 inline constexpr std::uint64_t published_saved_hash = 0;
 template <>
-inline constexpr std::uint64_t published_saved_hash<float> = 0x1u;
+inline constexpr std::uint64_t published_saved_hash<float> = 0xd4de9387f56c0db3u;
 template <>
-inline constexpr std::uint64_t published_saved_hash<double> = 0x2u;
+inline constexpr std::uint64_t published_saved_hash<double> = 0xe17ddca97cd56fa1u;
 template <typename Scalar>
 inline constexpr std::uint64_t published_saved_scene_hash = 0;
 template <>
-inline constexpr std::uint64_t published_saved_scene_hash<float> = 0x3u;
+inline constexpr std::uint64_t published_saved_scene_hash<float> = 0xa101340ad39d80fcu;
 template <>
-inline constexpr std::uint64_t published_saved_scene_hash<double> = 0x4u;
+inline constexpr std::uint64_t published_saved_scene_hash<double> = 0xf2fe25d069ba4686u;
 
 /// Returns the checksum of all bytes that a collider or a scene is saved in: the last of them.
 template <typename T>

@@ -1,6 +1,8 @@
 // Any bytes to the loads of colliders and of scenes. The first byte chooses which, and whether the checksums are made
-// right before, so that what lies behind them is attacked. A load ends with an error that says where, or with a collider
-// that answers as one that is built anew of its mesh. Memory is in proportion to the bytes.
+// right before, so that what lies behind them is attacked. A load ends with an error that says where, or with a
+// collider that answers as one that is built anew of its mesh. Memory is in proportion to the bytes.
+
+#include "support/saved_file.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +18,6 @@
 #include "support/pair_text.hpp"
 #include "support/path_drawer.hpp"
 #include "support/same_bits.hpp"
-#include "support/saved_file.hpp"
 #include "surehit/collider.hpp"
 #include "surehit/scene.hpp"
 
@@ -118,10 +119,14 @@ void check(std::uint8_t choice, Bytes bytes) {
   if ((choice & 1) != 0) repair_all(bytes);
   const bool is_trusted = (choice & 2) != 0;
   switch (choice >> 2 & 3) {
-    case 0: return check_collider<float>(bytes, is_trusted);
-    case 1: return check_collider<double>(bytes, is_trusted);
-    case 2: return check_scene<float>(bytes, is_trusted);
-    default: return check_scene<double>(bytes, is_trusted);
+    case 0:
+      return check_collider<float>(bytes, is_trusted);
+    case 1:
+      return check_collider<double>(bytes, is_trusted);
+    case 2:
+      return check_scene<float>(bytes, is_trusted);
+    default:
+      return check_scene<double>(bytes, is_trusted);
   }
 }
 

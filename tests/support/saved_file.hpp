@@ -50,7 +50,9 @@ inline void repair(Bytes& bytes) {
 struct ColliderParts {
   explicit ColliderParts(const Bytes& bytes) {
     const std::size_t scalar = number_at<std::uint8_t>(bytes, 15);
-    const auto count = [&](std::size_t offset) { return static_cast<std::size_t>(number_at<std::uint64_t>(bytes, offset)); };
+    const auto count = [&](std::size_t offset) {
+      return static_cast<std::size_t>(number_at<std::uint64_t>(bytes, offset));
+    };
     triangle_count = count(32);
     frame_count = number_at<std::uint32_t>(bytes, 72);
     list_count = number_at<std::uint32_t>(bytes, 76);

@@ -15,9 +15,9 @@ namespace detail {
 /// A callable that takes bytes, and that does not dangle in a `ByteSink`.
 template <typename Callable, typename Sink>
 concept TakesBytes = OutlivesItsView<Callable> && !std::same_as<std::remove_cvref_t<Callable>, Sink> &&
-                     requires(std::remove_reference_t<Callable>& callable, std::span<const std::byte> bytes) {
-                       { callable(bytes) } -> std::convertible_to<bool>;
-                     };
+                     requires(std::remove_reference_t<Callable> & callable, std::span<const std::byte> bytes) {
+  { callable(bytes) } -> std::convertible_to<bool>;
+};
 /// One that has a name, to which a `ByteSink` refers.
 template <typename Callable, typename Sink>
 concept NamedByteTaker = TakesBytes<Callable, Sink> && std::is_lvalue_reference_v<Callable>;

@@ -18,18 +18,18 @@ class SUREHIT_API InvalidFile : public std::runtime_error {
  public:
   /// What is wrong.
   enum class Reason : std::uint8_t {
-    not_saved,           ///< The file does not begin as saved colliders and scenes do.
-    wrong_byte_order,    ///< The bytes of its numbers were turned round.
-    newer_version,       ///< A newer version of the library has written it.
-    wrong_kind,          ///< It holds a scene instead of a collider, or the other way round.
-    wrong_scalar,        ///< It holds floats instead of doubles, or the other way round.
-    wrong_size,          ///< It has fewer or more bytes than it says.
-    wrong_checksum,      ///< Its checksum is not that of its bytes.
-    wrong_counts,        ///< Its parts do not fit into its bytes, or do not fit each other.
-    invalid_mesh,        ///< A build would refuse the mesh.
-    invalid_grid,        ///< The cells are not those of a grid of this mesh.
-    invalid_list,        ///< A list is not what a build makes of its cell.
-    invalid_instance,    ///< A scene would refuse the instance, or its place is taken twice.
+    not_saved,         ///< The file does not begin as saved colliders and scenes do.
+    wrong_byte_order,  ///< The bytes of its numbers were turned round.
+    newer_version,     ///< A newer version of the library has written it.
+    wrong_kind,        ///< It holds a scene instead of a collider, or the other way round.
+    wrong_scalar,      ///< It holds floats instead of doubles, or the other way round.
+    wrong_size,        ///< It has fewer or more bytes than it says.
+    wrong_checksum,    ///< Its checksum is not that of its bytes.
+    wrong_counts,      ///< Its parts do not fit into its bytes, or do not fit each other.
+    invalid_mesh,      ///< A build would refuse the mesh.
+    invalid_grid,      ///< The cells are not those of a grid of this mesh.
+    invalid_list,      ///< A list is not what a build makes of its cell.
+    invalid_instance,  ///< A scene would refuse the instance, or its place is taken twice.
   };
 
   /// Sets both members. `what()` returns the message. May throw std::bad_alloc.

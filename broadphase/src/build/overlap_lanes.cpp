@@ -19,15 +19,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 //
 // The roundings: eps is 2^-24, R is the resolution, and L is |l| + |m| for a shadow's axis (l, m). A corner is off by
 // eps R once it is moved. The rest tests the triangle of the moved corners. Its ends on the axis are off by 2 eps R L.
-// The half length of a box is off by 1.5, the difference of both by 1.5, and the sum of two steps by 1. In sum that is less than 8 eps R L, as in `TriangleOverlap`.
+// The half length of a box is off by 1.5, the difference of both by 1.5, and the sum of two steps by 1. In sum that is
+// less than 8 eps R L, as in `TriangleOverlap`.
 //
 // The normal's components are off by less than 10 eps E^2, where E is the triangle's maximum extent. So the heights of
 // the moved corners differ by less than 30 eps E^3. A height is three products of up to |normal| far, and three
 // differences with steps. The reach is three products of up to |normal| (step / 2 + padding). Together they are off by
 // less than 16 eps |normal| (far + step).
 //
-// No operation is fused where rounding matters, because not every instruction set can fuse. So a grid has the same bytes
-// on all of them, and what one has saved another can check.
+// No operation is fused where rounding matters, because not every instruction set can fuse. So a grid has the same
+// bytes on all of them, and what one has saved another can check.
 void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float size,
                    OverlapLanes::Row<std::int32_t>& overlaps) {
   const hn::CappedTag<float, OverlapLanes::count> d;
@@ -74,7 +75,9 @@ void find_in_lanes(const OverlapLanes& lanes, const CellPoint& padding, float si
       for (std::size_t i = 0; i < 3; ++i) {
         const V l = edges[i][on_m];
         const V m = hn::Neg(edges[i][on_l]);
-        const auto along = [&](const V(&corner)[3]) { return hn::Add(hn::Mul(corner[on_l], l), hn::Mul(corner[on_m], m)); };
+        const auto along = [&](const V(&corner)[3]) {
+          return hn::Add(hn::Mul(corner[on_l], l), hn::Mul(corner[on_m], m));
+        };
         const V a = along(corners[0]);
         const V b = along(corners[1]);
         const V c = along(corners[2]);

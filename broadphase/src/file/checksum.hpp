@@ -47,7 +47,8 @@ class Checksum {
       sum = std::rotl(sum ^ word<std::uint32_t>(&block_[at]) * prime_1, 23) * prime_2 + prime_3;
       at += 4;
     }
-    for (; at < filled_; ++at) sum = std::rotl(sum ^ std::to_integer<std::uint64_t>(block_[at]) * prime_5, 11) * prime_1;
+    for (; at < filled_; ++at)
+      sum = std::rotl(sum ^ std::to_integer<std::uint64_t>(block_[at]) * prime_5, 11) * prime_1;
     sum = (sum ^ sum >> 33) * prime_2;
     sum = (sum ^ sum >> 29) * prime_3;
     return sum ^ sum >> 32;

@@ -51,9 +51,9 @@ std::optional<InvalidFile> find_invalid_head(std::span<const std::byte> bytes, F
   }
   const std::size_t at_size = head.offset();
   if (const auto size = head.take<std::uint64_t>(); size != bytes.size()) {
-    return fault(Reason::wrong_size, at_size,
-                 "the file says that it has " + std::to_string(size) + " bytes, but it has " +
-                     std::to_string(bytes.size()));
+    return fault(
+        Reason::wrong_size, at_size,
+        "the file says that it has " + std::to_string(size) + " bytes, but it has " + std::to_string(bytes.size()));
   }
   const std::size_t end = bytes.size() - checksum_bytes;
   Checksum sum;

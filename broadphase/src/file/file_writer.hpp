@@ -30,7 +30,7 @@ class FileWriter {
     write(size);
   }
   template <typename Number>
-    requires std::is_arithmetic_v<Number>
+  requires std::is_arithmetic_v<Number>
   void write(Number number) {
     if (filled_ + sizeof number > buffer_.size()) flush();
     std::memcpy(buffer_.data() + filled_, &number, sizeof number);

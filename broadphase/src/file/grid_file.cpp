@@ -89,8 +89,7 @@ class GridReading {
     offsets.entries = reader.offset();
     grid_.entries_.assign(reader.take_bytes(counts_.entries * grid_.entries_.width()));
     grid_.complete(outer_entries_);
-    static_cast<void>(check_order(offsets.entries));
-    return error_;
+    return std::nullopt;
   }
 
  private:
@@ -141,8 +140,8 @@ class GridReading {
     if (cells_.left() != 0) return fail(Reason::wrong_counts, cells_.offset(), "this cell belongs to no grid");
     if (lists_.left() != 0) return fail(Reason::wrong_counts, lists_.offset(), "this list belongs to no cell");
     if (entries_ != counts_.entries) {
-      return fail(Reason::wrong_counts, lists_.offset(), "the lists have " + std::to_string(entries_) + " entries, not " +
-                                                             std::to_string(counts_.entries));
+      return fail(Reason::wrong_counts, lists_.offset(),
+                  "the lists have " + std::to_string(entries_) + " entries, not " + std::to_string(counts_.entries));
     }
     grid_.frame_ = frames_.front();
     grid_.inner_frames_.assign(frames_.begin() + 1, frames_.end());
@@ -175,13 +174,16 @@ class GridReading {
     const std::size_t offset = cells_.offset();
     if (cells_.left() == 0) return fail(Reason::wrong_counts, offset, "cells are missing");
     switch (const auto kind = cells_.take<std::uint8_t>(); static_cast<CellKind>(kind)) {
-      case CellKind::empty: return true;
+      case CellKind::empty:
+        return true;
       case CellKind::list:
         word = CellWord::listing(static_cast<std::uint32_t>(grid_.lists_.size())).bits();
         return read_list(1);
-      case CellKind::brick: return read_brick(level, offset, word);
+      case CellKind::brick:
+        return read_brick(level, offset, word);
       case CellKind::inner: {
-        if (depth_ == Grid::max_depth) return fail(Reason::invalid_grid, offset, "there are too many grids around this");
+        if (depth_ == Grid::max_depth)
+          return fail(Reason::invalid_grid, offset, "there are too many grids around this");
         if (depths_.size() == frames_.size()) return fail(Reason::wrong_counts, offset, "the inner grid is missing");
         word = CellWord::with_inner_grid(static_cast<std::uint32_t>(grid_.lists_.size())).bits();
         if (!read_list(0)) return false;
@@ -189,7 +191,8 @@ class GridReading {
         depths_.push_back(depth_ + 1);
         return true;
       }
-      default: return fail(Reason::invalid_grid, offset, "no cell is of kind " + std::to_string(kind));
+      default:
+        return fail(Reason::invalid_grid, offset, "no cell is of kind " + std::to_string(kind));
     }
   }
 
@@ -232,26 +235,6 @@ class GridReading {
 
   [[nodiscard]] std::uint32_t first_entry() const { return static_cast<std::uint32_t>(entries_); }
 
-  /// Checks that each list has ids of triangles in ascending order.
-  bool check_order(std::size_t offset) {
-    const std::span<const CellList> lists = grid_.lists();
-    const PackedIds& ids = grid_.entries();
-    for (std::size_t list = 0; list + 1 < lists.size(); ++list) {
-      std::uint64_t lowest = 0;
-      for (std::size_t i = lists[list].first_entry; i < lists[list + 1].first_entry; ++i) {
-        const std::uint32_t id = ids[i];
-        if (id >= lowest && id < triangles_) {
-          lowest = std::uint64_t{id} + 1;
-          continue;
-        }
-        return fail(Reason::invalid_list, offset + i * ids.width(),
-                    id < triangles_ ? "triangle " + std::to_string(id) + " is not after the one before it"
-                                    : "there is no triangle " + std::to_string(id));
-      }
-    }
-    return true;
-  }
-
   static constexpr std::uint32_t division = Grid::brick_edge * Grid::brick_edge;
   // The limits of a build.
   static constexpr std::size_t max_top_cells = std::size_t{1} << 24;
@@ -276,6 +259,25 @@ template <typename Scalar>
 std::optional<InvalidFile> GridFile::read(FileReader& reader, const GridCounts& counts, std::uint32_t triangles,
                                           Grid& grid, Offsets& offsets) {
   return GridReading(grid, counts, triangles).read<Scalar>(reader, offsets);
+}
+
+std::optional<InvalidFile> GridFile::find_disorder(const Grid& grid, std::uint32_t triangles, const Offsets& offsets) {
+  const std::span<const CellList> lists = grid.lists();
+  const PackedIds& ids = grid.entries();
+  for (std::size_t list = 0; list + 1 < lists.size(); ++list) {
+    std::uint64_t lowest = 0;
+    for (std::size_t i = lists[list].first_entry; i < lists[list + 1].first_entry; ++i) {
+      const std::uint32_t id = ids[i];
+      if (id < lowest || id >= triangles) {
+        const std::size_t offset = offsets.entries + i * ids.width();
+        return InvalidFile(InvalidFile::Reason::invalid_list, offset,
+                           "byte " + std::to_string(offset) + ": triangle " + std::to_string(id) +
+                               (id < triangles ? " is not after the one before it" : " does not exist"));
+      }
+      lowest = std::uint64_t{id} + 1;
+    }
+  }
+  return std::nullopt;
 }
 
 template void GridFile::write<float>(const Grid&, FileWriter&);

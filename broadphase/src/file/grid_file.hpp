@@ -43,11 +43,13 @@ class GridFile {
     std::size_t frames, cells, lists, entries;
   };
   /// Reads a grid for a mesh of so many triangles, and not none. There are as many bytes as the counts need. Returns
-  /// what is wrong, or nothing. Then the grid can be walked, and each list has ids below `triangles` in ascending
-  /// order. It is not known yet whether the lists are complete.
+  /// what is wrong, or nothing. The lists may then have any entries.
   template <typename Scalar>
   [[nodiscard]] static std::optional<InvalidFile> read(FileReader& reader, const GridCounts& counts,
                                                        std::uint32_t triangles, Grid& grid, Offsets& offsets);
+  /// Returns the first entry that is not a triangle's id, or not above the one before it in the list, or nothing.
+  [[nodiscard]] static std::optional<InvalidFile> find_disorder(const Grid& grid, std::uint32_t triangles,
+                                                                const Offsets& offsets);
 };
 
 }  // namespace surehit::detail

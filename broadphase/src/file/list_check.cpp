@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -21,17 +20,45 @@ namespace {
 constexpr std::size_t triangles_at_once = 512;
 
 /// The cells of a grid, or those of a brick.
-struct Cells {
-  CellRange range;       ///< Where they are, counted in cells.
-  std::uint32_t size;    ///< Their edge, in finest cells.
-  const CellWord* words; ///< Their words.
+class Cells {
+ public:
+  Cells(const CellRange& cells, std::uint32_t edge, const CellWord* first)
+      : range(cells),
+        size(edge),
+        words(first),
+        columns_(static_cast<std::int32_t>(cells.length(0))),
+        rows_(static_cast<std::int32_t>(cells.length(1))),
+        per_column_(1.0 / columns_),
+        per_row_(1.0 / rows_) {}
 
-  /// Returns the position of a cell, counted in cells.
-  [[nodiscard]] std::array<std::uint32_t, 3> position(std::uint32_t cell) const {
-    const std::uint32_t columns = range.length(0);
-    const std::uint32_t rows = range.length(1);
-    return {range.low[0] + cell % columns, range.low[1] + cell / columns % rows, range.low[2] + cell / columns / rows};
+  CellRange range;        ///< Where they are, counted in cells.
+  std::uint32_t size;     ///< Their edge, in finest cells.
+  const CellWord* words;  ///< Their words.
+
+  /// Returns the position of a cell, counted in cells. There are less than 2^25 cells, so a quotient is at least 2^-26
+  /// away from the next whole number, and its rounding does not matter. Integers would be divided much slower.
+  [[nodiscard]] std::array<std::int32_t, 3> position(std::uint32_t cell) const {
+    const auto index = static_cast<std::int32_t>(cell);
+    const auto row = static_cast<std::int32_t>((index + 0.5) * per_column_);
+    const auto layer = static_cast<std::int32_t>((row + 0.5) * per_row_);
+    return {static_cast<std::int32_t>(range.low[0]) + index - row * columns_,
+            static_cast<std::int32_t>(range.low[1]) + row - layer * rows_,
+            static_cast<std::int32_t>(range.low[2]) + layer};
   }
+
+ private:
+  std::int32_t columns_;
+  std::int32_t rows_;
+  double per_column_;
+  double per_row_;
+};
+
+/// What was found so far in a grid and its inner grids.
+struct Found {
+  std::vector<std::uint32_t> counts;                  ///< For each list, the number of its entries.
+  UnsetVector<PaddedBox> boxes;                       ///< For each list, the box around their triangles.
+  std::vector<std::vector<std::uint32_t>> inner_ids;  ///< For each inner grid, its triangles.
+  std::size_t spare_inner_ids;                        ///< The number of these that there may still be.
 };
 
 /// Checks the lists of a grid: of the outermost one, or of an inner one.
@@ -40,29 +67,29 @@ class FrameCheck {
  public:
   using Kind = ListFault::Kind;
 
-  /// Counts in `listed_so_far`, by list, and adds the triangles of inner grids to `inner_ids`, by grid.
-  FrameCheck(const Grid& grid, const GridFrame& frame, const Listed& listed,
-             std::vector<std::uint32_t>& listed_so_far, std::vector<std::vector<std::uint32_t>>& inner_ids,
-             std::size_t& spare_inner_ids)
+  FrameCheck(const Grid& grid, const GridFrame& frame, const Listed& listed, Found& found)
       : grid_(grid),
         frame_(frame),
         listed_(listed),
-        listed_so_far_(listed_so_far),
-        inner_ids_(inner_ids),
-        spare_inner_ids_(spare_inner_ids),
+        found_(found),
         spare_pairs_(max_pairs_share * (grid.entry_count() + listed.count())) {
     for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame.padding(axis);
   }
 
   /// Looks for each triangle in the list of each cell that it meets. `first_top` is the index of the first top cell.
   [[nodiscard]] bool has_all(std::size_t first_top) {
-    const Cells cells{{{0, 0, 0}, frame_.cells}, frame_.division, grid_.all_top().data() + first_top};
+    const Cells cells({{0, 0, 0}, frame_.cells}, frame_.division, grid_.all_top().data() + first_top);
     return has_all_in(cells, listed_.count(), [](std::size_t i) { return static_cast<std::uint32_t>(i); });
   }
   /// Returns the first fault, if `has_all` is false.
   [[nodiscard]] const ListFault& fault() const { return fault_; }
 
  private:
+  /// A triangle that meets a divided cell.
+  struct Pair {
+    std::uint32_t cell;
+    std::uint32_t triangle;
+  };
   /// Divided cells have at most this many times as many triangles as there are entries and triangles in all. More would
   /// need more entries, but for roundings.
   static constexpr std::size_t max_pairs_share = 8;
@@ -70,7 +97,7 @@ class FrameCheck {
   /// The same for some triangles, whose numbers ascend: `number(i)` for each i below `count`.
   template <typename Number>
   bool has_all_in(const Cells& cells, std::size_t count, const Number& number) {
-    std::vector<std::uint64_t> in_bricks;  // Pairs of a divided cell and a triangle.
+    std::vector<Pair> in_bricks;
     std::array<PaddedBox, triangles_at_once> boxes;
     for (std::size_t first = 0; first < count; first += triangles_at_once) {
       const std::size_t some = std::min(triangles_at_once, count - first);
@@ -89,31 +116,46 @@ class FrameCheck {
         const CellWord word = cells.words[cell];
         if (word.is_divided()) {
           if (spare_pairs_-- == 0) return fail({.kind = Kind::no_list, .triangle = listed_.id(triangle)});
-          in_bricks.push_back(std::uint64_t{cell} << 32 | triangle);
+          in_bricks.push_back({cell, triangle});
         } else if (!has(word, cells, cell, triangle, boxes[entries_.triangles[i]])) {
           return false;
         }
       }
     }
-    return have_bricks_all(cells, in_bricks);
+    return have_bricks_all(cells, std::move(in_bricks));
   }
 
   /// Goes on in the bricks of divided cells.
-  bool have_bricks_all(const Cells& cells, std::vector<std::uint64_t>& pairs) {
-    std::sort(pairs.begin(), pairs.end());
-    for (std::size_t first = 0; first < pairs.size();) {
-      const auto cell = static_cast<std::uint32_t>(pairs[first] >> 32);
+  bool have_bricks_all(const Cells& cells, std::vector<Pair> pairs) {
+    // Sorted by bricks, which a build numbers in the order of their cells.
+    const auto brick_of = [&](const Pair& pair) { return cells.words[pair.cell].brick(); };
+    if (pairs.empty()) return true;
+    const std::uint32_t first_brick = brick_of(*std::min_element(
+        pairs.begin(), pairs.end(), [](const Pair& left, const Pair& right) { return left.cell < right.cell; }));
+    std::vector<std::uint32_t> ends;
+    for (const Pair& pair : pairs) {
+      const std::size_t brick = brick_of(pair) - first_brick;
+      if (brick >= ends.size()) ends.resize(brick + 1, 0);
+      ++ends[brick];
+    }
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Pair> sorted(pairs.size());
+    for (std::size_t i = pairs.size(); i-- > 0;) sorted[--ends[brick_of(pairs[i]) - first_brick]] = pairs[i];
+    pairs = {};
+    for (std::size_t first = 0; first < sorted.size();) {
+      const std::uint32_t cell = sorted[first].cell;
       std::size_t last = first;
-      while (last < pairs.size() && pairs[last] >> 32 == cell) ++last;
+      while (last < sorted.size() && sorted[last].cell == cell) ++last;
       constexpr std::uint32_t edge = Grid::brick_edge;
-      Cells brick{{}, cells.size / edge,
-                  grid_.bricks().data() + std::size_t{cells.words[cell].brick()} * Grid::brick_size};
-      const std::array<std::uint32_t, 3> position = cells.position(cell);
+      const std::array<std::int32_t, 3> position = cells.position(cell);
+      CellRange range;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        brick.range.low[axis] = position[axis] * edge;
-        brick.range.high[axis] = brick.range.low[axis] + edge;
+        range.low[axis] = static_cast<std::uint32_t>(position[axis]) * edge;
+        range.high[axis] = range.low[axis] + edge;
       }
-      const auto number = [&](std::size_t i) { return static_cast<std::uint32_t>(pairs[first + i]); };
+      const CellWord* const words = grid_.bricks().data() + std::size_t{cells.words[cell].brick()} * Grid::brick_size;
+      const Cells brick(range, cells.size / edge, words);
+      const auto number = [&](std::size_t i) { return sorted[first + i].triangle; };
       if (!has_all_in(brick, last - first, number)) return false;
       first = last;
     }
@@ -124,20 +166,29 @@ class FrameCheck {
   bool has(CellWord word, const Cells& cells, std::uint32_t cell, std::uint32_t triangle, const PaddedBox& box) {
     const std::uint32_t id = listed_.id(triangle);
     if (word.is_empty()) return fail({.kind = Kind::no_list, .triangle = id});
-    const std::uint32_t list = word.list();
-    if (!holds(grid_.box(word), cells, cell, box)) return fail({Kind::outside_box, list, 0, id});
-    if (word.has_inner_grid() && is_small(box, cells.size)) {
-      const std::uint32_t inner = grid_.lists()[list + 1].box.bits();
-      if (spare_inner_ids_-- == 0) return fail({Kind::inner_share, list, inner, id});
-      inner_ids_[inner].push_back(id);
-      return true;
+    if (word.has_inner_grid()) {
+      if (!holds(grid_.box(word), cells, cell, box)) return fail_at(Kind::outside_box, word, id);
+      if (is_small(box, cells.size)) return add_inner(word, id);
     }
     // Triangles come in ascending order, as in the list.
-    const std::uint32_t next = listed_so_far_[list];
-    if (next == grid_.entry_count(word) || grid_.entries()[grid_.first_entry(word) + next] != id) {
-      return fail({Kind::missing, list, 0, id});
+    const std::uint32_t list = word.list();
+    const std::uint32_t before = found_.counts[list];
+    const std::uint32_t count = grid_.entry_count(word);
+    if (before == count || grid_.entries()[grid_.first_entry(word) + before] != id) {
+      return fail_at(Kind::missing, word, id);
     }
-    ++listed_so_far_[list];
+    PaddedBox& around = found_.boxes[list];
+    around = before == 0 ? box : PaddedBox{min(around.low, box.low), max(around.high, box.high)};
+    if (before + 1 == count && !holds(grid_.box(word), cells, cell, around))
+      return fail_at(Kind::outside_box, word, id);
+    found_.counts[list] = before + 1;
+    return true;
+  }
+
+  /// Keeps a triangle for the inner grid of its cell.
+  bool add_inner(CellWord word, std::uint32_t id) {
+    if (found_.spare_inner_ids-- == 0) return fail_at(Kind::inner_share, word, id);
+    found_.inner_ids[grid_.lists()[std::size_t{word.list()} + 1].box.bits()].push_back(id);
     return true;
   }
 
@@ -149,9 +200,7 @@ class FrameCheck {
     const auto edge = static_cast<float>(cells.size);
     constexpr float parts = CellBox::parts;
     const float per_part = parts / edge;  // A power of two.
-    const Float4 corner =
-        to_float(Int4{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), static_cast<std::int32_t>(z), 0}) *
-        edge;
+    const Float4 corner = to_float(Int4{x, y, z, 0}) * edge;
     const Float4 padding = {padding_[0], padding_[1], padding_[2], 0};
     const Float4 from = min(max((box.low - padding - corner) * per_part, all_lanes(0.0F)), all_lanes(parts - 1));
     const Float4 to = min(max((box.high + padding - corner) * per_part, all_lanes(1.0F)), all_lanes(parts));
@@ -161,6 +210,9 @@ class FrameCheck {
     return !any_lane((to_float(low) > from) | (to_float(high) < to));
   }
 
+  bool fail_at(Kind kind, CellWord word, std::uint32_t id) {
+    return fail({.kind = kind, .entry = grid_.first_entry(word) + found_.counts[word.list()], .triangle = id});
+  }
   bool fail(const ListFault& fault) {
     fault_ = fault;
     return false;
@@ -169,9 +221,7 @@ class FrameCheck {
   const Grid& grid_;
   const GridFrame& frame_;
   const Listed& listed_;
-  std::vector<std::uint32_t>& listed_so_far_;
-  std::vector<std::vector<std::uint32_t>>& inner_ids_;
-  std::size_t& spare_inner_ids_;
+  Found& found_;
   std::size_t spare_pairs_;  ///< The number of pairs of a divided cell and a triangle that there may still be.
   CellPoint padding_ = {};
   CellEntries entries_;
@@ -206,31 +256,31 @@ template <typename Scalar>
 std::optional<ListFault> find_list_fault(const TriangleMeshView<Scalar>& mesh, const Grid& grid) {
   const FloatingPointEnvironment environment;
   if (mesh.triangle_count() == 0) return std::nullopt;
-  std::vector<std::uint32_t> listed_so_far(grid.lists().size(), 0);
-  std::vector<std::vector<std::uint32_t>> inner_ids(grid.inner_frames().size());
-  std::size_t spare_inner_ids = max_inner_share * mesh.triangle_count();
-  const Box<Scalar> box = box_of(mesh);
+  Found found{std::vector<std::uint32_t>(grid.lists().size(), 0), UnsetVector<PaddedBox>(grid.lists().size()),
+              std::vector<std::vector<std::uint32_t>>(grid.inner_frames().size()),
+              max_inner_share * mesh.triangle_count()};
+  const Box<Scalar> box;  // Only a build needs it.
   UnsetVector<PaddedPoint> points;
   ListedTriangles<Scalar> triangles(mesh, box, points);
   const GridFrame frame = finest<Scalar>(grid.frame());
   triangles.compute_points(frame, nullptr);
-  FrameCheck outer(grid, frame, triangles, listed_so_far, inner_ids, spare_inner_ids);
+  FrameCheck outer(grid, frame, triangles, found);
   if (!outer.has_all(grid.frame().first_top)) return outer.fault();
-  for (std::size_t i = 0; i < inner_ids.size(); ++i) {  // A cell of an inner grid may have one of those after it.
-    const std::vector<std::uint32_t> ids = std::move(inner_ids[i]);
+  for (std::size_t i = 0; i < found.inner_ids.size(); ++i) {  // A cell of an inner grid may have one of those after it.
+    const std::vector<std::uint32_t> ids = std::move(found.inner_ids[i]);
     const ListFault wrong_box{.kind = ListFault::Kind::inner_box, .inner_grid = i};
     if (ids.empty()) return wrong_box;
     InnerTriangles<Scalar> some(mesh, ids);
     if (!is_around(grid.inner_frames()[i], some.box())) return wrong_box;
     const GridFrame inner_frame = finest<Scalar>(grid.inner_frames()[i]);
     some.compute_points(inner_frame, nullptr);
-    FrameCheck inner(grid, inner_frame, some, listed_so_far, inner_ids, spare_inner_ids);
+    FrameCheck inner(grid, inner_frame, some, found);
     if (!inner.has_all(grid.inner_frames()[i].first_top)) return inner.fault();
   }
   for (std::size_t list = 0; list + 1 < grid.lists().size(); ++list) {
-    const std::size_t first = grid.lists()[list].first_entry;
-    if (first + listed_so_far[list] == grid.lists()[list + 1].first_entry) continue;
-    return ListFault{ListFault::Kind::too_many, list, 0, grid.entries()[first + listed_so_far[list]]};
+    const std::size_t next = grid.lists()[list].first_entry + found.counts[list];
+    if (next == grid.lists()[list + 1].first_entry) continue;
+    return ListFault{.kind = ListFault::Kind::too_many, .entry = next, .triangle = grid.entries()[next]};
   }
   return std::nullopt;
 }

@@ -132,8 +132,8 @@ class SUREHIT_API Scene {
   /// Ids stay valid: an instance has the id that it had in the saved scene. The id of an instance that was removed
   /// there is stale here too. New instances get the same ids in both scenes.
   ///
-  /// The bytes may come from anyone, see `Collider::try_load`. May throw std::bad_alloc. After any failure, the scene is
-  /// as before.
+  /// The bytes may come from anyone, see `Collider::try_load`. May throw std::bad_alloc. After any failure, the scene
+  /// is as before.
   LoadResult try_load(std::span<const std::byte> bytes, const LoadOptions& options = {});
 #if defined(__cpp_exceptions)
   /// Returns the scene that was saved in these bytes, as `try_load` reads it. Throws the InvalidFile that it would

@@ -104,12 +104,18 @@ namespace {
 
 std::string named(ListFault::Kind kind) {
   switch (kind) {
-    case ListFault::Kind::no_list: return "a cell that it meets has no list";
-    case ListFault::Kind::missing: return "it meets the cell of this list, which does not have it next";
-    case ListFault::Kind::outside_box: return "its part of the cell is outside the box of the list";
-    case ListFault::Kind::too_many: return "it is in this list, whose cell it does not meet";
-    case ListFault::Kind::inner_box: return "the box is not that of its triangles";
-    case ListFault::Kind::inner_share: return "inner grids have too many triangles";
+    case ListFault::Kind::no_list:
+      return "a cell that it meets has no list";
+    case ListFault::Kind::missing:
+      return "it meets the cell of this list, which does not have it next";
+    case ListFault::Kind::outside_box:
+      return "it is the last of a list whose box does not hold its triangles";
+    case ListFault::Kind::too_many:
+      return "it is in this list, whose cell it does not meet";
+    case ListFault::Kind::inner_box:
+      return "the box is not that of its triangles";
+    case ListFault::Kind::inner_share:
+      return "inner grids have too many triangles";
   }
   return {};
 }
@@ -120,16 +126,14 @@ InvalidFile invalid_list(const ListFault& fault, const Grid& grid, const GridFil
   using Kind = ListFault::Kind;
   if (fault.kind == Kind::inner_box) {
     const std::size_t offset = offsets.frames + (1 + fault.inner_grid) * frame_bytes<Scalar>;
-    return {InvalidFile::Reason::invalid_grid, offset,
-            "byte " + std::to_string(offset) + ": grid " + std::to_string(1 + fault.inner_grid) + ": " +
-                named(fault.kind)};
+    return {
+        InvalidFile::Reason::invalid_grid, offset,
+        "byte " + std::to_string(offset) + ": grid " + std::to_string(1 + fault.inner_grid) + ": " + named(fault.kind)};
   }
-  const std::size_t offset = fault.kind == Kind::no_list
-                                 ? offsets.cells
-                                 : offsets.entries + grid.lists()[fault.list].first_entry * grid.entries().width();
+  const std::size_t offset =
+      fault.kind == Kind::no_list ? offsets.cells : offsets.entries + fault.entry * grid.entries().width();
   return {InvalidFile::Reason::invalid_list, offset,
-          "byte " + std::to_string(offset) + ": triangle " + std::to_string(fault.triangle) + ": " +
-              named(fault.kind)};
+          "byte " + std::to_string(offset) + ": triangle " + std::to_string(fault.triangle) + ": " + named(fault.kind)};
 }
 
 }  // namespace
@@ -195,7 +199,10 @@ std::optional<InvalidFile> load(std::span<const std::byte> bytes, std::size_t ba
       if (frame.low[axis] == double{state.box.low[k]} && frame.high[axis] == double{state.box.high[k]}) continue;
       return fault(Reason::invalid_grid, offsets.frames, "grid 0: the box is not that of the mesh");
     }
-    if (!options.is_trusted) {
+    if (options.is_trusted) {
+      const auto triangles = static_cast<std::uint32_t>(counts.triangles);
+      if (auto invalid = GridFile::find_disorder(state.grid, triangles, offsets)) return invalid;
+    } else {
       if (const auto invalid = find_list_fault(mesh, state.grid)) {
         return invalid_list<Scalar>(*invalid, state.grid, offsets);
       }

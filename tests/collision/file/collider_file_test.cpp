@@ -134,8 +134,8 @@ TYPED_TEST(ColliderFile, loads_bytes_of_any_alignment) {
 
 TYPED_TEST(ColliderFile, begins_as_described) {
   const Bytes bytes = saved(Collider<TypeParam>());
-  const std::vector<unsigned> expected = {0x89, 's', 'r', 'h', 't', 13, 10, 26, 4, 3, 2, 1, 1, 0, 'c',
-                                          sizeof(TypeParam), 104, 0, 0, 0, 0, 0, 0, 0};
+  const std::vector<unsigned> expected = {
+      0x89, 's', 'r', 'h', 't', 13, 10, 26, 4, 3, 2, 1, 1, 0, 'c', sizeof(TypeParam), 104, 0, 0, 0, 0, 0, 0, 0};
   ASSERT_EQ(bytes.size(), 104U);
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(std::to_integer<unsigned>(bytes[i]), expected[i]) << i;
 }

@@ -182,22 +182,25 @@ TYPED_TEST(InvalidFileOf, counts_that_do_not_fit) {
     for (const std::uint64_t count :
          {std::uint64_t{1}, std::uint64_t{1} << 31, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
       SCOPED_TRACE(std::to_string(count) + " at " + std::to_string(at));
-      this->expect_refused("bricks", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.counts; },
-                           [&](Bytes& bytes, const ColliderParts&) { set_number(bytes, at, count); });
+      this->expect_refused(
+          "bricks", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.counts; },
+          [&](Bytes& bytes, const ColliderParts&) { set_number(bytes, at, count); });
     }
   }
   for (const std::size_t at : {72U, 76U}) {
     for (const std::uint32_t count : {0U, 1U << 20, ~0U}) {
       SCOPED_TRACE(std::to_string(count) + " at " + std::to_string(at));
-      this->expect_refused("bricks", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.counts; },
-                           [&](Bytes& bytes, const ColliderParts&) { set_number(bytes, at, count); });
+      this->expect_refused(
+          "bricks", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.counts; },
+          [&](Bytes& bytes, const ColliderParts&) { set_number(bytes, at, count); });
     }
   }
 }
 
 TYPED_TEST(InvalidFileOf, mesh) {
   this->expect_refused(
-      "bricks", Reason::invalid_mesh, [](const ColliderParts& parts) { return parts.vertices + 15 * sizeof(TypeParam); },
+      "bricks", Reason::invalid_mesh,
+      [](const ColliderParts& parts) { return parts.vertices + 15 * sizeof(TypeParam); },
       [](Bytes& bytes, const ColliderParts& parts) {
         set_number(bytes, parts.vertices + 17 * sizeof(TypeParam), std::numeric_limits<TypeParam>::quiet_NaN());
       });
@@ -230,12 +233,13 @@ TYPED_TEST(InvalidFileOf, frames) {
     });
   }
   // There are not as many cells.
-  this->expect_refused("prop in a prop", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.cells; },
-                       [](Bytes& bytes, const ColliderParts& parts) {
-                         for (std::size_t axis = 0; axis < 3; ++axis) {
-                           set_number(bytes, parts.frames + 6 * sizeof(TypeParam) + 4 * axis, 2000U);
-                         }
-                       });
+  this->expect_refused(
+      "prop in a prop", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.cells; },
+      [](Bytes& bytes, const ColliderParts& parts) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          set_number(bytes, parts.frames + 6 * sizeof(TypeParam) + 4 * axis, 2000U);
+        }
+      });
 }
 
 TYPED_TEST(InvalidFileOf, cells) {
@@ -245,29 +249,29 @@ TYPED_TEST(InvalidFileOf, cells) {
   };
   this->expect_refused("one cell", Reason::invalid_grid, first, set_first(4));
   // The list is then that of no cell, and the triangle is in no list.
-  this->expect_refused("one cell", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.lists; },
-                       set_first(0));
-  this->expect_refused("one cell", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.cells + 1; },
-                       set_first(2));
+  this->expect_refused(
+      "one cell", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.lists; }, set_first(0));
+  this->expect_refused(
+      "one cell", Reason::wrong_counts, [](const ColliderParts& parts) { return parts.cells + 1; }, set_first(2));
   this->expect_refused("one cell", Reason::wrong_counts, first, set_first(3));
   // More than two levels of bricks.
-  this->expect_refused("bricks", Reason::invalid_grid, [](const ColliderParts& parts) { return parts.cells + 2; },
-                       [](Bytes& bytes, const ColliderParts& parts) {
-                         for (std::size_t i = 0; i < 3; ++i) bytes[parts.cells + i] = std::byte{2};
-                       });
+  this->expect_refused(
+      "bricks", Reason::invalid_grid, [](const ColliderParts& parts) { return parts.cells + 2; },
+      [](Bytes& bytes, const ColliderParts& parts) {
+        for (std::size_t i = 0; i < 3; ++i) bytes[parts.cells + i] = std::byte{2};
+      });
 }
 
 TYPED_TEST(InvalidFileOf, lists) {
   const auto first_list = [](const ColliderParts& parts) { return parts.lists; };
-  const auto last_list = [](const ColliderParts& parts) { return parts.entries; };
+  const auto behind_lists = [](const ColliderParts& parts) { return parts.entries; };
+  const auto last_entry = [](const ColliderParts& parts) { return parts.entries + 199 * parts.entry_width; };
   for (const std::uint32_t count : {0U, 201U, ~0U}) {
-    this->expect_refused("one cell", Reason::invalid_list, first_list, [&](Bytes& bytes, const ColliderParts& parts) {
-      set_number(bytes, parts.lists + 4, count);
-    });
+    this->expect_refused("one cell", Reason::invalid_list, first_list,
+                         [&](Bytes& bytes, const ColliderParts& parts) { set_number(bytes, parts.lists + 4, count); });
   }
-  this->expect_refused("one cell", Reason::wrong_counts, last_list, [](Bytes& bytes, const ColliderParts& parts) {
-    set_number(bytes, parts.lists + 4, 199U);
-  });
+  this->expect_refused("one cell", Reason::wrong_counts, behind_lists,
+                       [](Bytes& bytes, const ColliderParts& parts) { set_number(bytes, parts.lists + 4, 199U); });
   this->expect_refused("one cell", Reason::invalid_list, first_list, [](Bytes& bytes, const ColliderParts& parts) {
     set_number(bytes, parts.lists, 0U | 31U << 5 | 31U << 15 | 31U << 25 | 1U << 30);
   });
@@ -279,25 +283,21 @@ TYPED_TEST(InvalidFileOf, lists) {
   for (const std::uint32_t box : {1U | 31U << 5 | 31U << 15 | 31U << 25, 30U << 5 | 31U << 15 | 31U << 25,
                                   31U << 5 | 1U << 10 | 31U << 15 | 31U << 25, 31U << 5 | 31U << 15 | 30U << 25}) {
     this->expect_refused(
-        "one cell", Reason::invalid_list, last_list,
+        "one cell", Reason::invalid_list, last_entry,
         [&](Bytes& bytes, const ColliderParts& parts) { set_number(bytes, parts.lists, box); }, false);
   }
 }
 
 TYPED_TEST(InvalidFileOf, entries) {
-  const auto at = [](std::size_t entry) {
-    return [entry](const ColliderParts& parts) { return parts.entries + entry * parts.entry_width; };
-  };
+  const auto seventh = [](const ColliderParts& parts) { return parts.entries + 14; };
+  const auto last = [](const ColliderParts& parts) { return parts.entries + 398; };
   const auto set = [](std::size_t entry, std::uint16_t id) {
     return [=](Bytes& bytes, const ColliderParts& parts) { set_number(bytes, parts.entries + 2 * entry, id); };
   };
-  this->expect_refused("one cell", Reason::invalid_list, [](const ColliderParts& parts) { return parts.entries + 14; },
-                       set(7, 6));  // Twice the same.
-  this->expect_refused("one cell", Reason::invalid_list, [](const ColliderParts& parts) { return parts.entries + 14; },
-                       set(7, 5));
-  this->expect_refused("one cell", Reason::invalid_list, [](const ColliderParts& parts) { return parts.entries + 398; },
-                       set(199, 200));
-  static_cast<void>(at);
+  this->expect_refused("one cell", Reason::invalid_list, seventh, set(7, 6));
+  this->expect_refused("one cell", Reason::invalid_list, seventh, set(7, 5));
+  this->expect_refused("one cell", Reason::invalid_list, last, set(199, 200));
+  this->expect_refused("one cell", Reason::invalid_list, last, set(199, 60000));
 }
 
 /// Removes the first entry of some list, or adds one, and makes the counts right.

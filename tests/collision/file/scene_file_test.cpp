@@ -55,7 +55,8 @@ TYPED_TEST(SceneFile, answers_as_what_was_saved) {
   Random random(103);
   std::size_t hits = 0;
   for (std::size_t i = 0; i < case_count(10 * all_scene_families.size()); ++i) {
-    const DrawnScene<TypeParam> drawn = draw_scene<TypeParam>(all_scene_families[i % all_scene_families.size()], random);
+    const DrawnScene<TypeParam> drawn =
+        draw_scene<TypeParam>(all_scene_families[i % all_scene_families.size()], random);
     const JudgedScene<TypeParam> judged(drawn);
     const Bytes bytes = saved(judged.scene);
     const Scene<TypeParam> loaded = Scene<TypeParam>::load(bytes);
