@@ -40,10 +40,10 @@ TEST_F(SurehitQueryBake, masks_are_saved_and_replaced) {
   write("fewer", "1\n2\n4\n");
   bake("squares.obj -o saved --masks masks");
   expect_output("all saved paths --mask 4", "path,triangle,t,u,v,side,tie\n0,2,0.33333334,0.25,0.25,front,0\n");
-  expect_output("any saved paths --mask 10", "0\n");
-  expect_output("any saved paths --mask 10 --masks masks", "0\n");
+  expect_output("any saved paths --mask 10", "hit\n0\n");
+  expect_output("any saved paths --mask 10 --masks masks", "hit\n0\n");
   write("masks", "2\n2\n2\n2\n");
-  expect_output("any saved paths --mask 2 --masks masks", "1\n");
+  expect_output("any saved paths --mask 2 --masks masks", "hit\n1\n");
   expect_bad_input("any saved paths --masks fewer", "fewer: 3 masks for 4 triangles");
 }
 

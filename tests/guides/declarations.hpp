@@ -50,6 +50,9 @@ inline constexpr std::array<float, 4> turn = {0, 0.70710678F, 0, 0.70710678F};  
 inline constexpr std::uint32_t solid = 1;
 inline std::vector<surehit::SceneHitf> scene_hits(steps.size());
 
+// What writes bytes to a file.
+inline const auto file = [](std::span<const std::byte> /*bytes*/) { return true; };
+
 // A job system that does all tasks on this thread.
 inline const auto jobs = [](std::size_t count, const surehit::Executor::Task& task) {
   for (std::size_t i = 0; i < count; ++i) task(i);
