@@ -342,19 +342,96 @@ TYPED_TEST(InvalidFileOf, lists_that_are_not_complete) {
   }
 }
 
-/// An inner grid that has lost the first of its cells' triangles, or all of them.
-TYPED_TEST(InvalidFileOf, inner_grids_that_are_not_complete) {
+/// Each cell in turn counts as empty, and its list is gone with all entries.
+TYPED_TEST(InvalidFileOf, cells_that_have_lost_their_list) {
+  for (const char* const name : {"scattered", "bricks"}) {
+    const Bytes bytes = this->saved_mesh(name);
+    const ColliderParts parts(bytes);
+    std::size_t list = 0;
+    std::size_t first_entry = 0;
+    for (std::size_t cell = 0; cell < parts.cell_count; ++cell) {
+      if (bytes[parts.cells + cell] != std::byte{1}) continue;
+      const std::size_t record = parts.lists + 8 * list++;
+      const auto count = number_at<std::uint32_t>(bytes, record + 4);
+      const std::size_t entry = parts.entries + parts.entry_width * first_entry;
+      first_entry += count;
+      Bytes forged = bytes;
+      const auto at = [&](std::size_t offset) { return forged.begin() + static_cast<std::ptrdiff_t>(offset); };
+      forged.erase(at(entry), at(entry + count * parts.entry_width));
+      forged.erase(at(record), at(record + 8));
+      forged[parts.cells + cell] = std::byte{0};
+      set_number(forged, 76, static_cast<std::uint32_t>(parts.list_count - 1));
+      set_number(forged, 88, std::uint64_t{parts.entry_count - count});
+      repair(forged);
+      const LoadResult result = Collider<TypeParam>().try_load(forged);
+      ASSERT_FALSE(result) << name << ", cell " << cell;
+      EXPECT_EQ(result.error().reason, Reason::invalid_list);
+      EXPECT_TRUE(Collider<TypeParam>().try_load(forged, {.is_trusted = true}));
+    }
+    EXPECT_GT(list, 3U);
+  }
+}
+
+/// The list of a cell with an inner grid has the large triangles alone, but its box is around all.
+TYPED_TEST(InvalidFileOf, boxes_of_cells_with_inner_grids) {
   const Bytes bytes = this->saved_mesh("prop in a prop");
   const ColliderParts parts(bytes);
   ASSERT_GE(parts.frame_count, 3U);
-  std::size_t cell = parts.cells;
-  while (bytes[cell] != std::byte{3}) ++cell;
-  Bytes forged = bytes;
-  forged[cell] = std::byte{1};
+  std::size_t record = parts.lists;
+  for (std::size_t cell = parts.cells; bytes[cell] != std::byte{3}; ++cell) {
+    if (bytes[cell] == std::byte{1}) record += 8;
+  }
+  for (int side = 0; side < 6; ++side) {
+    Bytes forged = bytes;
+    const auto box = number_at<std::uint32_t>(bytes, record);
+    const std::uint32_t part = box >> 5 * side & 31;
+    const bool is_low = side % 2 == 0;
+    if (is_low ? part >= 31 : part == 0) continue;
+    const std::uint32_t moved = is_low ? box + (1U << 5 * side) : box - (1U << 5 * side);
+    set_number(forged, record, moved);
+    repair(forged);
+    const LoadResult result = Collider<TypeParam>().try_load(forged);
+    ASSERT_FALSE(result) << side;
+    EXPECT_EQ(result.error().reason, Reason::invalid_list);
+  }
+}
+
+/// A grid in a grid, and so on, each of one cell.
+TYPED_TEST(InvalidFileOf, inner_grids_that_lie_too_deep) {
+  const Bytes bytes = this->saved_mesh("one triangle");
+  const ColliderParts parts(bytes);
+  for (const std::size_t depth : {4U, 5U}) {
+    Bytes forged(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(parts.frames));
+    const auto append = [&](std::size_t first, std::size_t last) {
+      forged.insert(forged.end(), bytes.begin() + static_cast<std::ptrdiff_t>(first),
+                    bytes.begin() + static_cast<std::ptrdiff_t>(last));
+    };
+    for (std::size_t i = 0; i <= depth; ++i) append(parts.frames, parts.cells);
+    forged.insert(forged.end(), depth, std::byte{3});
+    forged.push_back(std::byte{1});
+    for (std::size_t i = 0; i < depth; ++i) {
+      append(parts.lists, parts.lists + 4);
+      forged.insert(forged.end(), 4, std::byte{0});
+    }
+    append(parts.lists, bytes.size());
+    set_number(forged, 72, static_cast<std::uint32_t>(depth + 1));
+    set_number(forged, 76, static_cast<std::uint32_t>(depth + 1));
+    set_number(forged, 80, std::uint64_t{depth + 1});
+    repair(forged);
+    EXPECT_EQ(Collider<TypeParam>().try_load(forged, {.is_trusted = true}).has_value(), depth <= 4);
+    EXPECT_FALSE(Collider<TypeParam>().try_load(forged));  // The triangle is not small.
+  }
+}
+
+TYPED_TEST(InvalidFileOf, masks_of_some_triangles_alone) {
+  Bytes forged = this->saved_mesh("bricks");
+  const ColliderParts parts(forged);
+  forged.insert(forged.begin() + static_cast<std::ptrdiff_t>(parts.masks), 8, std::byte{1});
+  set_number(forged, 40, std::uint64_t{2});
   repair(forged);
-  LoadResult result = Collider<TypeParam>().try_load(forged);
+  const LoadResult result = Collider<TypeParam>().try_load(forged);
   ASSERT_FALSE(result);
-  EXPECT_TRUE(result.error().reason == Reason::invalid_grid || result.error().reason == Reason::invalid_list);
+  EXPECT_EQ(result.error().reason, Reason::wrong_counts);
 }
 
 }  // namespace
