@@ -149,7 +149,7 @@ class SUREHIT_API Collider {
   ///
   /// The bytes may come from anyone. Whatever they are, the result is an error that says where the fault is, or a
   /// collider whose answers are those of its mesh. For this, all cells of all triangles are found anew, so a load takes
-  /// most of the time of a build. `LoadOptions::is_trusted` leaves this out.
+  /// about as long as a build. `LoadOptions::is_trusted` leaves this out.
   ///
   /// Fails for anything that `save` does not write. May throw std::bad_alloc. After any failure, the collider is as
   /// before. Takes time and memory linear in the bytes. The bytes may change after the load.

@@ -300,45 +300,50 @@ TYPED_TEST(InvalidFileOf, entries) {
   this->expect_refused("one cell", Reason::invalid_list, last, set(199, 60000));
 }
 
-/// Removes the first entry of some list, or adds one, and makes the counts right.
-TYPED_TEST(InvalidFileOf, lists_that_are_not_complete) {
+/// Removes an entry of each list, or adds one in front or behind, and makes the counts right.
+TYPED_TEST(InvalidFileOf, lists_that_are_not_those_of_a_build) {
   for (const char* const name : {"scattered", "bricks", "prop", "prop in bricks", "prop in a prop"}) {
     const Bytes bytes = this->saved_mesh(name);
     const ColliderParts parts(bytes);
+    const auto last_triangle = static_cast<std::uint16_t>(parts.triangle_count - 1);
     std::size_t first_entry = 0;
+    std::size_t behind = 0;
     for (std::size_t list = 0; list < parts.list_count; ++list) {
-      const auto count = number_at<std::uint32_t>(bytes, parts.lists + 8 * list + 4);
-      const std::size_t at = parts.entries + first_entry * parts.entry_width;
-      first_entry += count;
-      if (count < 2) continue;
       SCOPED_TRACE(std::string(name) + ", list " + std::to_string(list));
-      const auto changed = [&](std::uint32_t new_count, bool adds) {
-        Bytes forged = bytes;
-        set_number(forged, parts.lists + 8 * list + 4, new_count);
-        set_number(forged, 88, std::uint64_t{adds ? parts.entry_count + 1 : parts.entry_count - 1});
-        const auto entry = forged.begin() + static_cast<std::ptrdiff_t>(at);
-        const std::vector<std::byte> lowest(2, std::byte{0});
-        if (adds) {
-          forged.insert(entry, lowest.begin(), lowest.end());
-        } else {
-          forged.erase(entry, entry + 2);
-        }
+      const std::size_t record = parts.lists + 8 * list + 4;
+      const auto count = number_at<std::uint32_t>(bytes, record);
+      const std::size_t first = parts.entries + 2 * first_entry;
+      const std::size_t last = first + 2 * count;
+      first_entry += count;
+      const auto expect_found = [&](Bytes forged, std::uint32_t new_count, std::size_t offset) {
+        set_number(forged, record, new_count);
+        set_number(forged, 88, std::uint64_t{parts.entry_count + new_count - count});
         repair(forged);
+        const LoadResult result = Collider<TypeParam>().try_load(forged);
+        ASSERT_FALSE(result);
+        EXPECT_EQ(result.error().reason, Reason::invalid_list);
+        EXPECT_EQ(result.error().offset, offset) << result.error().what();
+        EXPECT_TRUE(Collider<TypeParam>().try_load(forged, {.is_trusted = true}));
+      };
+      const auto with = [&](std::size_t offset, std::uint16_t id) {
+        Bytes forged = bytes;
+        forged.insert(forged.begin() + static_cast<std::ptrdiff_t>(offset), 2, std::byte{0});
+        set_number(forged, offset, id);
         return forged;
       };
-      Bytes forged = changed(count - 1, false);
-      LoadResult result = Collider<TypeParam>().try_load(forged);
-      ASSERT_FALSE(result);
-      EXPECT_EQ(result.error().reason, Reason::invalid_list);
-      EXPECT_EQ(result.error().offset, at);
-      EXPECT_TRUE(Collider<TypeParam>().try_load(forged, {.is_trusted = true}));
-      if (number_at<std::uint16_t>(bytes, at) == 0) continue;
-      forged = changed(count + 1, true);
-      result = Collider<TypeParam>().try_load(forged);
-      ASSERT_FALSE(result);
-      EXPECT_EQ(result.error().reason, Reason::invalid_list);
-      EXPECT_EQ(result.error().offset, at);
+      if (count > 1) {
+        Bytes forged = bytes;
+        const auto entry = forged.begin() + static_cast<std::ptrdiff_t>(first);
+        forged.erase(entry, entry + 2);
+        expect_found(forged, count - 1, first);
+      }
+      if (count > 0 && number_at<std::uint16_t>(bytes, first) > 0) expect_found(with(first, 0), count + 1, first);
+      if (count > 0 && number_at<std::uint16_t>(bytes, last - 2) < last_triangle) {
+        expect_found(with(last, last_triangle), count + 1, last);
+        ++behind;
+      }
     }
+    EXPECT_GT(behind, 3U);
   }
 }
 
