@@ -1,0 +1,40 @@
+# The C headers for double are those for float with other names and types. With -D WRITE=ON it writes them, and
+# clang-format then breaks their lines. Without it, it compares those that are there.
+set(folder "${CMAKE_CURRENT_LIST_DIR}/../../../collision/include/surehit/c")
+set(stems "accept_hit|batch_options|box|collider|filter|hit|mesh|path|paths|pose|query_options|scene|scene_hit|triangle|vector3")
+
+# What line breaks and the width of a comment cannot change.
+function(without_breaks text result)
+  string(REGEX REPLACE "[ \n/]" "" text "${text}")
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+file(GLOB headers "${folder}/*_f.h")
+if(NOT headers)
+  message(FATAL_ERROR "no headers for float in ${folder}")
+endif()
+foreach(header IN LISTS headers)
+  file(READ "${header}" text)
+  # A list of CMake is not made of text with these.
+  string(REPLACE "[" "<open>" text "${text}")
+  string(REPLACE "]" "<close>" text "${text}")
+  string(REGEX REPLACE "(${stems})f([^a-z0-9])" "\\1d\\2" text "${text}")
+  string(REGEX REPLACE "float([*]| [a-z_]+;)" "double\\1" text "${text}")
+  string(REPLACE "in float.\n" "in double.\n" text "${text}")
+  string(REPLACE "_f.h\"" "_d.h\"" text "${text}")
+  string(REPLACE "_F_H" "_D_H" text "${text}")
+  string(REPLACE "<open>" "[" text "${text}")
+  string(REPLACE "<close>" "]" text "${text}")
+  string(REPLACE "_f.h" "_d.h" double_header "${header}")
+  if(WRITE)
+    file(WRITE "${double_header}" "${text}")
+    continue()
+  endif()
+  file(READ "${double_header}" written)
+  without_breaks("${text}" text)
+  without_breaks("${written}" written)
+  if(NOT written STREQUAL text)
+    message(FATAL_ERROR "${double_header} is not that for float with other names and types: run\n"
+      "cmake -D WRITE=ON -P ${CMAKE_CURRENT_LIST_FILE} && clang-format -i ${folder}/*_d.h")
+  endif()
+endforeach()
