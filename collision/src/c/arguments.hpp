@@ -2,8 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <type_traits>
@@ -79,9 +79,15 @@ class Arguments {
     if (object == nullptr) refuse(SUREHIT_INVALID_HANDLE, 0, "%s was destroyed, or is of another kind", name);
     return object;
   }
+  /// Returns a share of what a handle stands for. Fails, and returns null, as `object_of` does.
+  template <typename Object>
+  [[nodiscard]] std::shared_ptr<Object> share_of(const void* handle, const char* name) noexcept {
+    if (object_of<Object>(handle, name) == nullptr) return nullptr;
+    return static_cast<const Handle*>(handle)->template share<Object>();
+  }
 
-  /// Returns a struct that begins with its size, with 0 for what an older version lacks. Null is a struct of zeros.
-  /// Fails if the size is that of no version, or if a newer version has more than zeros in what is unknown here.
+  /// Returns a struct that begins with its size. Null is a struct of zeros. Fails if the size is that of no version, or
+  /// if a newer version has more than zeros in what is unknown here.
   template <typename Struct>
   [[nodiscard]] Struct read_sized(const Struct* given, const char* name) noexcept {
     Struct result = {};
