@@ -1,0 +1,271 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "c_functions.hpp"
+#include "c_values.hpp"
+#include "support/case_count.hpp"
+#include "support/same_bits.hpp"
+#include "support/scalars.hpp"
+#include "support/scene_drawer.hpp"
+#include "surehit/scene.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// A drawn scene in C. Its instances have the ids of the same scene in C++.
+template <typename Scalar>
+class CSceneOf {
+ public:
+  using C = CFunctions<Scalar>;
+
+  explicit CSceneOf(const DrawnScene<Scalar>& drawn) {
+    EXPECT_EQ(C::create_scene(&handle), SUREHIT_OK);
+    for (const auto& [index, placement] : drawn.instances) {
+      const DrawnMesh& mesh = drawn.meshes[index];
+      surehit_instance_id id = {};
+      const auto pose = in_c(placement.pose);
+      if constexpr (std::is_same_v<Scalar, double>) {
+        if (mesh.is_float) {
+          auto* const collider = made<float>(mesh);
+          EXPECT_EQ(surehit_scened_add_colliderf(handle, collider, &pose, placement.mask, ids.size(), &id), SUREHIT_OK);
+          EXPECT_EQ(surehit_colliderf_destroy(collider), SUREHIT_OK);
+        }
+      }
+      if (std::is_same_v<Scalar, float> || !mesh.is_float) {
+        auto* const collider = made<Scalar>(mesh);
+        EXPECT_EQ(C::add(handle, collider, &pose, placement.mask, ids.size(), &id), SUREHIT_OK);
+        EXPECT_EQ(C::destroy(collider), SUREHIT_OK);  // The scene keeps it.
+      }
+      const auto motion = in_c(placement.motion);
+      EXPECT_EQ(C::set_motion(handle, id, &motion), SUREHIT_OK);
+      ids.push_back(id);
+    }
+    EXPECT_EQ(C::commit(handle, nullptr), SUREHIT_OK);
+  }
+  ~CSceneOf() { EXPECT_EQ(C::destroy_scene(handle), SUREHIT_OK); }
+  CSceneOf(const CSceneOf&) = delete;
+  CSceneOf& operator=(const CSceneOf&) = delete;
+
+  typename C::SceneHandle* handle = nullptr;
+  std::vector<surehit_instance_id> ids;
+
+ private:
+  static typename C::Pose in_c(const Pose<Scalar>& pose) {
+    return {test::in_c(Vector3<Scalar>(pose.linear.col(0))), test::in_c(Vector3<Scalar>(pose.linear.col(1))),
+            test::in_c(Vector3<Scalar>(pose.linear.col(2))), test::in_c(pose.translation)};
+  }
+  static typename C::Vector in_c(const Vector3<Scalar>& x) { return test::in_c(x); }
+
+  template <typename MeshScalar>
+  static auto* made(const DrawnMesh& mesh) {
+    std::vector<MeshScalar> numbers;
+    for (const auto& vertex : mesh.vertices) {
+      for (const double x : vertex) numbers.push_back(static_cast<MeshScalar>(x));
+    }
+    const typename CFunctions<MeshScalar>::Mesh given = {
+        numbers.data(), numbers.size() / 3, 0, mesh.triangles.data(), mesh.triangles.size(), 0, 4};
+    surehit_build_options options = {};
+    options.size = sizeof options;
+    options.masks = mesh.masks.data();
+    options.mask_count = mesh.masks.size();
+    typename CFunctions<MeshScalar>::ColliderHandle* collider = nullptr;
+    EXPECT_EQ(CFunctions<MeshScalar>::create(&given, &options, &collider), SUREHIT_OK) << surehit_last_error();
+    return collider;
+  }
+};
+
+template <typename Scalar>
+class CScene : public testing::Test {
+ protected:
+  using C = CFunctions<Scalar>;
+
+  static std::int32_t accept(void* user, std::size_t path, const typename C::SceneHit* hit) {
+    const auto modulus = *static_cast<const std::uint32_t*>(user);
+    return (hit->triangle + hit->instance.index + path) % modulus != 0 ? SUREHIT_ACCEPT : SUREHIT_REJECT;
+  }
+  static auto filter_of(std::uint32_t modulus) {
+    return [modulus](std::size_t path, const SceneHit<Scalar>& hit) {
+      return (hit.triangle + hit.instance.index + path) % modulus != 0;
+    };
+  }
+
+  /// Returns true if there is a hit.
+  static bool expect_same(const CSceneOf<Scalar>& c, const Scene<Scalar>& cpp, const Path<Scalar>& path,
+                          const SceneQueryOptions<Scalar>& options, std::uint32_t modulus) {
+    const auto filter = filter_of(modulus);
+    const typename C::SceneFilter c_filter = {accept, &modulus};
+    const auto c_path = in_c(path);
+    const auto c_options = in_c(options);
+    typename C::SceneHit c_hit;
+    std::uint8_t blocked = 2;
+    std::array<typename C::SceneHit, 300> c_hits;
+    std::vector<SceneHit<Scalar>> hits;
+    std::size_t count = 0;
+    EXPECT_EQ(C::scene_first_hit(c.handle, &c_path, &c_options, &c_filter, nullptr, &c_hit), SUREHIT_OK);
+    const auto hit = cpp.first_hit(path, filter, options);
+    EXPECT_TRUE(same_bits(in_cpp(c_hit), hit.value_or(SceneHit<Scalar>{})));
+    EXPECT_EQ(C::scene_any_hit(c.handle, &c_path, &c_options, &c_filter, nullptr, &blocked), SUREHIT_OK);
+    EXPECT_EQ(blocked, hit ? 1 : 0);
+    cpp.all_hits(path, hits, filter, options);
+    EXPECT_EQ(
+        C::scene_all_hits(c.handle, &c_path, &c_options, &c_filter, nullptr, c_hits.data(), c_hits.size(), &count),
+        SUREHIT_OK);
+    EXPECT_EQ(count, hits.size());
+    for (std::size_t i = 0; i < std::min(count, c_hits.size()); ++i) EXPECT_TRUE(same_bits(in_cpp(c_hits[i]), hits[i]));
+    if (!hit || path.kind != PathKind::segment) return hit.has_value();
+    typename C::Vector point;
+    EXPECT_EQ(C::scene_last_free_point(c.handle, &c_path, &c_hit, &c_options, &c_filter, &point), SUREHIT_OK);
+    const auto free = cpp.last_free_point({path.start, path.toward}, *hit, filter, options);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) EXPECT_TRUE(same_bits(in_cpp(point)[axis], free[axis]));
+    return true;
+  }
+
+  static void expect_same_batch(const CSceneOf<Scalar>& c, const Scene<Scalar>& cpp,
+                                const std::vector<Segment<Scalar>>& segments,
+                                const std::vector<SceneQueryOptions<Scalar>>& options) {
+    std::vector<typename C::SceneOptions> c_options;
+    for (const auto& own : options) c_options.push_back(in_c(own));
+    std::uint32_t modulus = 4;
+    const typename C::SceneFilter c_filter = {accept, &modulus};
+    const typename C::SceneBatchOptions batch = {sizeof batch, nullptr, c_options.data(), &c_filter, nullptr, nullptr};
+    const typename C::Paths paths = {segments[0].start.data(), nullptr, segments.size(), 0, 0, SUREHIT_SEGMENT};
+    std::vector<typename C::SceneHit> c_hits(segments.size());
+    std::vector<SceneHit<Scalar>> hits(segments.size());
+    std::vector<std::uint8_t> blocked(segments.size(), 2);
+    EXPECT_EQ(C::scene_first_hits(c.handle, &paths, &batch, c_hits.data()), SUREHIT_OK) << surehit_last_error();
+    EXPECT_EQ(C::scene_any_hits(c.handle, &paths, &batch, blocked.data()), SUREHIT_OK);
+    cpp.first_hits(segments, hits, {.path_options = options, .filter = filter_of(modulus)});
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      EXPECT_TRUE(same_bits(in_cpp(c_hits[i]), hits[i]));
+      EXPECT_EQ(blocked[i], hits[i].triangle != no_triangle ? 1 : 0);
+    }
+  }
+
+  static void expect_same_instance(const CSceneOf<Scalar>& c, const Scene<Scalar>& cpp, std::size_t i, InstanceId id) {
+    ASSERT_EQ(c.ids[i].index, id.index);
+    ASSERT_EQ(c.ids[i].generation, id.generation);
+    std::size_t count = 0;
+    std::uint64_t user_data = 0;
+    typename C::Pose pose;
+    typename C::Vector vector;
+    typename C::Triangle corners;
+    EXPECT_EQ(C::user_data(c.handle, c.ids[i], &user_data), SUREHIT_OK);
+    EXPECT_EQ(user_data, i);
+    EXPECT_EQ(C::pose(c.handle, c.ids[i], &pose), SUREHIT_OK);
+    EXPECT_EQ(in_cpp(pose.y_axis), cpp.pose(id).linear.col(1));
+    EXPECT_EQ(C::motion(c.handle, c.ids[i], &vector), SUREHIT_OK);
+    EXPECT_EQ(in_cpp(vector), cpp.motion(id));
+    ASSERT_EQ(C::instance_triangle_count(c.handle, c.ids[i], &count), SUREHIT_OK);
+    ASSERT_EQ(count, cpp.triangle_count(id));
+    if (count == 0) return;
+    EXPECT_EQ(C::placed_triangle(c.handle, c.ids[i], 0, &corners), SUREHIT_OK);
+    EXPECT_EQ(in_cpp(corners.c), cpp.triangle(id, 0).c);
+    EXPECT_EQ(C::placed_normal(c.handle, c.ids[i], 0, &vector), SUREHIT_OK);
+    EXPECT_EQ(in_cpp(vector), cpp.normal(id, 0));
+    EXPECT_EQ(C::placed_normal(c.handle, c.ids[i], static_cast<std::uint32_t>(count), &vector), SUREHIT_OUT_OF_RANGE);
+  }
+};
+TYPED_TEST_SUITE(CScene, Scalars, ScalarNames);
+
+TYPED_TEST(CScene, answers_have_the_bits_of_cpp) {
+  using C = CFunctions<TypeParam>;
+  std::size_t hits = 0;
+  for (const SceneFamily family : all_scene_families) {
+    Random random(static_cast<std::uint64_t>(family));
+    for (std::size_t i = case_count(8); i > 0; --i) {
+      const auto drawn = draw_scene<TypeParam>(family, random);
+      const JudgedScene<TypeParam> judged(drawn);
+      const CSceneOf<TypeParam> c(drawn);
+      ScenePathDrawer<TypeParam> drawer(drawn, judged.oracle, judged.ids, random);
+      std::vector<Segment<TypeParam>> segments;
+      std::vector<SceneQueryOptions<TypeParam>> options;
+      for (int j = 0; j < 30; ++j) {
+        const Path<TypeParam> path = drawer.draw();
+        const auto hit = judged.scene.first_hit(path);
+        options.push_back(hit ? draw_scene_options(*hit, random) : SceneQueryOptions<TypeParam>{});
+        segments.push_back({path.start, path.toward});
+        hits += this->expect_same(c, judged.scene, path, {}, 5) ? 1 : 0;
+        this->expect_same(c, judged.scene, path, options.back(), 3);
+      }
+      this->expect_same_batch(c, judged.scene, segments, options);
+      for (std::size_t j = 0; j < judged.ids.size(); ++j) this->expect_same_instance(c, judged.scene, j, judged.ids[j]);
+      typename C::Box box;
+      ASSERT_EQ(C::scene_box(c.handle, &box), SUREHIT_OK);
+      EXPECT_EQ(in_cpp(box.low), judged.scene.box().low);
+      EXPECT_EQ(in_cpp(box.high), judged.scene.box().high);
+      ASSERT_FALSE(testing::Test::HasFailure()) << name_of(family);
+    }
+  }
+  EXPECT_GT(hits, 10U);
+}
+
+TYPED_TEST(CScene, refuses_what_cpp_refuses) {
+  using C = CFunctions<TypeParam>;
+  typename C::SceneHandle* scene = nullptr;
+  typename C::ColliderHandle* collider = nullptr;
+  ASSERT_EQ(C::create_scene(&scene), SUREHIT_OK);
+  ASSERT_EQ(C::create(nullptr, nullptr, &collider), SUREHIT_OK);
+  surehit_instance_id id = {};
+  EXPECT_EQ(C::add(scene, nullptr, nullptr, 1, 0, &id), SUREHIT_NULL_POINTER);
+  EXPECT_EQ(C::add(scene, collider, nullptr, 1, 0, nullptr), SUREHIT_NULL_POINTER);
+  EXPECT_EQ(C::create_scene(nullptr), SUREHIT_NULL_POINTER);
+
+  // Element i of a pose is the number at place i of its struct.
+  for (std::size_t i = 0; i < 12; ++i) {
+    auto pose = C::identity();
+    TypeParam* const numbers = &pose.x_axis.x;
+    numbers[i] = std::numeric_limits<TypeParam>::infinity();
+    EXPECT_EQ(C::add(scene, collider, &pose, 1, 0, &id), SUREHIT_NON_FINITE_POSE);
+    EXPECT_EQ(surehit_last_error_element(), i);
+  }
+  auto pose = C::identity();
+  ASSERT_EQ(C::add(scene, collider, &pose, 1, 0, &id), SUREHIT_OK);
+  pose.z_axis.x = TypeParam(0x1p65);
+  EXPECT_EQ(C::set_pose(scene, id, &pose), SUREHIT_POSE_OUT_OF_RANGE);
+  EXPECT_EQ(surehit_last_error_element(), 6U);
+  pose.z_axis = {0, 0, 0};
+  EXPECT_EQ(C::set_pose(scene, id, &pose), SUREHIT_SINGULAR_POSE);
+  EXPECT_EQ(C::set_pose(scene, id, nullptr), SUREHIT_NULL_POINTER);
+  typename C::Vector motion = {0, std::numeric_limits<TypeParam>::quiet_NaN(), 0};
+  EXPECT_EQ(C::set_motion(scene, id, &motion), SUREHIT_NON_FINITE_MOTION);
+  EXPECT_EQ(surehit_last_error_element(), 1U);
+  EXPECT_EQ(C::set_motion(scene, id, nullptr), SUREHIT_NULL_POINTER);
+
+  ASSERT_EQ(C::remove(scene, id), SUREHIT_OK);
+  std::uint32_t mask = 0;
+  for (const surehit_status status :
+       {C::remove(scene, id), C::set_pose(scene, id, &pose), C::set_instance_mask(scene, id, 1),
+        C::instance_mask(scene, id, &mask), C::pose(scene, id, &pose), C::motion(scene, id, &motion),
+        C::placed_normal(scene, {7, 0}, 0, &motion)}) {
+    EXPECT_EQ(status, SUREHIT_STALE_ID);
+  }
+  EXPECT_EQ(surehit_last_error_element(), 7U);
+  EXPECT_EQ(C::destroy(collider), SUREHIT_OK);
+  EXPECT_EQ(C::commit(scene, nullptr), SUREHIT_OK);
+  EXPECT_EQ(C::destroy_scene(scene), SUREHIT_OK);
+  EXPECT_EQ(C::commit(scene, nullptr), SUREHIT_INVALID_HANDLE);
+}
+
+TYPED_TEST(CScene, poses_are_those_of_cpp) {
+  using C = CFunctions<TypeParam>;
+  Random random(3);
+  for (int i = 0; i < 100; ++i) {
+    const std::array<TypeParam, 4> q = {random.symmetric<TypeParam>(), random.symmetric<TypeParam>(),
+                                        random.symmetric<TypeParam>(), random.symmetric<TypeParam>()};
+    const auto expected = Pose<TypeParam>::rigid(q, {1, 2, 3});
+    const auto pose = C::rigid(q[0], q[1], q[2], q[3], {1, 2, 3});
+    EXPECT_EQ(in_cpp(pose.x_axis), expected.linear.col(0));
+    EXPECT_EQ(in_cpp(pose.y_axis), expected.linear.col(1));
+    EXPECT_EQ(in_cpp(pose.z_axis), expected.linear.col(2));
+    EXPECT_EQ(in_cpp(pose.translation), expected.translation);
+  }
+}
+
+}  // namespace
+}  // namespace surehit::test
