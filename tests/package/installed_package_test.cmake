@@ -18,3 +18,9 @@ endforeach()
 
 configure_consumer("-DCMAKE_PREFIX_PATH=${TEST_FOLDER}/moved")
 build_and_run_consumer()
+
+# So does a project in C, which has no C++ compiler.
+run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/c_consumer" -B "${TEST_FOLDER}/c_build" -G "${GENERATOR}"
+  "-DCMAKE_C_COMPILER=${C_COMPILER}" "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}" "-DCMAKE_PREFIX_PATH=${TEST_FOLDER}/moved")
+run("${CMAKE_COMMAND}" --build "${TEST_FOLDER}/c_build" --parallel 1)
+run("${TEST_FOLDER}/c_build/c_consumer")

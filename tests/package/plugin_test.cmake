@@ -1,4 +1,5 @@
-# A plugin that holds a static copy of the library links, works by pkg-config's flags, and shows nobody that copy.
+# A plugin that holds a static copy of the library links, works by pkg-config's flags, and shows nobody that copy. A program
+# in C links by the same flags.
 include("${CMAKE_CURRENT_LIST_DIR}/consumer_project.cmake")
 
 file(REMOVE_RECURSE "${TEST_FOLDER}")
@@ -46,6 +47,10 @@ run("${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${TEST_FOLDER}" "${TEST_FOLDER}/h
 
 execute_process(COMMAND "${NM}" --dynamic --defined-only --demangle "${TEST_FOLDER}/libplugin.so"
   OUTPUT_VARIABLE exported COMMAND_ERROR_IS_FATAL ANY)
-if(NOT exported MATCHES " hits" OR exported MATCHES "[^\n]*surehit::[^\n]*")
+if(NOT exported MATCHES " hits" OR exported MATCHES "[^\n]*surehit(::|_)[^\n]*")
   message(FATAL_ERROR "the plugin exports ${CMAKE_MATCH_0} of:\n${exported}")
 endif()
+
+# A program in C needs no more flags, and no C++ compiler.
+run("${C_COMPILER}" -std=c99 "${SOURCE_FOLDER}/tests/collision/c/c99_collider_test.c" -o "${TEST_FOLDER}/c_program" ${flags})
+run("${TEST_FOLDER}/c_program")
