@@ -20,7 +20,7 @@ replays one is printed.
 USAGE
 }
 
-targets=(pair collider mesh_readers command_line saved_file)
+targets=(pair collider c_interface mesh_readers command_line saved_file)
 wanted=("${targets[@]}")
 mode=
 seed=1
@@ -75,6 +75,7 @@ limits_of() {
   case "$1" in
     pair) echo -max_len=128 ;;
     collider) echo -max_len=192 ;;
+    c_interface) echo -max_len=1024 ;;
     mesh_readers) echo -max_len=2048 -malloc_limit_mb=64 "-dict=$root/tests/fuzz/mesh_readers.dict" ;;
     saved_file) echo -max_len=4096 -malloc_limit_mb=64 ;;
     command_line) echo -max_len=1024 -malloc_limit_mb=64 "-dict=$root/tests/fuzz/command_line.dict" ;;
