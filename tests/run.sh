@@ -85,6 +85,7 @@ step .ci/install_packages.sh library examples tests benchmarks || finish
 # Where it cannot be had, CMake finds none, and builds without it.
 .ci/install_packages.sh mpi || left_out+=("visibility_bake with MPI: its package cannot be installed")
 if ! $quick; then
+  .ci/install_packages.sh languages || left_out+=("the guide's programs in Rust and C#: their compilers cannot be installed")
   .ci/install_packages.sh web || left_out+=("WebAssembly: its packages cannot be installed")
   command -v npm >/dev/null || .ci/install_packages.sh npm || left_out+=("the comparison with three.js: npm cannot be installed")
   { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null ||

@@ -18,6 +18,18 @@ if(shared_library)
   elseif(exported MATCHES "[^\n]*(hwy|surehit::(c|Grid|MeshBlocks|ClippedPath|FloatingPointEnvironment))::[^\n]*")
     message(FATAL_ERROR "the shared library exports ${CMAKE_MATCH_0}")
   endif()
+
+  # A program in C# finds it by its name.
+  if(CSHARP_COMPILER)
+    run("${CSHARP_COMPILER}" -unsafe "-out:${TEST_FOLDER}/program.exe" "${CSHARP_PROGRAM}.cs")
+    get_filename_component(library_folder "${shared_library}" DIRECTORY)
+    execute_process(COMMAND "${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${library_folder}" "${MONO}" "${TEST_FOLDER}/program.exe"
+      OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
+    file(READ "${CSHARP_PROGRAM}.txt" expected)
+    if(NOT printed STREQUAL expected)
+      message(FATAL_ERROR "the program in C# prints:\n${printed}")
+    endif()
+  endif()
 endif()
 
 run("${CMAKE_COMMAND}" --install "${TEST_FOLDER}/build" --prefix "${TEST_FOLDER}/installed")

@@ -11,6 +11,13 @@
 #include "c/handle.hpp"
 #include "surehit/c/status.h"
 
+// Lets the compiler compare a format with its arguments, where the system has the formats of C99.
+#if defined(_WIN32)
+#define SUREHIT_FORMAT(text, first)
+#else
+#define SUREHIT_FORMAT(text, first) [[gnu::format(printf, text, first)]]
+#endif
+
 namespace surehit::c {
 
 /// Checks the arguments of a call. The first failure counts: it is kept as the last error of the thread, and later
@@ -26,8 +33,8 @@ class Arguments {
   [[nodiscard]] surehit_status status() const noexcept { return status_; }
 
   /// Fails, unless something has failed before. The message is made as by printf.
-  [[gnu::format(printf, 4, 5), gnu::cold]] void refuse(surehit_status status, std::size_t element, const char* format,
-                                                       ...) noexcept;
+  SUREHIT_FORMAT(4, 5)
+  [[gnu::cold]] void refuse(surehit_status status, std::size_t element, const char* format, ...) noexcept;
 
   /// Fails if the address is null, or is none that a T can have.
   template <typename T>

@@ -101,7 +101,7 @@ surehit_status box_of_mesh(const char* function, const typename Structs<Scalar>:
 }  // namespace
 
 #define SUREHIT_PAIR_FUNCTIONS(Scalar, s)                                                                              \
-  surehit_query_options##s surehit_query_options##s##_default(void) {                                                  \
+  surehit_query_options##s surehit_query_options##s##_default() {                                                      \
     const surehit::QueryOptions<Scalar> options;                                                                       \
     return {options.min_t,                                                                                             \
             options.max_t,                                                                                             \

@@ -138,11 +138,11 @@ template <typename Scalar, typename Result, typename Get>
 }  // namespace
 
 #define SUREHIT_SCENE_FUNCTIONS(Scalar, s)                                                                             \
-  surehit_pose##s surehit_pose##s##_identity(void) { return pose_to_c(Pose<Scalar>()); }                               \
+  surehit_pose##s surehit_pose##s##_identity() { return pose_to_c(Pose<Scalar>()); }                                   \
   surehit_pose##s surehit_pose##s##_rigid(Scalar x, Scalar y, Scalar z, Scalar w, surehit_vector3##s translation) {    \
     return pose_to_c(Pose<Scalar>::rigid(std::array<Scalar, 4>{x, y, z, w}, from_c(translation)));                     \
   }                                                                                                                    \
-  surehit_scene_query_options##s surehit_scene_query_options##s##_default(void) {                                      \
+  surehit_scene_query_options##s surehit_scene_query_options##s##_default() {                                          \
     const SceneQueryOptions<Scalar> options;                                                                           \
     return {options.min_t,                                                                                             \
             options.max_t,                                                                                             \

@@ -15,13 +15,13 @@ LastError& last_error() noexcept {
 
 extern "C" {
 
-const char* surehit_last_error(void) { return last_error().message; }
+const char* surehit_last_error() { return last_error().message; }
 
-surehit_status surehit_last_error_status(void) { return last_error().status; }
+surehit_status surehit_last_error_status() { return last_error().status; }
 
-std::size_t surehit_last_error_element(void) { return last_error().element; }
+std::size_t surehit_last_error_element() { return last_error().element; }
 
-std::uint32_t surehit_version(void) {
+std::uint32_t surehit_version() {
   return 1'000'000 * SUREHIT_VERSION_MAJOR + 1'000 * SUREHIT_VERSION_MINOR + SUREHIT_VERSION_PATCH;
 }
 

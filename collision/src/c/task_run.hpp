@@ -56,7 +56,9 @@ class TaskRun {
   std::unique_ptr<std::atomic<bool>[]> is_begun_;  ///< One for each task, or null if there is no memory for them.
   std::atomic<std::size_t> done_ = 0;
   std::atomic<bool> has_error_ = false;
+#if defined(__cpp_exceptions)
   std::exception_ptr error_;  ///< What the first task that threw has thrown.
+#endif
 };
 
 /// Fails unless the executor can be called. Null is allowed.

@@ -18,7 +18,7 @@
 #define SUREHIT_C_ABI 1
 
 /// Marks a function that a shared library exports.
-#if defined(SUREHIT_SHARED) && defined(__GNUC__)
+#if defined(SUREHIT_SHARED) && defined(__GNUC__) && !defined(_WIN32)
 #define SUREHIT_C_API __attribute__((visibility("default")))
 #else
 #define SUREHIT_C_API
