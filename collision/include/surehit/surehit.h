@@ -12,8 +12,8 @@
 ///   changes no result, except where a function says so. `surehit_last_error` says what is wrong, in one line.
 /// - A pointer to options, a filter, statistics or an executor may be null, for none. Other pointers may not, except
 ///   where their comment says so. The library never keeps a pointer after a call.
-/// - A struct with a member `size` may grow. Set it to the struct's size, and all other members to 0 or as you like.
-///   0 is the default of each of them. So programs and libraries of different versions work together.
+/// - A struct with a member `size` may grow. Set it to the size of the struct. Each other member may be 0, which is its
+///   default. So programs and libraries of different versions work together.
 /// - No exception leaves a function. Queries may run in many threads at the same time. No query may run while its
 ///   collider changes or its scene commits. An invalid pointer that is not null cannot be told.
 

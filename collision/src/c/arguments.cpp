@@ -29,11 +29,15 @@ void Arguments::refuse(surehit_status status, std::size_t element, const char* f
   va_end(list);
 }
 
-void Arguments::check_size(std::size_t size, std::size_t known, const unsigned char* bytes, const char* name) noexcept {
-  if (size < known || size > max_struct_size) {
-    refuse(SUREHIT_INVALID_SIZE, size, "%s.size is %zu, and must be at least %zu", name, size, known);
-  } else if (bytes != nullptr &&
-             std::any_of(bytes + known, bytes + size, [](unsigned char byte) { return byte != 0; })) {
+void Arguments::check_size(std::size_t size, std::size_t first, const char* name) noexcept {
+  if (size < first || size > max_struct_size) {
+    refuse(SUREHIT_INVALID_SIZE, size, "%s.size is %zu, and must be at least %zu", name, size, first);
+  }
+}
+
+void Arguments::check_unknown(const unsigned char* bytes, std::size_t size, std::size_t known,
+                              const char* name) noexcept {
+  if (size > known && std::any_of(bytes + known, bytes + size, [](unsigned char byte) { return byte != 0; })) {
     refuse(SUREHIT_INVALID_SIZE, size, "%s asks for what a later version has, and this one does not", name);
   }
 }

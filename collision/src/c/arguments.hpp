@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <new>
@@ -19,6 +21,10 @@
 #endif
 
 namespace surehit::c {
+
+/// The size that a struct with a member `size` had when it was new. A struct that has grown needs a number of its own.
+template <typename Struct>
+inline constexpr std::size_t first_size = sizeof(Struct);
 
 /// Checks the arguments of a call. The first failure counts: it is kept as the last error of the thread, and later
 /// checks do nothing. No argument may be read before `are_valid` says so.
@@ -93,22 +99,25 @@ class Arguments {
     return static_cast<const Handle*>(handle)->template share<Object>();
   }
 
-  /// Returns a struct that begins with its size. Null is a struct of zeros. Fails if the size is that of no version, or
-  /// if a newer version has more than zeros in what is unknown here.
+  /// Returns a struct that begins with its size, with zeros for what an older version lacks. Null is a struct of zeros.
+  /// Fails if the size is that of no version, or if a newer version has more than zeros in what is unknown here.
   template <typename Struct>
   [[nodiscard]] Struct read_sized(const Struct* given, const char* name) noexcept {
     Struct result = {};
     check_optional(given, name);
     if (given == nullptr || !are_valid()) return result;
-    check_size(given->size, sizeof(Struct), reinterpret_cast<const unsigned char*>(given), name);
-    if (are_valid()) result = *given;
+    check_size(given->size, first_size<Struct>, name);
+    if (!are_valid()) return result;
+    check_unknown(reinterpret_cast<const unsigned char*>(given), given->size, sizeof(Struct), name);
+    std::memcpy(&result, given, std::min(given->size, sizeof(Struct)));
     return result;
   }
-  /// Fails if the size of a struct for results is that of no version.
+  /// Fails if the size of a struct for results is that of no version. Whoever fills a struct that has grown must see
+  /// which members there are.
   template <typename Struct>
   void check_sized_result(const Struct* result, const char* name) noexcept {
     check_pointer(result, name);
-    if (are_valid()) check_size(result->size, sizeof(Struct), nullptr, name);
+    if (are_valid()) check_size(result->size, first_size<Struct>, name);
   }
 
   /// Calls `work()` if all arguments are valid, and returns the status. No exception of `work` leaves it.
@@ -144,8 +153,10 @@ class Arguments {
       }
     }
   }
-  /// Fails if no struct has this size. `bytes` are the bytes of one that is read, or null.
-  void check_size(std::size_t size, std::size_t known, const unsigned char* bytes, const char* name) noexcept;
+  /// Fails if no version of a struct has this size.
+  void check_size(std::size_t size, std::size_t first, const char* name) noexcept;
+  /// Fails unless the bytes behind those that are known are zeros.
+  void check_unknown(const unsigned char* bytes, std::size_t size, std::size_t known, const char* name) noexcept;
 
   const char* function_;
   surehit_status status_ = SUREHIT_OK;

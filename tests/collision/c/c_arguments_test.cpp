@@ -17,6 +17,22 @@
 namespace surehit::test {
 namespace {
 
+/// A struct that has grown by its last member.
+struct Grown {
+  std::size_t size;
+  std::uint64_t old;
+  std::uint64_t added;
+};
+
+}  // namespace
+}  // namespace surehit::test
+
+template <>
+inline constexpr std::size_t surehit::c::first_size<surehit::test::Grown> = offsetof(surehit::test::Grown, added);
+
+namespace surehit::test {
+namespace {
+
 /// A collider of one triangle, and arguments that are all right. Each test spoils one of them.
 template <typename Scalar>
 class CArguments : public testing::Test {
@@ -351,6 +367,21 @@ TYPED_TEST(CArguments, of_a_mesh_are_refused_as_by_cpp) {
   this->expect_refused(C::box_of_mesh(&this->mesh, &box), SUREHIT_MISSING_ARRAY, "1 triangles is null");
   this->expect_refused(C::rebuild_vertices(this->collider, this->vertices.data(), 2, 0, nullptr),
                        SUREHIT_VERTICES_DO_NOT_MATCH, "2 vertices for a mesh of 3");
+}
+
+TEST(CGrownStruct, is_read_from_programs_of_each_version) {
+  const Grown given = {2 * sizeof(std::uint64_t), 5, 6};
+  c::Arguments before("f");
+  const Grown read = before.read_sized(&given, "options");
+  EXPECT_TRUE(before.are_valid());
+  EXPECT_EQ(read.old, 5U);
+  EXPECT_EQ(read.added, 0U);
+  const Grown grown = {sizeof grown, 5, 6};
+  EXPECT_EQ(c::Arguments("f").read_sized(&grown, "options").added, 6U);
+  const Grown small = {2 * sizeof(std::uint64_t) - 1, 5, 6};
+  c::Arguments too_small("f");
+  EXPECT_EQ(too_small.read_sized(&small, "options").old, 0U);
+  EXPECT_EQ(too_small.status(), SUREHIT_INVALID_SIZE);
 }
 
 TEST(CLastError, is_that_of_its_thread) {
