@@ -65,7 +65,7 @@ void answer_batch(const State<Scalar>& state, const PathSpan<Scalar>& paths, std
     const detail::Query<Scalar> query{state.grid, state.mesh, state.masks, options.options, filter, statistics, first};
     ask(query, paths.subspan(first, last - first), own_options, first);
   };
-  detail::answer_batch(paths, answers, options, paths_in_a_task, ask_part);
+  detail::answer_batch(std::min(paths.size(), answers), options, paths_in_a_task, ask_part);
 }
 
 BuildResult check_masks(std::span<const std::uint32_t> masks, std::size_t triangle_count) {

@@ -7,6 +7,9 @@
 #include "surehit/hit.hpp"
 #include "surehit/path.hpp"
 #include "surehit/query_options.hpp"
+#include "surehit/shape_hit.hpp"
+#include "surehit/shape_options.hpp"
+#include "surehit/swept_sphere.hpp"
 #include "surehit/triangle.hpp"
 
 namespace surehit {
@@ -35,9 +38,24 @@ template <FloatOrDouble Scalar>
 [[nodiscard]] SUREHIT_API Scalar max_t_keeping(const std::type_identity_t<Path<Scalar>>& path,
                                                const Triangle<Scalar>& triangle, const Hit<Scalar>& hit) noexcept;
 
+/// Returns where a moving ball first touches one triangle, or nothing if they do not touch. The answer is that of exact
+/// real arithmetic on the given numbers. A triangle with a NaN or an infinity is not touched. The result has `triangle`
+/// 0, and `options.mask` and `options.ignored_triangle` are not used.
+///
+/// They touch if no point of the step is farther from the triangle than the radius. This is the sign of polynomials of
+/// degree 10 and less in the coordinates, and needs no root. They are first computed in floating point, with bounds.
+/// Exact integers decide what the bounds do not. Takes some hundred nanoseconds, or some ten microseconds. Allocates
+/// nothing.
+template <FloatOrDouble Scalar>
+[[nodiscard]] SUREHIT_API std::optional<ShapeHit<Scalar>> intersect(
+    const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+    const std::type_identity_t<ShapeQueryOptions<Scalar>>& options = {}) noexcept;
+
 #define SUREHIT_EXTERN(Scalar)                                                                                   \
   extern template SUREHIT_API std::optional<Hit<Scalar>> intersect(const Path<Scalar>&, const Triangle<Scalar>&, \
                                                                    const QueryOptions<Scalar>&) noexcept;        \
+  extern template SUREHIT_API std::optional<ShapeHit<Scalar>> intersect(                                         \
+      const SweptSphere<Scalar>&, const Triangle<Scalar>&, const ShapeQueryOptions<Scalar>&) noexcept;           \
   extern template SUREHIT_API Scalar max_t_keeping(const Path<Scalar>&, const Triangle<Scalar>&,                 \
                                                    const Hit<Scalar>&) noexcept;
 SUREHIT_EXTERN(float)

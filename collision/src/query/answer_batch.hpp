@@ -8,7 +8,6 @@
 #endif
 
 #include "support/in_parts.hpp"
-#include "surehit/path_span.hpp"
 #include "surehit/query_statistics.hpp"
 
 namespace surehit::detail {
@@ -23,16 +22,15 @@ struct StatisticsMutex {
 using StatisticsMutex = std::mutex;
 #endif
 
-/// Answers a batch in parts of `paths_in_a_task` paths, in tasks of the executor. Without an executor, there is one
-/// part. `ask(first, last, own_options, statistics)` answers the paths [first, last), and counts its work.
+/// Answers a batch of so many paths in parts of `paths_in_a_task` paths, in tasks of the executor. Without an executor,
+/// there is one part. `ask(first, last, own_options, statistics)` answers the paths [first, last), and counts its work.
 ///
-/// `Options` are those of a batch of a collider or of a scene. The batch ends with the shortest of the paths, the
-/// answers and the options of each path.
-template <typename Scalar, typename Options, typename Ask>
-void answer_batch(const PathSpan<Scalar>& paths, std::size_t answers, const Options& options,
-                  std::size_t paths_in_a_task, const Ask& ask) noexcept {
+/// `Options` are those of a batch of a collider or of a scene. The batch ends with the shorter of the paths and the
+/// options of each path.
+template <typename Options, typename Ask>
+void answer_batch(std::size_t paths, const Options& options, std::size_t paths_in_a_task, const Ask& ask) noexcept {
   const auto all_options = options.path_options;
-  const std::size_t count = std::min({paths.size(), answers, all_options.empty() ? paths.size() : all_options.size()});
+  const std::size_t count = all_options.empty() ? paths : std::min(paths, all_options.size());
   if (count == 0) return;
   StatisticsMutex mutex;
   in_parts(address_of(options.executor), count, paths_in_a_task, [&](std::size_t first, std::size_t last) {

@@ -59,7 +59,7 @@ void answer_batch(const SceneStateOf<Scalar>& state, const PathSpan<Scalar>& pat
     const detail::SceneQuery<Scalar> part{state.committed, state.tree, options.options, filter, statistics, first};
     search(part, paths.subspan(first, last - first), own_options, answers.subspan(first, last - first));
   };
-  detail::answer_batch(paths, answers.size(), options, scene_paths_in_a_task, ask_part);
+  detail::answer_batch(std::min(paths.size(), answers.size()), options, scene_paths_in_a_task, ask_part);
 }
 
 /// The instances go the same share of their ways as the point.

@@ -1,0 +1,221 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "grid/grid.hpp"
+#include "grid/list_cells.hpp"
+
+namespace surehit {
+
+/// A box that moves in a straight line during t in [0, 1], in the mesh's unit of length. A moving shape gives the box
+/// around it.
+struct SweptExtents {
+  std::array<double, 3> start;         ///< The centre at t = 0.
+  std::array<double, 3> end;           ///< The centre at t = 1.
+  std::array<double, 3> half_extents;  ///< How far the box reaches from its centre on each axis. None is negative.
+};
+
+/// Visits all cells of a grid that a moving box comes to and that list triangles. It visits at least each cell that
+/// has a point which the box meets before t = `visitor.limit()`. SHAPES.md has the proof (W1 to W3).
+///
+/// `visitor.visit_list(word)` gets the word of each cell, with its list. `visitor.is_done()` ends the walk.
+/// `visitor.count_cell()` counts a step.
+template <typename Visitor>
+class SweptWalk {
+ public:
+  SweptWalk(const Grid& grid, const SweptExtents& swept, Visitor& visitor)
+      : grid_(grid), swept_(swept), visitor_(visitor) {}
+
+  /// Walks through the outermost grid, and through inner grids where the box comes to their cells. Returns false if the
+  /// numbers are too large to be counted in cells. Then nothing was visited.
+  bool walk() { return walk_frame(grid_.frame()); }
+
+ private:
+  static constexpr double too_large = 0x1p300;
+
+  /// The times t during which the box meets something.
+  struct Times {
+    double enters = 0;  ///< The first t.
+    double leaves = 1;  ///< The last t.
+    [[nodiscard]] bool is_empty() const { return !(enters <= leaves); }
+    [[nodiscard]] Times within(const Times& other) const {
+      return {std::max(enters, other.enters), std::min(leaves, other.leaves)};
+    }
+  };
+
+  /// The way of the box on one axis, in finest cells.
+  struct Axis {
+    double start = 0;         ///< The centre at t = 0.
+    double way = 0;           ///< The centre at t = 1 less that at t = 0.
+    double inverse = 0;       ///< One over the way.
+    double reach = 0;         ///< The half extent, and an allowance for all roundings (W1).
+    std::uint32_t cells = 0;  ///< The number of top cells.
+    std::uint32_t pitch = 0;  ///< The index of a top cell grows by this to the next cell.
+
+    /// Returns the times during which the box meets the interval from `low` to `high` (W2).
+    [[nodiscard]] Times during(double low, double high) const {
+      const double first = (low - reach) - start;
+      const double last = (high + reach) - start;
+      if (std::fabs(way) < 0x1p-300) return first <= 0 && last >= 0 ? Times{} : Times{1, 0};
+      const double s = first * inverse;
+      const double t = last * inverse;
+      return {std::max(0.0, std::min(s, t)), std::min(1.0, std::max(s, t))};
+    }
+    /// Returns the first and the last top cell that the box meets during some times, of `size` finest cells each.
+    [[nodiscard]] std::array<std::int64_t, 2> range(const Times& times, double size) const {
+      const double a = start + way * times.enters;
+      const double b = start + way * times.leaves;
+      const auto to_cell = [&](double x) {
+        return static_cast<std::int64_t>(std::clamp(std::floor(x / size), -1.0, static_cast<double>(cells)));
+      };
+      return {std::max<std::int64_t>(0, to_cell(std::min(a, b) - reach)),
+              std::min<std::int64_t>(std::int64_t{cells} - 1, to_cell(std::max(a, b) + reach))};
+    }
+  };
+
+  bool walk_frame(const GridFrame& frame) {
+    std::array<Axis, 3> axes;
+    std::uint32_t pitch = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      Axis& axis = axes[i];
+      axis.start = frame.to_cells(i, frame.scaled(swept_.start[i]));
+      const double end = frame.to_cells(i, frame.scaled(swept_.end[i]));
+      const double extent = frame.scaled(swept_.half_extents[i]) * frame.scale[i];
+      const double largest = std::fabs(axis.start) + std::fabs(end) + extent + frame.resolution(i);
+      if (!(largest < too_large)) return false;
+      axis.way = end - axis.start;
+      axis.inverse = 1 / axis.way;
+      axis.reach = extent + double{frame.padding(i)} + largest * 0x1p-48;
+      axis.cells = frame.cells[i];
+      axis.pitch = pitch;
+      pitch *= frame.cells[i];
+    }
+    walk_top(frame, axes);
+    return true;
+  }
+
+  /// Goes through the top cells, slab by slab along the longest way, and row by row in each slab.
+  void walk_top(const GridFrame& frame, const std::array<Axis, 3>& axes) {
+    std::array<std::size_t, 3> order = {2, 1, 0};
+    for (std::size_t i = 1; i < 3; ++i) {
+      if (std::fabs(axes[order[i]].way) > std::fabs(axes[order[0]].way)) std::swap(order[0], order[i]);
+    }
+    const Axis& outer = axes[order[0]];
+    const Axis& middle = axes[order[1]];
+    const Axis& inner = axes[order[2]];
+    const double size = frame.division;
+    const auto [first, last] = outer.range({}, size);
+    for (std::int64_t count = last - first + 1, step = 0; step < count && !visitor_.is_done(); ++step) {
+      const std::int64_t i = outer.way < 0 ? last - step : first + step;
+      const Times in_slab = outer.during(static_cast<double>(i) * size, static_cast<double>(i + 1) * size);
+      if (is_late(in_slab)) continue;
+      const auto [low, high] = middle.range(in_slab, size);
+      for (std::int64_t j = low; j <= high; ++j) {
+        const Times in_row =
+            middle.during(static_cast<double>(j) * size, static_cast<double>(j + 1) * size).within(in_slab);
+        if (is_late(in_row)) continue;
+        walk_row(frame, axes, {order[0], order[1], order[2]}, {i, j}, in_row, inner.range(in_row, size));
+        if (visitor_.is_done()) return;
+      }
+    }
+  }
+
+  /// Goes through a row of top cells.
+  void walk_row(const GridFrame& frame, const std::array<Axis, 3>& axes, const std::array<std::size_t, 3>& order,
+                const std::array<std::int64_t, 2>& row, const Times& in_row, const std::array<std::int64_t, 2>& range) {
+    const CellWord* const words = grid_.all_top().data() + frame.first_top;
+    const auto base = static_cast<std::size_t>(row[0]) * axes[order[0]].pitch +
+                      static_cast<std::size_t>(row[1]) * axes[order[1]].pitch;
+    const Axis& inner = axes[order[2]];
+    for (std::int64_t k = range[0]; k <= range[1]; ++k) {
+      visitor_.count_cell();
+      const CellWord word = words[base + static_cast<std::size_t>(k) * inner.pitch];
+      if (word.is_empty()) {
+        // The cells from here on along the row are in the cube of empty cells of octant 0.
+        k += word.distance(0) - 1;
+        continue;
+      }
+      std::array<double, 3> low = {};
+      low[order[0]] = static_cast<double>(row[0]) * frame.division;
+      low[order[1]] = static_cast<double>(row[1]) * frame.division;
+      low[order[2]] = static_cast<double>(k) * frame.division;
+      const Times times = inner.during(low[order[2]], low[order[2]] + frame.division).within(in_row);
+      if (is_late(times)) continue;
+      walk_cell(axes, word, low, frame.division, times);
+      if (visitor_.is_done()) return;
+    }
+  }
+
+  /// Goes through a cell that is not empty, from the low corner on.
+  void walk_cell(const std::array<Axis, 3>& axes, CellWord word, const std::array<double, 3>& low, double size,
+                 const Times& times) {
+    if (word.is_divided()) {
+      walk_brick(axes, word, low, size / Grid::brick_edge, times);
+      return;
+    }
+    const CellBox box = grid_.box(word);
+    const double part = size / CellBox::parts;
+    Times in_box = times;
+    for (std::size_t i = 0; i < 3; ++i) {
+      in_box = axes[i].during(low[i] + part * box.low(i), low[i] + part * box.high(i)).within(in_box);
+    }
+    if (!is_late(in_box)) visitor_.visit_list(word);
+    if (!word.has_inner_grid() || visitor_.is_done()) return;
+    if (!walk_frame(grid_.inner_frame(word))) visit_all_lists(grid_.inner_frame(word));
+  }
+
+  /// Visits all lists of an inner grid in whose cells the box cannot be counted.
+  void visit_all_lists(const GridFrame& frame) {
+    const std::size_t tops = std::size_t{frame.cells[0]} * frame.cells[1] * frame.cells[2];
+    detail::visit_list_cells(grid_, frame, 0, tops, [&](const detail::ListCell& cell) {
+      if (!visitor_.is_done()) visitor_.visit_list(cell.word);
+      if (cell.word.has_inner_grid() && !visitor_.is_done()) visit_all_lists(grid_.inner_frame(cell.word));
+    });
+  }
+
+  /// Goes through the cells of a brick. Each is met during the times of its column, row and layer.
+  void walk_brick(const std::array<Axis, 3>& axes, CellWord word, const std::array<double, 3>& low, double size,
+                  const Times& times) {
+    const std::size_t first = std::size_t{word.brick()} * Grid::brick_size;
+    std::array<std::array<Times, Grid::brick_edge>, 3> slabs;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::uint32_t k = 0; k < Grid::brick_edge; ++k) {
+        slabs[i][k] = axes[i].during(low[i] + k * size, low[i] + (k + 1) * size);
+      }
+    }
+    const auto turned = [&](std::size_t i, std::uint32_t k) { return axes[i].way < 0 ? Grid::brick_edge - 1 - k : k; };
+    for (std::uint32_t c = 0; c < Grid::brick_edge; ++c) {
+      const std::uint32_t z = turned(2, c);
+      const Times in_layer = slabs[2][z].within(times);
+      if (is_late(in_layer)) continue;
+      for (std::uint32_t b = 0; b < Grid::brick_edge; ++b) {
+        const std::uint32_t y = turned(1, b);
+        const Times in_row = slabs[1][y].within(in_layer);
+        if (is_late(in_row)) continue;
+        for (std::uint32_t a = 0; a < Grid::brick_edge; ++a) {
+          const std::uint32_t x = turned(0, a);
+          const CellWord cell = grid_.bricks()[first + x + Grid::brick_edge * (y + Grid::brick_edge * z)];
+          visitor_.count_cell();
+          if (cell.is_empty()) continue;
+          const Times in_cell = slabs[0][x].within(in_row);
+          if (is_late(in_cell)) continue;
+          walk_cell(axes, cell, {low[0] + x * size, low[1] + y * size, low[2] + z * size}, size, in_cell);
+          if (visitor_.is_done()) return;
+        }
+      }
+    }
+  }
+
+  /// Returns true if the box comes too late, or never. What it enters after the limit does not count (W3).
+  [[nodiscard]] bool is_late(const Times& times) const { return times.is_empty() || times.enters > visitor_.limit(); }
+
+  const Grid& grid_;
+  const SweptExtents& swept_;
+  Visitor& visitor_;
+};
+
+}  // namespace surehit

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "shape/sphere_contact.hpp"
+#include "surehit/swept_sphere.hpp"
+#include "surehit/triangle.hpp"
+#include "verdict.hpp"
+
+namespace surehit::detail {
+
+/// Decides a moving ball and a triangle with running error bounds in double. If it is a hit, sets `found`. The input
+/// must be finite, and the radius must not be negative. Triangles without a certain area are undecided.
+template <typename Scalar>
+[[nodiscard]] Verdict bounded_sphere_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                             SphereContact& found);
+
+/// Rounds t, u and v of a contact. Returns false if its bounds do not decide all of them.
+template <typename Scalar>
+[[nodiscard]] bool try_round(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                             const SphereContact& contact, ShapeHit<Scalar>& hit);
+
+}  // namespace surehit::detail

@@ -1,0 +1,235 @@
+#include "shape/exact_sphere.hpp"
+
+#include <array>
+#include <cstddef>
+
+#include "exact/exact_scale.hpp"
+#include "exact/quadratic_root.hpp"
+#include "exact/root_rounding.hpp"
+#include "shape/sphere_touch.hpp"
+#include "support/rounding_flags.hpp"
+
+namespace surehit::detail {
+namespace {
+
+/// The numbers of bits of the exact terms. A sum of k terms adds k - 1 to the bits of its terms.
+template <typename Scalar>
+struct SphereBits {
+  static constexpr int coordinate = AnySize<Scalar>::coordinate;
+  static constexpr int difference = coordinate + 1;
+  static constexpr int quadratic = 6 * difference + 8;  ///< Of (n·w)² - r² n·n, the longest coefficient.
+  static constexpr int volume = 4 * difference + 4;     ///< Of n·(w × e) and of e·e.
+};
+
+template <typename Scalar>
+using IntTerms = SphereTerms<WideInt<SphereBits<Scalar>::difference>, WideInt<SphereBits<Scalar>::coordinate>>;
+template <typename Scalar>
+using Root = QuadraticRoot<SphereBits<Scalar>::quadratic>;
+
+/// A ball and a triangle in integers. `unit` is their unit, or that of a larger set of numbers.
+template <typename Scalar>
+class ExactSphere {
+ public:
+  ExactSphere(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, const BinaryUnit& unit) {
+    const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
+    for (std::size_t k = 0; k < 3; ++k) {
+      set_difference(terms_.from_corner[k], sphere.start, *corners[k], unit);
+      set_difference(terms_.to_end[k], sphere.end, *corners[k], unit);
+      set_difference(terms_.edge[k], *corners[k == 2 ? 0 : k + 1], *corners[k], unit);
+    }
+    set_difference(terms_.step, sphere.end, sphere.start, unit);
+    set_integer(terms_.radius, sphere.radius, unit);
+    if (is_zero(normal_of(terms_))) set_degenerate_outline(corners);
+  }
+  ExactSphere(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle)
+      : ExactSphere(sphere, triangle, unit_of(sphere, triangle)) {}
+
+  template <typename... Triangles>
+  static BinaryUnit unit_of(const SweptSphere<Scalar>& sphere, const Triangles&... triangles) {
+    BinaryUnit unit;
+    unit.include(sphere.start);
+    unit.include(sphere.end);
+    unit.include<Scalar>({sphere.radius, 0, 0});
+    (unit.include(triangles), ...);
+    if (unit.is_empty()) unit.exponent = 0;
+    return unit;
+  }
+
+  [[nodiscard]] std::optional<SphereContact> find() const {
+    Signs signs;
+    const auto comes_before = [&](Feature x, Feature y) { return RootOrder(root(x), root(y)).sign() < 0; };
+    std::optional<SphereContact> contact = SphereTouch(terms_, outline_, signs).find(comes_before);
+    if (contact && !contact->at_start) {
+      const DoubleRange t = root(contact->timed_by).range();
+      contact->t_lower = t.lower;
+      contact->t_upper = std::min(t.upper, 1.0);
+    }
+    return contact;
+  }
+
+  /// Returns the sign of the step times the normal.
+  [[nodiscard]] int sign_along() const { return dot(normal_of(terms_), terms_.step).sign(); }
+
+  /// Returns the equation of the t at which the ball comes to a part (S3).
+  [[nodiscard, gnu::noinline]] Root<Scalar> root(Feature part) const {
+    Root<Scalar> root;
+    const auto rr = terms_.radius * terms_.radius;
+    const auto& d = terms_.step;
+    if (is_corner(part)) {
+      const auto& w = terms_.from_corner[index_of(part)];
+      root.a = dot(d, d);
+      root.b = dot(d, w);
+      root.c = dot(w, w) - rr;
+    } else if (is_edge(part)) {
+      const auto& e = terms_.edge[index_of(part)];
+      const auto f = cross(d, e);
+      const auto moment = cross(terms_.from_corner[index_of(part)], e);
+      root.a = dot(f, f);
+      root.b = dot(f, moment);
+      root.c = dot(moment, moment) - rr * dot(e, e);
+    } else {
+      const auto n = normal_of(terms_);
+      const auto height = dot(n, terms_.from_corner[0]);
+      const auto rate = dot(n, d);
+      root.a = rate * rate;
+      root.b = height * rate;
+      root.c = height * height - rr * dot(n, n);
+    }
+    return root;
+  }
+
+  /// Sets the weights of b and c at the touched point (S7).
+  [[gnu::noinline]] void round_weights(const SphereContact& contact, Scalar& u, Scalar& v) const {
+    u = v = 0;
+    if (is_corner(contact.feature)) {
+      u = contact.feature == Feature::corner_b ? 1 : 0;
+      v = contact.feature == Feature::corner_c ? 1 : 0;
+      return;
+    }
+    const auto& w = terms_.from_corner[0];
+    const auto& d = terms_.step;
+    if (contact.feature == Feature::face) {
+      const auto n = normal_of(terms_);
+      const Volume nn = dot(n, n);
+      const auto& ab = terms_.edge[0];
+      const auto& ca = terms_.edge[2];
+      // n·(w × (c - a)) is n·(ca × w).
+      u = rounded_weight(contact, dot(n, cross(ca, w)), dot(n, cross(ca, d)), nn);
+      v = rounded_weight(contact, dot(n, cross(ab, w)), dot(n, cross(ab, d)), nn);
+      return;
+    }
+    const std::size_t edge = index_of(contact.feature);
+    const auto& e = terms_.edge[edge];
+    const auto ee = dot(e, e);
+    const auto at_start = dot(terms_.from_corner[edge], e);
+    const Volume rate = dot(d, e);
+    const Volume at_end = ee - at_start;
+    // An edge begins at one corner and ends at the next one. The weights of both are rounded by themselves.
+    const auto toward_end = [&] { return rounded_weight(contact, at_start, rate, ee); };
+    const auto toward_start = [&] { return rounded_weight(contact, at_end, negated(rate), ee); };
+    if (edge == 0) u = toward_end();
+    if (edge == 1) u = toward_start();
+    if (edge == 1) v = toward_end();
+    if (edge == 2) v = toward_start();
+  }
+
+ private:
+  using Bits = SphereBits<Scalar>;
+  using Volume = WideInt<Bits::volume + 1>;
+
+  /// Returns (x + t y) / z, rounded once. It is in [0, 1], and z is positive.
+  [[nodiscard, gnu::noinline]] Scalar rounded_weight(const SphereContact& contact, const Volume& x, const Volume& y,
+                                                     const Volume& z) const {
+    if (contact.at_start || y.is_zero()) return rounded_quotient<Scalar>(x, z);
+    // t is (-b - √d) / a, so this is (a x - b y - y √d) / (a z).
+    const Root<Scalar> t = root(contact.timed_by);
+    constexpr int bits = Bits::quadratic + Bits::volume + 2;
+    RootNumber<bits, Bits::volume + 1, 2 * Bits::quadratic + 1, bits> weight;
+    weight.p = t.a * x;
+    {
+      const auto product = t.b * y;
+      weight.p.add(product, true);
+    }
+    weight.q = negated(y);
+    weight.d = t.discriminant();
+    weight.r = t.a * z;
+    return weight.template rounded<Scalar>();
+  }
+
+  /// Keeps the edge between the extreme corners, in lexicographic order, or the first corner.
+  void set_degenerate_outline(const std::array<const Vector3<Scalar>*, 3>& corners) {
+    const auto before = [](const Vector3<Scalar>& x, const Vector3<Scalar>& y) {
+      return x[0] != y[0] ? x[0] < y[0] : x[1] != y[1] ? x[1] < y[1] : x[2] < y[2];
+    };
+    std::size_t min = 0;
+    std::size_t max = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (before(*corners[k], *corners[min])) min = k;
+      if (before(*corners[max], *corners[k])) max = k;
+    }
+    outline_.has_face = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t end = k == 2 ? 0 : k + 1;
+      outline_.corners[k] = k == min || k == max;
+      outline_.edges[k] = min != max && ((k == min && end == max) || (k == max && end == min));
+    }
+  }
+
+  IntTerms<Scalar> terms_;
+  Outline outline_;
+};
+
+}  // namespace
+
+template <typename Scalar>
+std::optional<SphereContact> exact_sphere_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
+  return ExactSphere<Scalar>(sphere, triangle).find();
+}
+
+template <typename Scalar>
+int compare_times(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x_triangle, const SphereContact& x,
+                  const Triangle<Scalar>& y_triangle, const SphereContact& y) {
+  if (x.at_start || y.at_start) return static_cast<int>(y.at_start) - static_cast<int>(x.at_start);
+  const BinaryUnit unit = ExactSphere<Scalar>::unit_of(sphere, x_triangle, y_triangle);
+  const Root<Scalar> x_root = ExactSphere<Scalar>(sphere, x_triangle, unit).root(x.timed_by);
+  const Root<Scalar> y_root = ExactSphere<Scalar>(sphere, y_triangle, unit).root(y.timed_by);
+  return RootOrder(x_root, y_root).sign();
+}
+
+template <typename Scalar>
+int compare_time(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, const SphereContact& contact,
+                 Scalar limit) {
+  if (contact.at_start) return limit > 0 ? -1 : 0;
+  if (!(limit > 0)) return 1;
+  const Decomposed<Scalar> parts(limit);
+  const Root<Scalar> root = ExactSphere<Scalar>(sphere, triangle).root(contact.timed_by);
+  return root.template compare<Scalar>({parts.significand, parts.exponent});
+}
+
+template <typename Scalar>
+int exact_sign_along(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
+  return ExactSphere<Scalar>(sphere, triangle).sign_along();
+}
+
+template <typename Scalar>
+void round_exactly(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, const SphereContact& contact,
+                   ShapeHit<Scalar>& hit) {
+  const ExactSphere<Scalar> exact(sphere, triangle);
+  hit.t = contact.at_start ? Scalar{0} : exact.root(contact.timed_by).template rounded<Scalar>();
+  exact.round_weights(contact, hit.u, hit.v);
+}
+
+#define SUREHIT_INSTANTIATE(Scalar)                                                                          \
+  template std::optional<SphereContact> exact_sphere_contact(const SweptSphere<Scalar>&,                     \
+                                                             const Triangle<Scalar>&);                       \
+  template int compare_times(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&,      \
+                             const Triangle<Scalar>&, const SphereContact&);                                 \
+  template int compare_time(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&, Scalar); \
+  template int exact_sign_along(const SweptSphere<Scalar>&, const Triangle<Scalar>&);                        \
+  template void round_exactly(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&,     \
+                              ShapeHit<Scalar>&);
+SUREHIT_INSTANTIATE(float)
+SUREHIT_INSTANTIATE(double)
+#undef SUREHIT_INSTANTIATE
+
+}  // namespace surehit::detail

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "shape/sphere_contact.hpp"
+#include "surehit/swept_sphere.hpp"
+#include "surehit/triangle.hpp"
+
+namespace surehit::detail {
+
+// Decides moving balls and triangles with integers. The input must be finite, and radii must not be negative. Any such
+// input is allowed: triangles without area, balls that rest, radius 0, and numbers of all sizes.
+
+/// Returns the contact of a ball with a triangle, or nothing if they do not touch.
+template <typename Scalar>
+[[nodiscard]] std::optional<SphereContact> exact_sphere_contact(const SweptSphere<Scalar>& sphere,
+                                                                const Triangle<Scalar>& triangle);
+
+/// Returns the sign of t of x less t of y.
+template <typename Scalar>
+[[nodiscard]] int compare_times(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x_triangle,
+                                const SphereContact& x, const Triangle<Scalar>& y_triangle, const SphereContact& y);
+
+/// Returns the sign of t less a Scalar in [0, 1].
+template <typename Scalar>
+[[nodiscard]] int compare_time(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                               const SphereContact& contact, Scalar limit);
+
+/// Returns the sign of the step times the triangle's normal. It is 0 for a triangle without area.
+template <typename Scalar>
+[[nodiscard]] int exact_sign_along(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle);
+
+/// Sets t, u and v of a hit to those of a contact, each rounded once.
+template <typename Scalar>
+void round_exactly(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, const SphereContact& contact,
+                   ShapeHit<Scalar>& hit);
+
+}  // namespace surehit::detail

@@ -1,0 +1,289 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "support/case_count.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/random.hpp"
+#include "support/small_meshes.hpp"
+#include "support/sphere_oracle.hpp"
+#include "support/threads.hpp"
+#include "surehit/collider.hpp"
+#include "surehit/intersect.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// What `all_hits` has to find, by asking every triangle. Hits with the same rounded t are in the exact order.
+template <typename Scalar>
+std::vector<ShapeHit<Scalar>> brute_force(const TriangleMeshView<Scalar>& mesh, const SweptSphere<Scalar>& sphere,
+                                          const ShapeQueryOptions<Scalar>& options = {}) {
+  std::vector<ShapeHit<Scalar>> hits;
+  for (std::uint32_t id = 0; id < mesh.triangle_count(); ++id) {
+    if (id == options.ignored_triangle) continue;
+    if (auto hit = intersect(sphere, mesh.triangle(id), options)) {
+      hit->triangle = id;
+      hits.push_back(*hit);
+    }
+  }
+  std::stable_sort(hits.begin(), hits.end(), [&](const auto& x, const auto& y) {
+    if (x.t != y.t) return x.t < y.t;
+    if (x.started_touching || y.started_touching) return x.started_touching && !y.started_touching;
+    return comes_before(sphere, mesh.triangle(x.triangle), mesh.triangle(y.triangle));
+  });
+  return hits;
+}
+
+template <typename Scalar>
+class ColliderSpheres : public testing::Test {
+ protected:
+  /// Asks a collider of the mesh about balls in every way, and compares with brute force.
+  static void compare(const TriangleMeshView<Scalar>& mesh, const std::vector<SweptSphere<Scalar>>& spheres,
+                      const std::string& what) {
+    const Collider<Scalar> collider(mesh);
+    std::vector<ShapeHit<Scalar>> firsts(spheres.size());
+    std::vector<std::uint8_t> blocked(spheres.size());
+    collider.first_hits(spheres, firsts);
+    collider.any_hits(spheres, blocked);
+    std::vector<ShapeHit<Scalar>> all;
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      const SweptSphere<Scalar>& sphere = spheres[i];
+      const std::vector<ShapeHit<Scalar>> expected = brute_force(mesh, sphere);
+      collider.all_hits(sphere, all);
+      ASSERT_EQ(all.size(), expected.size()) << what << ", ball " << i;
+      for (std::size_t k = 0; k < all.size(); ++k) ASSERT_TRUE(all[k] == expected[k]) << what << ", ball " << i;
+      const ShapeHit<Scalar> first = expected.empty() ? ShapeHit<Scalar>{} : expected.front();
+      ASSERT_TRUE(collider.first_hit(sphere).value_or(ShapeHit<Scalar>{}) == first) << what << ", ball " << i;
+      ASSERT_TRUE(firsts[i] == first) << what << ", ball " << i;
+      ASSERT_EQ(collider.any_hit(sphere), !expected.empty()) << what << ", ball " << i;
+      ASSERT_EQ(blocked[i] != 0, !expected.empty()) << what << ", ball " << i;
+    }
+  }
+
+  /// Balls that begin in or beside the box of a mesh. Their steps are from a thousandth of the box to twice its size.
+  static std::vector<SweptSphere<Scalar>> draw_spheres(const Box<Scalar>& box, std::size_t count, Random& random) {
+    std::vector<SweptSphere<Scalar>> spheres;
+    const Vector3<Scalar> extent = box.high - box.low;
+    const Scalar size = extent.maxCoeff();
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto draw = [&] { return random.symmetric<Scalar>(); };
+      const Vector3<Scalar> start = box.low + extent / 2 + extent.cwiseProduct(Vector3<Scalar>(draw(), draw(), draw())) * Scalar(0.7);
+      const Scalar reach = std::ldexp(size, -static_cast<int>(random.below(11)) + 1);
+      const Vector3<Scalar> end = start + Vector3<Scalar>(draw(), draw(), draw()) * reach;
+      spheres.push_back({start, end, std::ldexp(size * random.unit<Scalar>(), -static_cast<int>(random.below(14)))});
+    }
+    return spheres;
+  }
+};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(ColliderSpheres, Scalars);
+
+TYPED_TEST(ColliderSpheres, FindWhatBruteForceFindsInSmallMeshes) {
+  using Scalar = TypeParam;
+  for (std::size_t kind = 0; kind < small_mesh_kind_count; ++kind) {
+    Random random(3 + kind);
+    for (std::size_t i = 0; i < case_count(6); ++i) {
+      const SmallMesh<Scalar> mesh = draw_small_mesh<Scalar>(kind, random);
+      std::vector<SweptSphere<Scalar>> spheres;
+      for (const Path<Scalar>& path : mesh.paths) {
+        if (path.kind != PathKind::segment) continue;
+        const Scalar length = (path.toward - path.start).cwiseAbs().maxCoeff();
+        const Scalar radius = length < Scalar(1e10) ? length * random.unit<Scalar>() / 4 : Scalar{1};
+        spheres.push_back({path.start, path.toward, random.one_in(8) ? Scalar{0} : radius});
+      }
+      ASSERT_NO_FATAL_FAILURE(this->compare(mesh.view(), spheres, name_of_small_mesh(kind)));
+    }
+  }
+}
+
+TYPED_TEST(ColliderSpheres, FindWhatBruteForceFindsInMeshesThatAreHardForGrids) {
+  using Scalar = TypeParam;
+  Random random(5);
+  const auto compare = [&](const GeneratedMesh<Scalar>& mesh, const std::string& what) {
+    const Box<Scalar> box = Collider<Scalar>(mesh.view()).box();
+    const auto spheres = this->draw_spheres(box, case_count(30), random);
+    this->compare(mesh.view(), spheres, what);
+  };
+  ASSERT_NO_FATAL_FAILURE(compare(scattered_triangles<Scalar>(900, Scalar(0.1), random), "scattered"));
+  ASSERT_NO_FATAL_FAILURE(compare(rough_ground<Scalar>(20, Scalar(0.2), random), "ground"));
+  ASSERT_NO_FATAL_FAILURE(compare(smooth_bowl<Scalar>(20), "bowl"));
+  ASSERT_NO_FATAL_FAILURE(compare(line_of_needles<Scalar>(300, random), "needles"));
+  ASSERT_NO_FATAL_FAILURE(compare(dust_in_square<Scalar>(300, random), "dust"));
+  ASSERT_NO_FATAL_FAILURE(compare(lattice_cube<Scalar>(8), "cube"));
+  ASSERT_NO_FATAL_FAILURE(compare(grounds_askew<Scalar>(random), "askew"));
+  // An inner grid, and one that is far smaller than the ball.
+  const auto ground = rough_ground<Scalar>(20, Scalar(0.2), random);
+  ASSERT_NO_FATAL_FAILURE(compare(with_small_copy(ground, Vector3<Scalar>(Scalar(0.3), 0, Scalar(0.1))), "copy"));
+  const auto prop = placed(rough_ground<Scalar>(30, Scalar(0.2), random), Scalar(1e-4), Vector3<Scalar>(0, 0, 0));
+  ASSERT_NO_FATAL_FAILURE(compare(joined(ground, prop), "prop"));
+  const auto far = placed(rough_ground<Scalar>(10, Scalar(0.2), random), Scalar(1), Vector3<Scalar>(1000, -3000, 50));
+  ASSERT_NO_FATAL_FAILURE(compare(far, "far"));
+}
+
+TYPED_TEST(ColliderSpheres, FindAllThatIsThereFromAfarAndWithAnySize) {
+  using Scalar = TypeParam;
+  Random random(9);
+  const auto mesh = rough_ground<Scalar>(8, Scalar(0.2), random);
+  const Scalar largest = std::sqrt(std::numeric_limits<Scalar>::max());
+  std::vector<SweptSphere<Scalar>> spheres;
+  for (const Scalar far : {Scalar(1e3), Scalar(1e6), Scalar(1e12), largest}) {
+    spheres.push_back({{far, 0, 1}, {-far, 0, -1}, Scalar(0.1)});
+    spheres.push_back({{far, far, far}, {0, 0, 0}, 0});
+    spheres.push_back({{0, 0, far}, {0, 0, far / 2}, far / 2});
+    spheres.push_back({{far, 0, 0}, {0, far, 0}, far});
+  }
+  ASSERT_NO_FATAL_FAILURE(this->compare(mesh.view(), spheres, "ground"));
+}
+
+TYPED_TEST(ColliderSpheres, HitTheSameAsSegmentsWithoutARadius) {
+  using Scalar = TypeParam;
+  Random random(13);
+  const auto mesh = bumpy_octahedron<Scalar>(12, random);
+  const Collider<Scalar> collider(mesh.view());
+  for (const auto& sphere : this->draw_spheres(collider.box(), case_count(2000), random)) {
+    const auto hit = collider.first_hit(Segment<Scalar>{sphere.start, sphere.end});
+    const auto same = collider.first_hit(SweptSphere<Scalar>{sphere.start, sphere.end, 0});
+    ASSERT_EQ(hit.has_value(), same.has_value());
+    if (!hit) continue;
+    ASSERT_EQ(hit->t, same->t);
+    ASSERT_EQ(hit->u, same->u);
+    ASSERT_EQ(hit->v, same->v);
+    ASSERT_EQ(hit->triangle, same->triangle);
+  }
+}
+
+TYPED_TEST(ColliderSpheres, LetNothingThroughVerticesAndEdgesOfAClosedMesh) {
+  using Scalar = TypeParam;
+  Random random(17);
+  const auto mesh = bumpy_octahedron<Scalar>(8, random);
+  const Collider<Scalar> collider(mesh.view());
+  const Scalar size = collider.box().high.maxCoeff();
+  std::vector<SweptSphere<Scalar>> spheres;
+  for (std::size_t i = 0; i < case_count(4000); ++i) {
+    const auto& corners = mesh.triangles[random.below(mesh.triangles.size())];
+    const Vector3<Scalar>& a = mesh.vertices[corners[0]];
+    const Vector3<Scalar>& b = mesh.vertices[corners[1]];
+    const Vector3<Scalar> aim = random.one_in(2) ? a : Vector3<Scalar>((a + b) / 2);
+    spheres.push_back({{0, 0, 0}, aim * 4, std::ldexp(size, -static_cast<int>(random.between(3, 60)))});
+  }
+  std::vector<std::uint8_t> blocked(spheres.size());
+  collider.any_hits(spheres, blocked);
+  EXPECT_EQ(std::count(blocked.begin(), blocked.end(), 0), 0);
+}
+
+TYPED_TEST(ColliderSpheres, KeepMasksFiltersAndOptions) {
+  using Scalar = TypeParam;
+  Random random(21);
+  const auto mesh = rough_ground<Scalar>(12, Scalar(0.2), random);
+  std::vector<std::uint32_t> masks(mesh.triangles.size());
+  for (auto& mask : masks) mask = static_cast<std::uint32_t>(random.below(4));
+  const Collider<Scalar> collider(mesh.view(), {.masks = masks});
+  const auto spheres = this->draw_spheres(collider.box(), case_count(300), random);
+  std::vector<ShapeQueryOptions<Scalar>> options(spheres.size());
+  for (auto& one : options) {
+    one.max_t = random.unit<Scalar>() * 2;
+    one.culling = static_cast<Culling>(random.below(3));
+    one.mask = static_cast<std::uint32_t>(1 + random.below(3));
+    one.ignored_triangle = static_cast<std::uint32_t>(random.below(masks.size()));
+    one.ignore_start_contact = random.one_in(2);
+  }
+  const auto is_even = [](const ShapeHit<Scalar>& hit) { return hit.triangle % 2 == 0; };
+  std::vector<ShapeHit<Scalar>> firsts(spheres.size());
+  collider.first_hits(spheres, firsts, {.path_options = options, .filter = is_even});
+  std::vector<ShapeHit<Scalar>> all;
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    auto expected = brute_force<Scalar>(mesh.view(), spheres[i], options[i]);
+    std::erase_if(expected, [&](const auto& hit) { return (masks[hit.triangle] & options[i].mask) == 0; });
+    collider.all_hits(spheres[i], all, options[i]);
+    ASSERT_EQ(all, expected) << i;
+    ASSERT_EQ(collider.any_hit(spheres[i], options[i]), !expected.empty()) << i;
+    std::erase_if(expected, [&](const auto& hit) { return !is_even(hit); });
+    collider.all_hits(spheres[i], all, is_even, options[i]);
+    ASSERT_EQ(all, expected) << i;
+    ASSERT_EQ(collider.any_hit(spheres[i], is_even, options[i]), !expected.empty()) << i;
+    const auto first = expected.empty() ? ShapeHit<Scalar>{} : expected.front();
+    ASSERT_EQ(collider.first_hit(spheres[i], is_even, options[i]).value_or(ShapeHit<Scalar>{}), first) << i;
+    ASSERT_EQ(firsts[i], first) << i;
+    hits += !expected.empty();
+  }
+  EXPECT_GE(hits, case_count(30));
+}
+
+TYPED_TEST(ColliderSpheres, FindTheLastFreeT) {
+  using Scalar = TypeParam;
+  Random random(23);
+  const auto mesh = rough_ground<Scalar>(12, Scalar(0.2), random);
+  const Collider<Scalar> collider(mesh.view());
+  std::size_t rounded_down = 0;
+  for (const auto& sphere : this->draw_spheres(collider.box(), case_count(1500), random)) {
+    const auto hit = collider.first_hit(sphere);
+    if (!hit) continue;
+    const Scalar free = collider.last_free_t(sphere, *hit);
+    if (hit->started_touching) {
+      ASSERT_EQ(free, 0);
+      continue;
+    }
+    rounded_down += free == hit->t;
+    ASSERT_FALSE(collider.any_hit(sphere, {.max_t = free}));
+    ASSERT_TRUE(collider.any_hit(sphere, {.max_t = std::nextafter(free, Scalar{2})}));
+  }
+  EXPECT_GE(rounded_down, case_count(40));
+}
+
+TYPED_TEST(ColliderSpheres, AnswerABatchInTasksOfAnExecutor) {
+  using Scalar = TypeParam;
+  Random random(25);
+  const auto mesh = rough_ground<Scalar>(12, Scalar(0.2), random);
+  const Collider<Scalar> collider(mesh.view());
+  const auto spheres = this->draw_spheres(collider.box(), 1500, random);
+  std::vector<ShapeHit<Scalar>> alone(spheres.size());
+  std::vector<ShapeHit<Scalar>> together(spheres.size());
+  QueryStatistics statistics;
+  collider.first_hits(spheres, alone);
+  const Threads threads(3);
+  collider.first_hits(spheres, together, {.executor = Executor(threads), .statistics = &statistics});
+  EXPECT_EQ(alone, together);
+  EXPECT_EQ(statistics.paths, spheres.size());
+  // The batch ends with the shorter of balls and hits.
+  std::vector<ShapeHit<Scalar>> few(7);
+  collider.first_hits(std::span(spheres).first(3), few);
+  EXPECT_EQ(few[2], alone[2]);
+  EXPECT_EQ(few[3], ShapeHit<Scalar>{});
+}
+
+TYPED_TEST(ColliderSpheres, VisitFewCells) {
+  using Scalar = TypeParam;
+  Random random(27);
+  const auto mesh = rough_ground<Scalar>(100, Scalar(0.05), random);
+  const Collider<Scalar> collider(mesh.view());
+  QueryStatistics point;
+  QueryStatistics small;
+  QueryStatistics large;
+  for (std::size_t i = 0; i < 200; ++i) {
+    const Scalar x = random.symmetric<Scalar>() / 2;
+    const Scalar y = random.symmetric<Scalar>() / 2;
+    const SweptSphere<Scalar> step{{x, y, Scalar(0.5)}, {x + Scalar(0.02), y, Scalar(-0.5)}, Scalar(0.0005)};
+    static_cast<void>(collider.first_hit(SweptSphere<Scalar>{step.start, step.end, 0}, {}, &point));
+    static_cast<void>(collider.first_hit(step, {}, &small));
+    static_cast<void>(collider.first_hit(SweptSphere<Scalar>{step.start, step.end, Scalar(0.3)}, {}, &large));
+  }
+  EXPECT_LT(small.cells, 3 * point.cells);
+  EXPECT_LT(small.candidates, 3 * point.candidates);
+  EXPECT_LT(large.candidates, 200 * mesh.triangles.size() / 4);
+}
+
+TYPED_TEST(ColliderSpheres, MissAColliderWithoutTriangles) {
+  using Scalar = TypeParam;
+  const Collider<Scalar> collider;
+  EXPECT_FALSE(collider.first_hit(SweptSphere<Scalar>{{0, 0, 0}, {1, 1, 1}, 5}));
+  EXPECT_FALSE(collider.any_hit(SweptSphere<Scalar>{{0, 0, 0}, {1, 1, 1}, 5}));
+}
+
+}  // namespace
+}  // namespace surehit::test

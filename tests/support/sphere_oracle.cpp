@@ -1,0 +1,339 @@
+#include "support/sphere_oracle.hpp"
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace surehit::test {
+namespace {
+
+template <typename Number>
+using Vec = std::array<Number, 3>;
+
+template <typename Number>
+Vec<Number> operator-(const Vec<Number>& x, const Vec<Number>& y) {
+  return {Number(x[0] - y[0]), Number(x[1] - y[1]), Number(x[2] - y[2])};
+}
+template <typename Number>
+Vec<Number> along(const Vec<Number>& x, const Number& t, const Vec<Number>& d) {
+  return {Number(x[0] + t * d[0]), Number(x[1] + t * d[1]), Number(x[2] + t * d[2])};
+}
+template <typename Number>
+Number dot(const Vec<Number>& x, const Vec<Number>& y) {
+  return Number(x[0] * y[0] + x[1] * y[1] + x[2] * y[2]);
+}
+template <typename Number>
+Vec<Number> cross(const Vec<Number>& x, const Vec<Number>& y) {
+  return {Number(x[1] * y[2] - x[2] * y[1]), Number(x[2] * y[0] - x[0] * y[2]), Number(x[0] * y[1] - x[1] * y[0])};
+}
+
+/// A ball and a triangle in numbers of one kind.
+template <typename Number>
+struct Pair {
+  Vec<Number> start, step, a, b, c;
+  Number rr;
+};
+
+template <typename Number, typename Scalar>
+Vec<Number> convert(const Vector3<Scalar>& x) {
+  return {Number(double{x[0]}), Number(double{x[1]}), Number(double{x[2]})};
+}
+
+template <typename Number, typename Scalar>
+Pair<Number> convert(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
+  const Number r(double{sphere.radius});
+  const auto start = convert<Number>(sphere.start);
+  return {start,
+          convert<Number>(sphere.end) - start,
+          convert<Number>(triangle.a),
+          convert<Number>(triangle.b),
+          convert<Number>(triangle.c),
+          Number(r * r)};
+}
+
+/// The weights of the ends of a segment at its point nearest to x.
+template <typename Number>
+Number nearest_on_segment(const Vec<Number>& x, const Vec<Number>& a, const Vec<Number>& b) {
+  const Vec<Number> e = b - a;
+  const Number ee = dot(e, e);
+  if (ee == 0) return Number(0);
+  const Number s = Number(dot(x - a, e) / ee);
+  return s < 0 ? Number(0) : s > 1 ? Number(1) : s;
+}
+
+/// The weights of b and c at the point of a triangle nearest to x, and the squared distance.
+template <typename Number>
+struct Nearest {
+  Number u, v, distance;
+};
+
+template <typename Number>
+Nearest<Number> nearest_on_triangle(const Vec<Number>& x, const Pair<Number>& pair) {
+  const Vec<Number> ab = pair.b - pair.a;
+  const Vec<Number> ac = pair.c - pair.a;
+  const Vec<Number> n = cross(ab, ac);
+  const Number nn = dot(n, n);
+  const Vec<Number> w = x - pair.a;
+  if (nn != 0) {
+    const Number u = Number(dot(n, cross(w, ac)) / nn);
+    const Number v = Number(dot(n, cross(ab, w)) / nn);
+    if (u >= 0 && v >= 0 && u + v <= 1) {
+      const Number height = dot(n, w);
+      return {u, v, Number(height * height / nn)};
+    }
+  }
+  Nearest<Number> best{Number(0), Number(0), Number(-1)};
+  const auto take = [&](const Vec<Number>& from, const Vec<Number>& to, auto weights) {
+    const Number s = nearest_on_segment(x, from, to);
+    const Vec<Number> gap = x - along(from, s, Vec<Number>(to - from));
+    const Number distance = dot(gap, gap);
+    if (best.distance >= 0 && distance >= best.distance) return;
+    const auto [u, v] = weights(s);
+    best = {u, v, distance};
+  };
+  using Weights = std::array<Number, 2>;
+  const std::array<std::pair<const Vec<Number>*, Weights>, 3> corners = {
+      std::pair{&pair.a, Weights{Number(0), Number(0)}}, std::pair{&pair.b, Weights{Number(1), Number(0)}},
+      std::pair{&pair.c, Weights{Number(0), Number(1)}}};
+  const auto by_place = [](const auto& x, const auto& y) { return *x.first < *y.first; };
+  const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), by_place);
+  // A triangle without area is the edge between its first and its last corner. The first of two equal corners counts.
+  const auto first_high = std::max_element(corners.begin(), corners.end(), by_place);
+  for (std::size_t i = 0; i < 3; ++i) {
+    auto from = corners.begin() + static_cast<std::ptrdiff_t>(i);
+    auto to = corners.begin() + static_cast<std::ptrdiff_t>((i + 1) % 3);
+    if (nn == 0) {
+      from = low;
+      to = first_high;
+    }
+    take(*from->first, *to->first, [&](const Number& s) {
+      const auto weigh = [&](std::size_t k) {
+        return Number(from->second[k] + s * (to->second[k] - from->second[k]));
+      };
+      return Weights{weigh(0), weigh(1)};
+    });
+    if (nn == 0) break;
+  }
+  static_cast<void>(high);
+  return best;
+}
+
+/// The squared distance between two segments.
+mpq_class distance_of_segments(const Vec<mpq_class>& p, const Vec<mpq_class>& q, const Vec<mpq_class>& a,
+                               const Vec<mpq_class>& b) {
+  const auto from_point = [](const auto& x, const auto& y, const auto& z) {
+    const auto gap = x - along(y, nearest_on_segment(x, y, z), Vec<mpq_class>(z - y));
+    return dot(gap, gap);
+  };
+  mpq_class best = std::min({from_point(p, a, b), from_point(q, a, b), from_point(a, p, q), from_point(b, p, q)});
+  const auto d = q - p;
+  const auto e = b - a;
+  const auto w = p - a;
+  const mpq_class dd = dot(d, d);
+  const mpq_class de = dot(d, e);
+  const mpq_class ee = dot(e, e);
+  const mpq_class det = dd * ee - de * de;
+  if (det == 0) return best;
+  const mpq_class dw = dot(d, w);
+  const mpq_class ew = dot(e, w);
+  const mpq_class s = (de * ew - ee * dw) / det;
+  const mpq_class t = (dd * ew - de * dw) / det;
+  if (s < 0 || s > 1 || t < 0 || t > 1) return best;
+  const auto gap = along(p, s, d) - along(a, t, e);
+  return std::min(best, dot(gap, gap));
+}
+
+/// The squared distance between the first part of the way, up to t, and the triangle.
+mpq_class distance_until(const Pair<mpq_class>& pair, const mpq_class& t) {
+  const auto end = along(pair.start, t, pair.step);
+  const auto n = cross(pair.b - pair.a, pair.c - pair.a);
+  const mpq_class rate = dot(n, end - pair.start);
+  if (rate != 0) {
+    const mpq_class s = -dot(n, pair.start - pair.a) / rate;
+    if (s >= 0 && s <= 1) {
+      const auto nearest = nearest_on_triangle(along(pair.start, s, Vec<mpq_class>(end - pair.start)), pair);
+      if (nearest.distance == 0) return 0;
+    }
+  }
+  return std::min({nearest_on_triangle(pair.start, pair).distance, nearest_on_triangle(end, pair).distance,
+                   distance_of_segments(pair.start, end, pair.a, pair.b),
+                   distance_of_segments(pair.start, end, pair.b, pair.c),
+                   distance_of_segments(pair.start, end, pair.c, pair.a)});
+}
+
+bool touches_before(const Pair<mpq_class>& pair, const mpq_class& t) {
+  mpz_class fine = 1;
+  fine <<= 400;
+  return distance_until(pair, t * (1 - mpq_class(mpz_class(1), fine))) <= pair.rr;
+}
+
+/// What is known of t: it is in the interval that rounds to `t`, with ties to even.
+template <typename Scalar>
+std::optional<std::string> find_error_of_t(const Pair<mpq_class>& pair, Scalar t) {
+  const bool is_even =
+      (std::bit_cast<std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>>(t) & 1) == 0;
+  const mpq_class exact(double{t});
+  const mpq_class above = (exact + mpq_class(double{std::nextafter(t, Scalar{2})})) / 2;
+  if (t < 1) {
+    if (distance_until(pair, above) > pair.rr) return "t is too low";
+    if (!is_even && !touches_before(pair, above)) return "t is the lower one of a tie, and odd";
+  }
+  if (t > 0) {
+    const mpq_class below = (exact + mpq_class(double{std::nextafter(t, Scalar{0})})) / 2;
+    if (distance_until(pair, below) <= pair.rr && (!is_even || touches_before(pair, below))) return "t is too high";
+  }
+  return std::nullopt;
+}
+
+using Float = mpf_class;
+
+/// The lower root of a t^2 + 2 b t + c, if there is one.
+std::optional<Float> lower_root(const Float& a, const Float& b, const Float& c, const Float& tiny) {
+  if (a <= 0) return std::nullopt;
+  Float d = b * b - a * c;
+  if (d < 0 && d > -tiny * b * b) d = 0;
+  if (d < 0) return std::nullopt;
+  return Float((-b - sqrt(d)) / a);
+}
+
+/// All t at which the centre comes to a distance of the radius from the plane, the line of an edge, or a corner.
+std::vector<Float> roots(const Pair<Float>& pair, const Float& tiny) {
+  std::vector<Float> all;
+  const auto add = [&](const Float& a, const Float& b, const Float& c) {
+    if (const auto root = lower_root(a, b, c, tiny)) all.push_back(*root);
+  };
+  const std::array corners = {pair.a, pair.b, pair.c, pair.a};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto w = pair.start - corners[i];
+    add(dot(pair.step, pair.step), dot(pair.step, w), Float(dot(w, w) - pair.rr));
+    // The parts of w and of the step across the edge.
+    const auto e = corners[i + 1] - corners[i];
+    const Float ee = dot(e, e);
+    if (ee == 0) continue;
+    const auto w_across = along(w, Float(-dot(w, e) / ee), e);
+    const auto d_across = along(pair.step, Float(-dot(pair.step, e) / ee), e);
+    if (dot(d_across, d_across) <= tiny * dot(pair.step, pair.step)) continue;
+    add(dot(d_across, d_across), dot(d_across, w_across), Float(dot(w_across, w_across) - pair.rr));
+  }
+  const auto n = cross(pair.b - pair.a, pair.c - pair.a);
+  const Float nn = dot(n, n);
+  if (nn != 0) {
+    const Float h = dot(n, pair.start - pair.a);
+    const Float rate = dot(n, pair.step);
+    if (rate != 0) {
+      const Float reach = sqrt(Float(pair.rr * nn));
+      all.push_back(Float(-(h + (h > 0 ? -reach : reach)) / rate));
+    }
+  }
+  return all;
+}
+
+Feature feature_at(const Float& u, const Float& v, const Float& tiny) {
+  const bool no_u = u < tiny;
+  const bool no_v = v < tiny;
+  const bool no_w = 1 - u - v < tiny;
+  if (no_u && no_v) return Feature::corner_a;
+  if (no_v && no_w) return Feature::corner_b;
+  if (no_u && no_w) return Feature::corner_c;
+  return no_v ? Feature::edge_ab : no_w ? Feature::edge_bc : no_u ? Feature::edge_ca : Feature::face;
+}
+
+/// Whether a weight rounds to this, but for exact ties, which floats cannot tell.
+template <typename Scalar>
+bool rounds_to(const Float& exact, Scalar x, const Float& tiny) {
+  const Float value(double{x}, exact.get_prec());
+  const Float above = (value + double{std::nextafter(x, Scalar{2})}) / 2;
+  const Float below = (value + double{std::nextafter(x, Scalar{-1})}) / 2;
+  return exact <= above + tiny * above && exact >= below - tiny;
+}
+
+/// Bits of the floats, which hold all that a tie does not decide.
+template <typename Scalar>
+constexpr mp_bitcnt_t precision = sizeof(Scalar) == 4 ? 6000 : 30000;
+
+template <typename Scalar>
+Float tiny_number() {
+  mpf_set_default_prec(precision<Scalar>);
+  Float tiny(1);
+  mpf_div_2exp(tiny.get_mpf_t(), tiny.get_mpf_t(), precision<Scalar> / 4);
+  return tiny;
+}
+
+/// The t of the first contact, if the ball does not begin with it.
+std::optional<Float> first_time(const Pair<Float>& pair, const Float& tiny) {
+  std::optional<Float> first;
+  const Float slack = tiny * (pair.rr + tiny * dot(pair.step, pair.step));
+  for (const Float& root : roots(pair, tiny)) {
+    if (root < 0 || root > 1 + tiny || (first && *first < root)) continue;
+    const Float distance = nearest_on_triangle(along(pair.start, root, pair.step), pair).distance;
+    if (distance <= pair.rr + slack) first = root;
+  }
+  return first;
+}
+
+/// The weights and the feature at the exact t.
+template <typename Scalar>
+std::optional<std::string> find_error_of_point(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                               const ShapeHit<Scalar>& hit) {
+  const Float tiny = tiny_number<Scalar>();
+  const auto pair = convert<Float>(sphere, triangle);
+  Float t(0);
+  if (!hit.started_touching) {
+    const std::optional<Float> first = first_time(pair, tiny);
+    if (!first) return "the judge finds no t";
+    t = *first;
+    if (!rounds_to(t, hit.t, tiny)) return "t is wrong";
+  }
+  const auto nearest = nearest_on_triangle(along(pair.start, t, pair.step), pair);
+  if (!rounds_to(nearest.u, hit.u, tiny)) return "u is wrong";
+  if (!rounds_to(nearest.v, hit.v, tiny)) return "v is wrong";
+  const auto e = cross(pair.b - pair.a, pair.c - pair.a);
+  if (dot(e, e) == 0) return std::nullopt;  // Names of the parts are tested by named cases.
+  if (hit.feature != feature_at(nearest.u, nearest.v, tiny)) return "the feature is wrong";
+  return std::nullopt;
+}
+
+}  // namespace
+
+template <typename Scalar>
+std::optional<std::string> find_error(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                      const std::optional<ShapeHit<Scalar>>& answer) {
+  const auto pair = convert<mpq_class>(sphere, triangle);
+  if (distance_until(pair, 1) > pair.rr) {
+    return answer ? std::optional<std::string>("a hit, but they do not touch") : std::nullopt;
+  }
+  if (!answer) return "a miss, but they touch";
+  const bool starts = distance_until(pair, 0) <= pair.rr;
+  if (answer->started_touching != starts) return "started_touching is wrong";
+  if (starts && answer->t != 0) return "t is not 0";
+  if (!starts) {
+    if (!(answer->t >= 0 && answer->t <= 1)) return "t is not in [0, 1]";
+    if (const auto error = find_error_of_t(pair, answer->t)) return error;
+  }
+  return find_error_of_point(sphere, triangle, *answer);
+}
+
+template <typename Scalar>
+bool comes_before(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x, const Triangle<Scalar>& y) {
+  const Float tiny = tiny_number<Scalar>();
+  const Float of_x = first_time(convert<Float>(sphere, x), tiny).value();
+  return of_x < first_time(convert<Float>(sphere, y), tiny).value() - tiny * of_x;
+}
+
+#define SUREHIT_INSTANTIATE(Scalar)                                                                           \
+  template std::optional<std::string> find_error(const SweptSphere<Scalar>&, const Triangle<Scalar>&,         \
+                                                 const std::optional<ShapeHit<Scalar>>&);                     \
+  template bool comes_before(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const Triangle<Scalar>&);
+SUREHIT_INSTANTIATE(float)
+SUREHIT_INSTANTIATE(double)
+#undef SUREHIT_INSTANTIATE
+
+}  // namespace surehit::test

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "surehit/shape_hit.hpp"
+#include "surehit/swept_sphere.hpp"
+#include "surehit/triangle.hpp"
+
+namespace surehit::test {
+
+/// Says what is wrong with an answer about a moving ball and a triangle, or returns nothing if it is right in every
+/// field. All numbers must be finite, and the radius must not be negative.
+///
+/// Yes or no, and the rounding of t, follow from distances between segments and triangles in rationals. They need no
+/// root. The weights and the feature come from floats of many thousand bits. It shares nothing with the library. Call
+/// it in the default floating-point environment.
+template <typename Scalar>
+[[nodiscard]] std::optional<std::string> find_error(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                                    const std::optional<ShapeHit<Scalar>>& answer);
+
+/// Whether the ball comes to x at a lower t than to y. It must touch both, and neither at its start.
+template <typename Scalar>
+[[nodiscard]] bool comes_before(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x,
+                                const Triangle<Scalar>& y);
+
+}  // namespace surehit::test
