@@ -75,8 +75,8 @@ class SpherePairDrawer {
 
   SpherePair<Scalar> beside(SpherePair<Scalar> pair) {
     const auto nudge = [&](Scalar& x) {
-      x = std::nextafter(x, random_.one_in(2) ? std::numeric_limits<Scalar>::max()
-                                              : std::numeric_limits<Scalar>::lowest());
+      x = std::nextafter(
+          x, random_.one_in(2) ? std::numeric_limits<Scalar>::max() : std::numeric_limits<Scalar>::lowest());
     };
     const auto axis = static_cast<Eigen::Index>(random_.below(3));
     switch (random_.below(6)) {

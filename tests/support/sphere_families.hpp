@@ -32,14 +32,12 @@ enum class SphereFamily : std::uint8_t {
 };
 
 inline constexpr std::array all_sphere_families = {
-    SphereFamily::general,          SphereFamily::tangent,
-    SphereFamily::beside_tangent,   SphereFamily::in_plane,
-    SphereFamily::starts_touching,  SphereFamily::starts_at_distance,
-    SphereFamily::small_steps,      SphereFamily::small_radii,
-    SphereFamily::huge_radii,       SphereFamily::far_away,
-    SphereFamily::slivers,          SphereFamily::degenerate_triangles,
-    SphereFamily::at_rest,          SphereFamily::no_radius,
-    SphereFamily::small_integers,   SphereFamily::mixed_magnitudes,
+    SphereFamily::general,          SphereFamily::tangent,         SphereFamily::beside_tangent,
+    SphereFamily::in_plane,         SphereFamily::starts_touching, SphereFamily::starts_at_distance,
+    SphereFamily::small_steps,      SphereFamily::small_radii,     SphereFamily::huge_radii,
+    SphereFamily::far_away,         SphereFamily::slivers,         SphereFamily::degenerate_triangles,
+    SphereFamily::at_rest,          SphereFamily::no_radius,       SphereFamily::small_integers,
+    SphereFamily::mixed_magnitudes,
 };
 
 [[nodiscard]] std::string name_of(SphereFamily family);

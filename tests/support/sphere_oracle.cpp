@@ -115,9 +115,7 @@ Nearest<Number> nearest_on_triangle(const Vec<Number>& x, const Pair<Number>& pa
       to = first_high;
     }
     take(*from->first, *to->first, [&](const Number& s) {
-      const auto weigh = [&](std::size_t k) {
-        return Number(from->second[k] + s * (to->second[k] - from->second[k]));
-      };
+      const auto weigh = [&](std::size_t k) { return Number(from->second[k] + s * (to->second[k] - from->second[k])); };
       return Weights{weigh(0), weigh(1)};
     });
     if (nn == 0) break;
@@ -328,9 +326,9 @@ bool comes_before(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x, 
   return of_x < first_time(convert<Float>(sphere, y), tiny).value() - tiny * of_x;
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                           \
-  template std::optional<std::string> find_error(const SweptSphere<Scalar>&, const Triangle<Scalar>&,         \
-                                                 const std::optional<ShapeHit<Scalar>>&);                     \
+#define SUREHIT_INSTANTIATE(Scalar)                                                                   \
+  template std::optional<std::string> find_error(const SweptSphere<Scalar>&, const Triangle<Scalar>&, \
+                                                 const std::optional<ShapeHit<Scalar>>&);             \
   template bool comes_before(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const Triangle<Scalar>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

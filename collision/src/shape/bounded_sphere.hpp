@@ -7,8 +7,9 @@
 
 namespace surehit::detail {
 
-/// Decides a moving ball and a triangle with running error bounds in double. If it is a hit, sets `found`. The input
-/// must be finite, and the radius must not be negative. Triangles without a certain area are undecided.
+/// Decides a moving ball and a triangle in double, first with the sizes of all numbers, then with running error bounds.
+/// If it is a hit, sets `found`. The input must be finite, and the radius must not be negative. Triangles without a
+/// certain area are undecided.
 template <typename Scalar>
 [[nodiscard]] Verdict bounded_sphere_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
                                              SphereContact& found);

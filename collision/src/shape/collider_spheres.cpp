@@ -104,9 +104,8 @@ void Collider<Scalar>::first_hits(std::span<const SweptSphere<Scalar>> spheres, 
 template <FloatOrDouble Scalar>
 void Collider<Scalar>::any_hits(std::span<const SweptSphere<Scalar>> spheres, std::span<std::uint8_t> blocked,
                                 const ShapeBatchOptions<Scalar>& options) const noexcept {
-  answer_batch(state(), std::min(spheres.size(), blocked.size()), options, [&](const auto& query, std::size_t i) {
-    blocked[i] = detail::search_any(query, spheres[i]) ? 1 : 0;
-  });
+  answer_batch(state(), std::min(spheres.size(), blocked.size()), options,
+               [&](const auto& query, std::size_t i) { blocked[i] = detail::search_any(query, spheres[i]) ? 1 : 0; });
 }
 
 template <FloatOrDouble Scalar>
@@ -116,28 +115,28 @@ Scalar Collider<Scalar>::last_free_t(const SweptSphere<Scalar>& sphere, const Sh
   return is_touched ? std::nextafter(hit.t, Scalar{0}) : hit.t;
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                                  \
-  template SUREHIT_API std::optional<ShapeHit<Scalar>> Collider<Scalar>::first_hit(                                  \
-      const SweptSphere<Scalar>&, const ShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept;                \
-  template SUREHIT_API std::optional<ShapeHit<Scalar>> Collider<Scalar>::first_hit(                                  \
-      const SweptSphere<Scalar>&, ShapeHitFilter<Scalar>, const ShapeQueryOptions<Scalar>&, QueryStatistics*)        \
-      const noexcept;                                                                                                \
-  template SUREHIT_API bool Collider<Scalar>::any_hit(const SweptSphere<Scalar>&, const ShapeQueryOptions<Scalar>&,  \
-                                                      QueryStatistics*) const noexcept;                              \
-  template SUREHIT_API bool Collider<Scalar>::any_hit(const SweptSphere<Scalar>&, ShapeHitFilter<Scalar>,            \
-                                                      const ShapeQueryOptions<Scalar>&, QueryStatistics*)            \
-      const noexcept;                                                                                                \
-  template SUREHIT_API void Collider<Scalar>::all_hits(const SweptSphere<Scalar>&, std::vector<ShapeHit<Scalar>>&,   \
-                                                       const ShapeQueryOptions<Scalar>&, QueryStatistics*) const;    \
-  template SUREHIT_API void Collider<Scalar>::all_hits(const SweptSphere<Scalar>&, std::vector<ShapeHit<Scalar>>&,   \
-                                                       ShapeHitFilter<Scalar>, const ShapeQueryOptions<Scalar>&,     \
-                                                       QueryStatistics*) const;                                      \
-  template SUREHIT_API void Collider<Scalar>::first_hits(std::span<const SweptSphere<Scalar>>,                       \
-                                                         std::span<ShapeHit<Scalar>>,                                \
-                                                         const ShapeBatchOptions<Scalar>&) const noexcept;           \
+#define SUREHIT_INSTANTIATE(Scalar)                                                                                   \
+  template SUREHIT_API std::optional<ShapeHit<Scalar>> Collider<Scalar>::first_hit(                                   \
+      const SweptSphere<Scalar>&, const ShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept;                 \
+  template SUREHIT_API std::optional<ShapeHit<Scalar>> Collider<Scalar>::first_hit(                                   \
+      const SweptSphere<Scalar>&, ShapeHitFilter<Scalar>, const ShapeQueryOptions<Scalar>&, QueryStatistics*)         \
+      const noexcept;                                                                                                 \
+  template SUREHIT_API bool Collider<Scalar>::any_hit(const SweptSphere<Scalar>&, const ShapeQueryOptions<Scalar>&,   \
+                                                      QueryStatistics*) const noexcept;                               \
+  template SUREHIT_API bool Collider<Scalar>::any_hit(const SweptSphere<Scalar>&, ShapeHitFilter<Scalar>,             \
+                                                      const ShapeQueryOptions<Scalar>&, QueryStatistics*)             \
+      const noexcept;                                                                                                 \
+  template SUREHIT_API void Collider<Scalar>::all_hits(const SweptSphere<Scalar>&, std::vector<ShapeHit<Scalar>>&,    \
+                                                       const ShapeQueryOptions<Scalar>&, QueryStatistics*) const;     \
+  template SUREHIT_API void Collider<Scalar>::all_hits(const SweptSphere<Scalar>&, std::vector<ShapeHit<Scalar>>&,    \
+                                                       ShapeHitFilter<Scalar>, const ShapeQueryOptions<Scalar>&,      \
+                                                       QueryStatistics*) const;                                       \
+  template SUREHIT_API void Collider<Scalar>::first_hits(                                                             \
+      std::span<const SweptSphere<Scalar>>, std::span<ShapeHit<Scalar>>, const ShapeBatchOptions<Scalar>&)            \
+      const noexcept;                                                                                                 \
   template SUREHIT_API void Collider<Scalar>::any_hits(std::span<const SweptSphere<Scalar>>, std::span<std::uint8_t>, \
-                                                       const ShapeBatchOptions<Scalar>&) const noexcept;             \
-  template SUREHIT_API Scalar Collider<Scalar>::last_free_t(const SweptSphere<Scalar>&, const ShapeHit<Scalar>&)     \
+                                                       const ShapeBatchOptions<Scalar>&) const noexcept;              \
+  template SUREHIT_API Scalar Collider<Scalar>::last_free_t(const SweptSphere<Scalar>&, const ShapeHit<Scalar>&)      \
       const noexcept;
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

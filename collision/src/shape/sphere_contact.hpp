@@ -30,8 +30,8 @@ struct SphereContact {
 [[nodiscard]] constexpr bool is_corner(Feature feature) { return feature >= Feature::corner_a; }
 /// Returns the number of an edge, or that of a corner.
 [[nodiscard]] constexpr std::size_t index_of(Feature feature) {
-  return static_cast<std::size_t>(feature) - static_cast<std::size_t>(is_corner(feature) ? Feature::corner_a
-                                                                                          : Feature::edge_ab);
+  return static_cast<std::size_t>(feature) -
+         static_cast<std::size_t>(is_corner(feature) ? Feature::corner_a : Feature::edge_ab);
 }
 
 }  // namespace surehit::detail

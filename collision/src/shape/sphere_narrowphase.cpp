@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 
 #include "path_range.hpp"
 #include "shape/bounded_sphere.hpp"
@@ -10,6 +10,29 @@
 #include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
+namespace {
+
+/// Returns corner `index` of a triangle, where corner 3 is the first one again.
+template <typename Scalar>
+const Vector3<Scalar>& corner(const Triangle<Scalar>& triangle, std::size_t index) {
+  return index == 1 ? triangle.b : index == 2 ? triangle.c : triangle.a;
+}
+
+/// Returns true if two triangles share the corner or the edge whose equation has t as a root. Neighbours often do.
+template <typename Scalar>
+bool are_timed_alike(const SphereCandidate<Scalar>& x, const SphereCandidate<Scalar>& y) {
+  const Feature of_x = x.contact.timed_by;
+  const Feature of_y = y.contact.timed_by;
+  if (of_x == Feature::face || of_y == Feature::face || is_corner(of_x) != is_corner(of_y)) return false;
+  const auto& x_first = corner(x.triangle, index_of(of_x));
+  const auto& y_first = corner(y.triangle, index_of(of_y));
+  if (is_corner(of_x)) return x_first == y_first;
+  const auto& x_last = corner(x.triangle, index_of(of_x) + 1);
+  const auto& y_last = corner(y.triangle, index_of(of_y) + 1);
+  return (x_first == y_first && x_last == y_last) || (x_first == y_last && x_last == y_first);
+}
+
+}  // namespace
 
 template <typename Scalar>
 bool is_valid(const SweptSphere<Scalar>& sphere) {
@@ -19,25 +42,7 @@ bool is_valid(const SweptSphere<Scalar>& sphere) {
 template <typename Scalar>
 SphereNarrowphase<Scalar>::SphereNarrowphase(const SweptSphere<Scalar>& sphere,
                                              const ShapeQueryOptions<Scalar>& options, QueryStatistics& statistics)
-    : sphere_(sphere), options_(options), statistics_(statistics) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<Eigen::Index>(axis);
-    // Each bound is rounded once, so the next double beyond it is safe.
-    low_[axis] = std::nextafter(double{std::min(sphere.start[i], sphere.end[i])} - double{sphere.radius}, -infinity);
-    high_[axis] = std::nextafter(double{std::max(sphere.start[i], sphere.end[i])} + double{sphere.radius}, infinity);
-  }
-}
-
-template <typename Scalar>
-bool SphereNarrowphase<Scalar>::misses_box(const Triangle<Scalar>& triangle) const {
-  const auto& [a, b, c] = triangle;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<Eigen::Index>(axis);
-    if (std::max({a[i], b[i], c[i]}) < low_[axis] || std::min({a[i], b[i], c[i]}) > high_[axis]) return true;
-  }
-  return false;
-}
+    : sphere_(sphere), options_(options), statistics_(statistics) {}
 
 template <typename Scalar>
 bool SphereNarrowphase<Scalar>::admits(const Triangle<Scalar>& triangle, const SphereContact& contact) const {
@@ -55,7 +60,6 @@ bool SphereNarrowphase<Scalar>::admits(const Triangle<Scalar>& triangle, const S
 template <typename Scalar>
 bool SphereNarrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, double limit,
                                              SphereContact& found) const {
-  if (misses_box(triangle)) return false;
   switch (bounded_sphere_contact(sphere_, triangle, found)) {
     case Verdict::miss:
       return false;
@@ -76,6 +80,7 @@ bool SphereNarrowphase<Scalar>::comes_before(const SphereCandidate<Scalar>& x, c
   if (y.contact.t_upper < x.contact.t_lower) return false;
   if (x.id == y.id) return false;
   if (x.contact.at_start && y.contact.at_start) return x.id < y.id;
+  if (are_timed_alike(x, y)) return x.id < y.id;
   ++statistics_.exact_orders;
   const int order = compare_times(sphere_, x.triangle, x.contact, y.triangle, y.contact);
   return order != 0 ? order < 0 : x.id < y.id;

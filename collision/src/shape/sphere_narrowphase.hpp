@@ -42,16 +42,12 @@ class SphereNarrowphase {
   [[nodiscard]] ShapeHit<Scalar> hit(const SphereCandidate<Scalar>& candidate) const;
 
  private:
-  /// Returns true if the way of the ball certainly misses the box of the triangle.
-  [[nodiscard]] bool misses_box(const Triangle<Scalar>& triangle) const;
   /// Returns true if `max_t` and `culling` admit a contact.
   [[nodiscard]] bool admits(const Triangle<Scalar>& triangle, const SphereContact& contact) const;
 
   const SweptSphere<Scalar>& sphere_;
   const ShapeQueryOptions<Scalar>& options_;
   QueryStatistics& statistics_;
-  std::array<double, 3> low_;   ///< Nothing below this is touched.
-  std::array<double, 3> high_;  ///< Nothing above this is touched.
 };
 
 }  // namespace surehit::detail

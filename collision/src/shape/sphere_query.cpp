@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <bit>
 
+#include "shape/sphere_filter.hpp"
 #include "shape/sphere_narrowphase.hpp"
 #include "support/rounding_flags.hpp"
 #include "walk/swept_walk.hpp"
@@ -32,23 +33,35 @@ template <typename Scalar, typename Keep>
 class SphereVisitor {
  public:
   SphereVisitor(const SphereQuery<Scalar>& query, const SweptSphere<Scalar>& sphere)
-      : query_(query), narrowphase_(sphere, query.options, query.statistics) {}
+      : query_(query), filter_(sphere), narrowphase_(sphere, query.options, query.statistics) {}
 
   void count_cell() { ++query_.statistics.cells; }
   void visit_list(CellWord word) {
     const std::uint32_t count = query_.grid.entry_count(word);
     const std::size_t first = query_.grid.first_entry(word);
     const Scalar* const corners = MeshBlocks<Scalar>::corners(query_.mesh.block(word.list(), first));
-    query_.statistics.candidates += count;
-    for (std::uint32_t i = 0; i < count && !is_done(); ++i) {
-      const std::uint32_t id = query_.grid.entries()[first + i];
-      if (!recent_.has(id)) take(id, MeshBlocks<Scalar>::triangle(corners, count, i));
+    const std::size_t counting = keep_.count_that_counts(query_.grid.entries(), first, count);
+    query_.statistics.candidates += counting;
+    for (std::size_t from = 0; from < counting; from += SphereFilter<Scalar>::max_count) {
+      std::uint64_t found = filter_.find(corners, count, from, keep_.limit, enters_);
+      if (counting - from < 64) found &= (std::uint64_t{1} << (counting - from)) - 1;
+      while (found != 0) {
+        // The triangle that may be touched first comes first. Its hit may lower the limit below all others.
+        const std::size_t lane = first_to_enter(found);
+        if (enters_[lane] > keep_.limit) break;
+        found &= ~(std::uint64_t{1} << lane);
+        const std::uint32_t id = query_.grid.entries()[first + from + lane];
+        if (recent_.has(id) || keep_.passes_over(id)) continue;
+        take(id, MeshBlocks<Scalar>::triangle(corners, count, from + lane));
+        if (is_done()) return;
+      }
     }
   }
   void visit_all() {
     ++query_.statistics.unclipped;
     query_.statistics.candidates += query_.mesh.triangle_count();
-    for (std::uint32_t id = 0; id < query_.mesh.triangle_count() && !is_done(); ++id) take(id, query_.mesh.triangle(id));
+    for (std::uint32_t id = 0; id < query_.mesh.triangle_count() && !is_done(); ++id)
+      take(id, query_.mesh.triangle(id));
   }
   [[nodiscard]] double limit() const { return keep_.limit; }
   [[nodiscard]] bool is_done() const { return keep_.is_done; }
@@ -56,13 +69,26 @@ class SphereVisitor {
   [[nodiscard]] const SphereNarrowphase<Scalar>& narrowphase() const { return narrowphase_; }
 
  private:
+  /// Returns the lane that the ball may touch first, among the lanes of these bits. Of several, it is the lowest lane.
+  [[nodiscard]] std::size_t first_to_enter(std::uint64_t lanes) const {
+    auto first = static_cast<std::size_t>(std::countr_zero(lanes));
+    for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      if (enters_[lane] < enters_[first]) first = lane;
+    }
+    return first;
+  }
   void take(std::uint32_t id, const Triangle<Scalar>& triangle) {
     if (!query_.takes_part(id)) return;
     SphereCandidate<Scalar> candidate{id, triangle, {}};
-    if (narrowphase_.find_contact(triangle, keep_.limit, candidate.contact)) keep_.take(query_, narrowphase_, candidate);
+    ++query_.statistics.undecided;
+    if (narrowphase_.find_contact(triangle, keep_.limit, candidate.contact))
+      keep_.take(query_, narrowphase_, candidate);
   }
 
   const SphereQuery<Scalar>& query_;
+  SphereFilter<Scalar> filter_;
+  typename SphereFilter<Scalar>::Times enters_;
   SphereNarrowphase<Scalar> narrowphase_;
   Recent recent_;
   Keep keep_;
@@ -78,6 +104,25 @@ struct KeepFirst {
     first = candidate;
     limit = candidate.contact.t_upper;
   }
+  /// Returns true if a triangle cannot be the first one, whatever its contact is.
+  [[nodiscard]] bool passes_over(std::uint32_t id) const {
+    return first && (id == first->id || (first->contact.at_start && id > first->id));
+  }
+  /// Returns how many triangles of a list may be the first one. If the ball begins with a contact, they are those with
+  /// lower ids. Ids ascend in a list.
+  [[nodiscard]] std::size_t count_that_counts(const PackedIds& ids, std::size_t from, std::size_t count) const {
+    if (!first || !first->contact.at_start) return count;
+    std::size_t low = 0;
+    while (low < count) {
+      const std::size_t middle = low + (count - low) / 2;
+      if (ids[from + middle] < first->id) {
+        low = middle + 1;
+      } else {
+        count = middle;
+      }
+    }
+    return low;
+  }
   std::optional<SphereCandidate<Scalar>> first;
   double limit = 1;
   static constexpr bool is_done = false;
@@ -90,6 +135,8 @@ struct KeepAny {
             const SphereCandidate<Scalar>& candidate) {
     is_done = query.filter == nullptr || query.accepts(narrowphase.hit(candidate));
   }
+  [[nodiscard]] static bool passes_over(std::uint32_t) { return false; }
+  [[nodiscard]] static std::size_t count_that_counts(const PackedIds&, std::size_t, std::size_t count) { return count; }
   static constexpr double limit = 1;
   bool is_done = false;
 };
@@ -100,6 +147,8 @@ struct KeepAll {
   void take(const SphereQuery<Scalar>&, const SphereNarrowphase<Scalar>&, const SphereCandidate<Scalar>& candidate) {
     all.push_back(candidate);
   }
+  [[nodiscard]] static bool passes_over(std::uint32_t) { return false; }
+  [[nodiscard]] static std::size_t count_that_counts(const PackedIds&, std::size_t, std::size_t count) { return count; }
   std::vector<SphereCandidate<Scalar>> all;
   static constexpr double limit = 1;
   static constexpr bool is_done = false;
@@ -150,10 +199,10 @@ void search_all(const SphereQuery<Scalar>& query, const SweptSphere<Scalar>& sph
   }
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                               \
-  template std::optional<ShapeHit<Scalar>> search_first(const SphereQuery<Scalar>&,                               \
-                                                        const SweptSphere<Scalar>&) noexcept;                     \
-  template bool search_any(const SphereQuery<Scalar>&, const SweptSphere<Scalar>&) noexcept;                      \
+#define SUREHIT_INSTANTIATE(Scalar)                                                           \
+  template std::optional<ShapeHit<Scalar>> search_first(const SphereQuery<Scalar>&,           \
+                                                        const SweptSphere<Scalar>&) noexcept; \
+  template bool search_any(const SphereQuery<Scalar>&, const SweptSphere<Scalar>&) noexcept;  \
   template void search_all(const SphereQuery<Scalar>&, const SweptSphere<Scalar>&, std::vector<ShapeHit<Scalar>>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

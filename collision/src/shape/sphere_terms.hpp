@@ -7,6 +7,7 @@
 
 #include "exact/wide_int.hpp"
 #include "filter/bounded.hpp"
+#include "filter/sized.hpp"
 #include "shape/sphere_contact.hpp"
 
 namespace surehit::detail {
@@ -43,6 +44,7 @@ template <typename Terms>
 }
 
 [[nodiscard]] inline Bounded negated(const Bounded& x) { return -x; }
+[[nodiscard]] inline Sized negated(const Sized& x) { return -x; }
 template <int Bits>
 [[nodiscard]] WideInt<Bits> negated(WideInt<Bits> x) {
   x.negate();
@@ -53,7 +55,9 @@ template <int Bits>
 /// it has no meaning.
 class Signs {
  public:
-  [[nodiscard]] int of(const Bounded& x) {
+  template <typename Number>
+  requires requires(const Number& x) { x.value; }
+  [[nodiscard]] int of(const Number& x) {
     const std::optional<int> sign = x.sign();
     is_certain_ &= sign.has_value();
     return sign.value_or(0);

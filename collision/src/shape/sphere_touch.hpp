@@ -12,9 +12,9 @@ namespace surehit::detail {
 /// The corners and edges of a triangle that count. A triangle without area is a segment: the edge between its two
 /// extreme corners. If it has no length either, it is the first corner.
 struct Outline {
-  bool has_face = true;                               ///< True if the triangle has an area.
-  std::array<bool, 3> edges = {true, true, true};     ///< The edges that count.
-  std::array<bool, 3> corners = {true, true, true};   ///< The corners that count.
+  bool has_face = true;                              ///< True if the triangle has an area.
+  std::array<bool, 3> edges = {true, true, true};    ///< The edges that count.
+  std::array<bool, 3> corners = {true, true, true};  ///< The corners that count.
 };
 
 /// Decides whether a moving ball touches a triangle, and where first. Follows SHAPES.md, whose lemmas it cites. The
@@ -79,7 +79,8 @@ class SphereTouch {
     }
     for (std::size_t edge = 0; edge < 3; ++edge) {
       if (!outline_.edges[edge]) continue;
-      const bool is_beside = along(point[edge], terms_.edge[edge]) > 0 && along(point[next(edge)], terms_.edge[edge]) < 0;
+      const bool is_beside =
+          along(point[edge], terms_.edge[edge]) > 0 && along(point[next(edge)], terms_.edge[edge]) < 0;
       if (!is_beside) continue;
       if (!outline_.has_face) return edge_feature(edge);
       const auto outward = cross(terms_.edge[edge], normal());

@@ -19,9 +19,7 @@ constexpr int bits = 128;
 using Root = detail::QuadraticRoot<bits>;
 using Int = detail::WideInt<bits>;
 
-Int integer(std::int64_t x) {
-  return Int::shifted(static_cast<std::uint64_t>(std::abs(x)), 0, x < 0);
-}
+Int integer(std::int64_t x) { return Int::shifted(static_cast<std::uint64_t>(std::abs(x)), 0, x < 0); }
 
 /// A quadratic with real roots, and its lower root in floats.
 struct Quadratic {
@@ -111,7 +109,8 @@ TEST(QuadraticRoot, RoundsTiesToEven) {
     const std::int64_t denominator = std::int64_t{1} << 25;
     return Quadratic{denominator, -numerator, 0};
   };
-  for (const auto& [numerator, expected] : {std::pair{(1 << 24) + 1, 0x1p-1F}, std::pair{(1 << 24) + 3, 0x1.000004p-1F}}) {
+  for (const auto& [numerator, expected] :
+       {std::pair{(1 << 24) + 1, 0x1p-1F}, std::pair{(1 << 24) + 3, 0x1.000004p-1F}}) {
     // (t - p/q) (t - 2): q t^2 - (p + 2 q) t + 2 p, with halved middle terms.
     const Quadratic half = root_at(numerator);
     const Quadratic q{2 * half.a, half.b - 2 * half.a, -4 * half.b};
@@ -149,7 +148,8 @@ TEST(RootNumber, IsRoundedToNearest) {
 
 TEST(MiddleAbove, IsBetweenTwoScalars) {
   const auto value = [](const detail::Dyadic& x) {
-    return mpq_class(mpz_class(static_cast<unsigned long>(x.significand)), mpz_class(1) << static_cast<mp_bitcnt_t>(-x.exponent));
+    return mpq_class(mpz_class(static_cast<unsigned long>(x.significand)),
+                     mpz_class(1) << static_cast<mp_bitcnt_t>(-x.exponent));
   };
   for (const double x : {0.0, 0x1p-1074, 0x1p-1022, 0x1.fffffffffffffp-1023, 0.1, 0.5, 1 - 0x1p-53}) {
     const mpq_class middle = (mpq_class(x) + mpq_class(std::nextafter(x, 2.0))) / 2;

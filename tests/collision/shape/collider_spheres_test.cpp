@@ -72,7 +72,8 @@ class ColliderSpheres : public testing::Test {
     const Scalar size = extent.maxCoeff();
     for (std::size_t i = 0; i < count; ++i) {
       const auto draw = [&] { return random.symmetric<Scalar>(); };
-      const Vector3<Scalar> start = box.low + extent / 2 + extent.cwiseProduct(Vector3<Scalar>(draw(), draw(), draw())) * Scalar(0.7);
+      const Vector3<Scalar> start =
+          box.low + extent / 2 + extent.cwiseProduct(Vector3<Scalar>(draw(), draw(), draw())) * Scalar(0.7);
       const Scalar reach = std::ldexp(size, -static_cast<int>(random.below(11)) + 1);
       const Vector3<Scalar> end = start + Vector3<Scalar>(draw(), draw(), draw()) * reach;
       spheres.push_back({start, end, std::ldexp(size * random.unit<Scalar>(), -static_cast<int>(random.below(14)))});

@@ -1,0 +1,228 @@
+#include "shape/sphere_filter.hpp"
+
+#include "support/rounding_flags.hpp"
+
+// This file is compiled once for each instruction set. The best one is chosen when the first list is asked.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shape/sphere_filter.cpp"
+#include <hwy/foreach_target.h>
+// These must come after foreach_target.h.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/lane_bits-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace surehit::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Tests triangles in lanes of doubles.
+///
+/// An axis m separates the ball from the triangle if all corners have a lower product with m than every centre of the
+/// way has, by more than r |m|. The axes are the normal n, the outward directions e × n of the edges, the directions
+/// D × e across the step and an edge, the step D, and the axes of coordinates. On most of them, the distance of the
+/// centre changes at a constant rate, so the ball is near enough during one interval of t. Where these intervals do not
+/// meet, the ball does not touch the triangle. It does not touch it before the latest of them begins.
+///
+/// Let u = 2^-53. E is the largest component of an edge, W that of a centre less a corner, and S that of the step.
+///
+/// V1. n·w is off by less than 54 u E² W, D·n by as much with S for W, and (D × e)·w by less than 54 u S E W.
+/// Proof. A difference has one rounding. So a component of n has two products of two differences each, off by 3 u of
+///     itself, and the rounded difference of both: less than 8 u E², and it is at most 2 E². A product with a
+///     component of w adds 3 u of itself. The three products and two sums are off by less than 3 (8 + 2 · 3) u E² W,
+///     and 12 u E² W for the sums.
+///
+/// V2. (e × n)·w is off by less than 132 u E³ W.
+/// Proof. A component of e × n is off by 2 (8 + 2 · 3) u E³, and 4 u E³ for the difference. It is at most 4 E³. The
+///     products with w and their sums add 3 · 4 · 3 u E³ W. In sum that is 3 · 32 u E³ W, and 36 u E³ W.
+///
+/// V3. r |m| is off by less than 2^-49 of itself, and by r times what the components of m are off, for the axes above.
+///
+/// So a reach of r |m| (1 + 2^-45) + 2^-45 B (W + r) is enough, where B is E² for n, E³ for e × n and S E for D × e.
+/// Coordinates outside of the sizes below may underflow or overflow, and are not tested.
+template <typename Scalar>
+class FilterLanes {
+  static constexpr hn::ScalableTag<double> d{};
+  using V = hn::Vec<hn::ScalableTag<double>>;
+  using Mask = hn::Mask<hn::ScalableTag<double>>;
+  using Point = V[3];
+
+ public:
+  static std::uint64_t find(const SphereFilter<Scalar>& ball, const Scalar* corners, std::size_t count,
+                            std::size_t from, double limit, double* enters) {
+    const std::size_t last = std::min(count, from + SphereFilter<Scalar>::max_count);
+    std::uint64_t found = 0;
+    for (std::size_t at = from; at < last; at += hn::Lanes(d)) {
+      found |= test(ball, corners + at, count, limit, enters + (at - from)) << (at - from);
+    }
+    return last - from == 64 ? found : found & ((std::uint64_t{1} << (last - from)) - 1);
+  }
+
+ private:
+  static HWY_INLINE V load(const float* from) {
+    const hn::Rebind<float, hn::ScalableTag<double>> half;
+    return hn::PromoteTo(d, hn::LoadU(half, from));
+  }
+  static HWY_INLINE V load(const double* from) { return hn::LoadU(d, from); }
+  static HWY_INLINE V set(double x) { return hn::Set(d, x); }
+  static HWY_INLINE V dot(const Point& x, const Point& y) {
+    return hn::Add(hn::Add(hn::Mul(x[0], y[0]), hn::Mul(x[1], y[1])), hn::Mul(x[2], y[2]));
+  }
+  static HWY_INLINE void cross(const Point& x, const Point& y, Point& out) {
+    out[0] = hn::Sub(hn::Mul(x[1], y[2]), hn::Mul(x[2], y[1]));
+    out[1] = hn::Sub(hn::Mul(x[2], y[0]), hn::Mul(x[0], y[2]));
+    out[2] = hn::Sub(hn::Mul(x[0], y[1]), hn::Mul(x[1], y[0]));
+  }
+  static HWY_INLINE V size_of(const Point& x) { return hn::Max(hn::Max(hn::Abs(x[0]), hn::Abs(x[1])), hn::Abs(x[2])); }
+
+  /// The interval of t in which the ball may touch a triangle.
+  struct Interval {
+    V enters, leaves;
+    Mask beside;  ///< The lanes that a constant distance keeps apart.
+
+    /// Cuts the interval to where a height that goes from `first` to `last` is at most `reach`.
+    HWY_INLINE void keep_below(V first, V last, V reach) {
+      const V down = hn::Sub(first, last);
+      const V above = hn::Sub(first, reach);
+      // A quotient with two rounded differences is off by 2^-50 of itself. A 0 / 0 is a NaN, and comparisons skip it.
+      const V t = hn::Div(above, down);
+      const V zero = hn::Zero(d);
+      const Mask starts_above = hn::Gt(above, zero);
+      const Mask ends_above = hn::Gt(hn::Sub(last, reach), zero);
+      beside = hn::Or(beside, hn::And(starts_above, ends_above));
+      const V in = hn::Mul(t, set(1 - 0x1p-49));
+      const V out = hn::Mul(t, set(1 + 0x1p-49));
+      enters = hn::IfThenElse(hn::And(hn::AndNot(ends_above, starts_above), hn::Gt(in, enters)), in, enters);
+      leaves = hn::IfThenElse(hn::And(hn::AndNot(starts_above, ends_above), hn::Lt(out, leaves)), out, leaves);
+    }
+  };
+
+  /// Returns a bit for each triangle that the ball may touch.
+  static HWY_INLINE std::uint64_t test(const SphereFilter<Scalar>& ball, const Scalar* corners, std::size_t count,
+                                       double limit, double* enters) {
+    Point corner[3];
+    for (std::size_t k = 0; k < 9; ++k) corner[k / 3][k % 3] = load(corners + k * count);
+    const V radius = set(ball.radius);
+    Interval interval{hn::Zero(d), set(1), hn::Lt(radius, hn::Zero(d))};
+
+    Point w[3];    // The start less each corner.
+    Point end[3];  // The end less each corner.
+    Point edge[3];
+    Point step;
+    V size = hn::Zero(d);
+    V reach_of_w = hn::Zero(d);
+    for (std::size_t i = 0; i < 3; ++i) {
+      step[i] = set(ball.step[i]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        w[k][i] = hn::Sub(set(ball.start[i]), corner[k][i]);
+        end[k][i] = hn::Sub(set(ball.end[i]), corner[k][i]);
+        edge[k][i] = hn::Sub(corner[k == 2 ? 0 : k + 1][i], corner[k][i]);
+        size = hn::Max(size, hn::Abs(edge[k][i]));
+        reach_of_w = hn::Max(reach_of_w, hn::Max(hn::Abs(w[k][i]), hn::Abs(end[k][i])));
+      }
+      // On an axis of coordinates, the highest corner is below the centre by the lowest w.
+      const V slack = hn::Mul(reach_of_w, set(0x1p-50));
+      const V reach = hn::Add(radius, slack);
+      const auto lowest = [&](const Point* x) { return hn::Min(hn::Min(x[0][i], x[1][i]), x[2][i]); };
+      const auto highest = [&](const Point* x) { return hn::Max(hn::Max(x[0][i], x[1][i]), x[2][i]); };
+      interval.keep_below(lowest(w), lowest(end), reach);
+      interval.keep_below(hn::Neg(highest(w)), hn::Neg(highest(end)), reach);
+    }
+    const V far = hn::Add(reach_of_w, radius);
+    const V size_2 = hn::Mul(size, size);
+    const V size_3 = hn::Mul(size_2, size);
+    const V error = hn::Mul(far, set(0x1p-45));
+    const V grown = set(ball.radius * (1 + 0x1p-45));
+    const V smallest = set(ball.is_usable ? 0x1p-200 : std::numeric_limits<double>::infinity());
+    const Mask is_usable = hn::And(hn::Gt(hn::Min(size, far), smallest), hn::Lt(hn::Max(size, far), set(0x1p200)));
+
+    Interval tilted = interval;
+    Point n;
+    cross(edge[0], edge[1], n);
+    const V nn = dot(n, n);
+    {
+      const V reach = hn::MulAdd(grown, hn::Sqrt(nn), hn::Mul(size_2, error));
+      const V first = dot(n, w[0]);
+      const V last = dot(n, end[0]);
+      tilted.keep_below(first, last, reach);
+      tilted.keep_below(hn::Neg(first), hn::Neg(last), reach);
+    }
+    const V across = dot(n, step);
+    const V across_error = hn::Mul(hn::Mul(size_2, set(ball.size_of_step)), set(0x1p-45));
+    for (std::size_t k = 0; k < 3; ++k) {
+      Point outward;
+      cross(edge[k], n, outward);
+      const V reach = hn::MulAdd(grown, hn::Sqrt(dot(outward, outward)), hn::Mul(size_3, error));
+      tilted.keep_below(dot(outward, w[k]), dot(outward, end[k]), reach);
+      // Along f = D × e, the corners of the edge are at 0, and the third corner is at D·n.
+      Point f;
+      cross(step, edge[k], f);
+      const V reach_of_f = hn::Add(
+          hn::MulAdd(grown, hn::Sqrt(dot(f, f)), hn::Mul(hn::Mul(set(ball.size_of_step), size), error)), across_error);
+      const V height = dot(f, w[k]);
+      const V low = hn::Min(across, hn::Zero(d));
+      const V high = hn::Max(across, hn::Zero(d));
+      tilted.beside = hn::Or(
+          tilted.beside, hn::Or(hn::Gt(hn::Sub(height, high), reach_of_f), hn::Gt(hn::Sub(low, height), reach_of_f)));
+    }
+    interval.enters = hn::IfThenElse(is_usable, tilted.enters, interval.enters);
+    interval.leaves = hn::IfThenElse(is_usable, tilted.leaves, interval.leaves);
+    const Mask beside = hn::Or(interval.beside, hn::And(is_usable, tilted.beside));
+    hn::StoreU(interval.enters, d, enters);
+    const Mask is_late = hn::Or(hn::Gt(interval.enters, interval.leaves), hn::Gt(interval.enters, set(limit)));
+    return ~bits_of(d, hn::Or(beside, is_late)) & ((std::uint64_t{1} << hn::Lanes(d)) - 1);
+  }
+};
+
+std::uint64_t find_floats(const SphereFilter<float>& ball, const float* corners, std::size_t count, std::size_t from,
+                          double limit, double* enters) {
+  return FilterLanes<float>::find(ball, corners, count, from, limit, enters);
+}
+std::uint64_t find_doubles(const SphereFilter<double>& ball, const double* corners, std::size_t count, std::size_t from,
+                           double limit, double* enters) {
+  return FilterLanes<double>::find(ball, corners, count, from, limit, enters);
+}
+
+}  // namespace surehit::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace surehit::detail {
+
+HWY_EXPORT(find_floats);
+HWY_EXPORT(find_doubles);
+
+template <typename Scalar>
+SphereFilter<Scalar>::SphereFilter(const SweptSphere<Scalar>& sphere) : radius(sphere.radius), size_of_step(0) {
+  double largest = radius;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    start[i] = sphere.start[axis];
+    end[i] = sphere.end[axis];
+    step[i] = end[i] - start[i];
+    size_of_step = std::max(size_of_step, std::fabs(step[i]));
+    largest = std::max({largest, std::fabs(start[i]), std::fabs(end[i])});
+  }
+  is_usable = (size_of_step == 0 || size_of_step > 0x1p-200) && largest < 0x1p200;
+}
+
+template <>
+std::uint64_t SphereFilter<float>::find(const float* corners, std::size_t count, std::size_t from, double limit,
+                                        Times& enters) const {
+  return HWY_DYNAMIC_DISPATCH(find_floats)(*this, corners, count, from, limit, enters.data());
+}
+template <>
+std::uint64_t SphereFilter<double>::find(const double* corners, std::size_t count, std::size_t from, double limit,
+                                         Times& enters) const {
+  return HWY_DYNAMIC_DISPATCH(find_doubles)(*this, corners, count, from, limit, enters.data());
+}
+
+template SphereFilter<float>::SphereFilter(const SweptSphere<float>&);
+template SphereFilter<double>::SphereFilter(const SweptSphere<double>&);
+
+}  // namespace surehit::detail
+#endif
