@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -28,6 +29,7 @@ inline constexpr std::uint32_t open_door = 0;
 inline const surehit::Vector3f eye = {1, 1, 1};
 inline const surehit::Vector3f target = {9, 2, 1};
 inline const surehit::Segmentf step = {{5, 5, 1}, {5, 5, -1}};
+inline const surehit::SweptSpheref ball = {{5, 5, 3}, {5, 5, -3}, 0.5F};
 inline const std::vector<surehit::Segmentf> steps = {step, {{1, 1, 1}, {1, 1, 2}}};
 inline const surehit::QueryOptionsf options_of_steps[] = {{.ignored_triangle = 0}, {.max_t = 0.5F}};
 

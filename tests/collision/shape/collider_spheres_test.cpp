@@ -11,6 +11,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 #include "support/small_meshes.hpp"
+#include "support/sphere_families.hpp"
 #include "support/sphere_oracle.hpp"
 #include "support/threads.hpp"
 #include "surehit/collider.hpp"
@@ -88,7 +89,7 @@ TYPED_TEST(ColliderSpheres, FindWhatBruteForceFindsInSmallMeshes) {
   using Scalar = TypeParam;
   for (std::size_t kind = 0; kind < small_mesh_kind_count; ++kind) {
     Random random(3 + kind);
-    for (std::size_t i = 0; i < case_count(6); ++i) {
+    for (std::size_t i = 0; i < case_count(sizeof(Scalar) == 4 ? 6 : 2); ++i) {
       const SmallMesh<Scalar> mesh = draw_small_mesh<Scalar>(kind, random);
       std::vector<SweptSphere<Scalar>> spheres;
       for (const Path<Scalar>& path : mesh.paths) {
@@ -98,6 +99,24 @@ TYPED_TEST(ColliderSpheres, FindWhatBruteForceFindsInSmallMeshes) {
         spheres.push_back({path.start, path.toward, random.one_in(8) ? Scalar{0} : radius});
       }
       ASSERT_NO_FATAL_FAILURE(this->compare(mesh.view(), spheres, name_of_small_mesh(kind)));
+    }
+  }
+}
+
+TYPED_TEST(ColliderSpheres, FindWhatBruteForceFindsInAllFamilies) {
+  using Scalar = TypeParam;
+  for (const SphereFamily family : all_sphere_families) {
+    Random random(31 + static_cast<std::uint64_t>(family));
+    for (std::size_t i = 0; i < case_count(sizeof(Scalar) == 4 ? 8 : 2); ++i) {
+      // Each triangle has a ball of its own, so a ball comes close to one triangle at least.
+      GeneratedMesh<Scalar> mesh;
+      std::vector<SweptSphere<Scalar>> spheres;
+      for (std::size_t k = 0; k < 40; ++k) {
+        const auto [sphere, triangle] = draw_sphere_pair<Scalar>(family, random);
+        mesh.add(triangle);
+        spheres.push_back(sphere);
+      }
+      ASSERT_NO_FATAL_FAILURE(this->compare(mesh.view(), spheres, name_of(family)));
     }
   }
 }
