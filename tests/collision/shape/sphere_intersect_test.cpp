@@ -113,6 +113,21 @@ TYPED_TEST(SphereIntersect, RollsOverTheFirstOfTwoEdges) {
   EXPECT_EQ(intersect(SweptSphere<Scalar>{along.end, along.start, 1}, floor<Scalar>())->feature, Feature::corner_b);
 }
 
+TYPED_TEST(SphereIntersect, EndsWithAContact) {
+  using Scalar = TypeParam;
+  const auto until = [](Scalar x, Scalar y, Scalar height) {
+    return intersect(SweptSphere<Scalar>{{x, y, 3}, {x, y, height}, 1}, floor<Scalar>());
+  };
+  for (const auto& [x, y, feature] :
+       {std::tuple{2, 1, Feature::face}, std::tuple{4, 0, Feature::edge_ab}, std::tuple{0, 0, Feature::corner_a}}) {
+    const auto hit = until(static_cast<Scalar>(x), static_cast<Scalar>(y), 1);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->t, 1);
+    EXPECT_EQ(hit->feature, feature);
+    EXPECT_FALSE(until(static_cast<Scalar>(x), static_cast<Scalar>(y), std::nextafter(Scalar{1}, Scalar{2})));
+  }
+}
+
 TYPED_TEST(SphereIntersect, BeginsWithAContact) {
   using Scalar = TypeParam;
   const SweptSphere<Scalar> rising{{2, 1, 1}, {2, 1, 9}, 1};  // It rests on the floor, and leaves it.
