@@ -241,14 +241,14 @@ class SUREHIT_API Collider {
   /// nothing.
   [[nodiscard]] Scalar max_t_keeping(const Path<Scalar>& path, const Hit<Scalar>& hit) const noexcept;
 
-  // Moving balls. Their hits are exact too. They take more time than those of points, and more stack: less than 32 KiB
-  // in float and 256 KiB in double.
+  // Moving balls. Their hits are exact too. They take more time than those of points. In an optimized build, they use
+  // less than 32 KiB of stack in float and 256 KiB in double.
 
   /// Returns the hit of a moving ball with the lowest exact t, and then with the lowest triangle id. Returns nothing if
   /// the ball touches no triangle. Adds its work to `statistics`, unless this is null.
   ///
-  /// Goes through the cells that the box around the ball comes to. A ball that starts farther from the mesh than some
-  /// 2^300 times its size is tested against all triangles. Allocates nothing.
+  /// Goes through the cells that the box around the ball comes to. If the step or the radius is more than 2^300 cells
+  /// long, the ball is tested against all triangles. Allocates nothing.
   [[nodiscard]] std::optional<ShapeHit<Scalar>> first_hit(const SweptSphere<Scalar>& sphere,
                                                           const ShapeQueryOptions<Scalar>& options = {},
                                                           QueryStatistics* statistics = nullptr) const noexcept;
@@ -278,9 +278,10 @@ class SUREHIT_API Collider {
   /// Sets `blocked[i]` to 1 if ball i has a hit, and to 0 otherwise.
   void any_hits(std::span<const SweptSphere<Scalar>> spheres, std::span<std::uint8_t> blocked,
                 const ShapeBatchOptions<Scalar>& options = {}) const noexcept;
-  /// Returns the greatest t up to which the ball has touched nothing: the greatest Scalar below the exact t of the hit.
-  /// `hit` must be one of the ball's hits in this collider. The result is 0 if they touch at the start, or if no Scalar
-  /// is between 0 and t. Decides one pair of a ball and a triangle. Allocates nothing.
+  /// Returns the greatest t at which the ball has not touched the triangle of a hit: the greatest Scalar below the
+  /// exact t. For the first hit, the ball has touched nothing until then. `hit` must be one of the ball's hits in this
+  /// collider. The result is 0 if they touch at the start, or if no Scalar is between 0 and t. Decides one pair of a
+  /// ball and a triangle. Allocates nothing.
   [[nodiscard]] Scalar last_free_t(const SweptSphere<Scalar>& sphere, const ShapeHit<Scalar>& hit) const noexcept;
 
   /// Returns the number of triangles.

@@ -42,10 +42,9 @@ template <FloatOrDouble Scalar>
 /// real arithmetic on the given numbers. A triangle with a NaN or an infinity is not touched. The result has `triangle`
 /// 0, and `options.mask` and `options.ignored_triangle` are not used.
 ///
-/// They touch if no point of the step is farther from the triangle than the radius. This is the sign of polynomials of
-/// degree 10 and less in the coordinates, and needs no root. They are first computed in floating point, with bounds.
-/// Exact integers decide what the bounds do not. Takes some hundred nanoseconds, or some ten microseconds. Allocates
-/// nothing.
+/// They touch if some point of the step is at most the radius away from the triangle. Signs of polynomials decide this,
+/// and no root is taken. Doubles with error bounds compute most signs, and exact integers the others. Takes some
+/// hundred nanoseconds, or some ten microseconds. In double, integers round each hit. Allocates nothing.
 template <FloatOrDouble Scalar>
 [[nodiscard]] SUREHIT_API std::optional<ShapeHit<Scalar>> intersect(
     const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,

@@ -110,6 +110,7 @@ void Collider<Scalar>::any_hits(std::span<const SweptSphere<Scalar>> spheres, st
 
 template <FloatOrDouble Scalar>
 Scalar Collider<Scalar>::last_free_t(const SweptSphere<Scalar>& sphere, const ShapeHit<Scalar>& hit) const noexcept {
+  const FloatingPointEnvironment environment;
   if (hit.started_touching || !(hit.t > 0)) return 0;
   const bool is_touched = surehit::intersect(sphere, triangle(hit.triangle), {.max_t = hit.t}).has_value();
   return is_touched ? std::nextafter(hit.t, Scalar{0}) : hit.t;

@@ -37,13 +37,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 ///     and 12 u E² W for the sums.
 ///
 /// V2. (e × n)·w is off by less than 132 u E³ W.
-/// Proof. A component of e × n is off by 2 (8 + 2 · 3) u E³, and 4 u E³ for the difference. It is at most 4 E³. The
-///     products with w and their sums add 3 · 4 · 3 u E³ W. In sum that is 3 · 32 u E³ W, and 36 u E³ W.
+/// Proof. A component of e × n is off by 2 (8 + 2 · 2) u E³, and 4 u E³ for the difference, which is 28 u E³. It is at
+///     most 4 E³. The products with w have 3 u of this more, and take part in two, two and one sums. That is 3 · 28 u
+///     E³ W and (4 + 4 + 3) 4 u E³ W, or 128 u E³ W in all.
 ///
 /// V3. r |m| is off by less than 2^-49 of itself, and by r times what the components of m are off, for the axes above.
 ///
 /// So a reach of r |m| (1 + 2^-45) + 2^-45 B (W + r) is enough, where B is E² for n, E³ for e × n and S E for D × e.
-/// Coordinates outside of the sizes below may underflow or overflow, and are not tested.
+/// Coordinates outside of the sizes below may underflow or overflow, and are not tested. From 2^-150 on, no square in
+/// |m| underflows: (e × n)·(e × n) has six edges as factors, and is about 2^-900.
 template <typename Scalar>
 class FilterLanes {
   static constexpr hn::ScalableTag<double> d{};
@@ -137,7 +139,7 @@ class FilterLanes {
     const V size_3 = hn::Mul(size_2, size);
     const V error = hn::Mul(far, set(0x1p-45));
     const V grown = set(ball.radius * (1 + 0x1p-45));
-    const V smallest = set(ball.is_usable ? 0x1p-200 : std::numeric_limits<double>::infinity());
+    const V smallest = set(ball.is_usable ? 0x1p-150 : std::numeric_limits<double>::infinity());
     const Mask is_usable = hn::And(hn::Gt(hn::Min(size, far), smallest), hn::Lt(hn::Max(size, far), set(0x1p200)));
 
     Interval tilted = interval;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/case_count.hpp"
+#include "support/floating_point_mode.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 #include "support/small_meshes.hpp"
@@ -160,6 +161,22 @@ TYPED_TEST(ColliderSpheres, FindAllThatIsThereFromAfarAndWithAnySize) {
   ASSERT_NO_FATAL_FAILURE(this->compare(mesh.view(), spheres, "ground"));
 }
 
+TYPED_TEST(ColliderSpheres, FindTrianglesThatAreMuchSmallerThanTheBall) {
+  using Scalar = TypeParam;
+  // Squares of such sizes underflow one after the other.
+  for (int exponent = std::numeric_limits<Scalar>::min_exponent; exponent < 0; exponent += 5) {
+    const Scalar size = std::ldexp(Scalar{1}, exponent);
+    GeneratedMesh<Scalar> mesh;
+    mesh.add({{0, 0, 0}, {size, 0, 0}, {0, size, 0}});
+    mesh.add({{0, 0, size}, {size, 0, 0}, {0, size, -size}});
+    const Scalar half = Scalar(0.5);
+    const std::vector<SweptSphere<Scalar>> spheres = {{{size / 4, -half, 0}, {size / 4, -half, 0}, 1},
+                                                      {{Scalar(0.25), -2, 0}, {Scalar(0.25), -half, 0}, 1},
+                                                      {{2, 2, 2}, {-2, -2, -2}, half}};
+    ASSERT_NO_FATAL_FAILURE(this->compare(mesh.view(), spheres, "2^" + std::to_string(exponent)));
+  }
+}
+
 TYPED_TEST(ColliderSpheres, HitTheSameAsSegmentsWithoutARadius) {
   using Scalar = TypeParam;
   Random random(13);
@@ -254,6 +271,26 @@ TYPED_TEST(ColliderSpheres, FindTheLastFreeT) {
     ASSERT_TRUE(collider.any_hit(sphere, {.max_t = std::nextafter(free, Scalar{2})}));
   }
   EXPECT_GE(rounded_down, case_count(40));
+}
+
+TYPED_TEST(ColliderSpheres, FindTheLastFreeTWithFlushToZero) {
+  using Scalar = TypeParam;
+  const Scalar far = std::numeric_limits<Scalar>::max() / 2;
+  GeneratedMesh<Scalar> mesh;
+  mesh.add({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const Collider<Scalar> collider(mesh.view());
+  const SweptSphere<Scalar> sphere{
+      {Scalar(0.25), Scalar(0.25), 1 + Scalar(0x1p-20)}, {Scalar(0.25), Scalar(0.25), -far}, 1};
+  const ShapeHit<Scalar> hit = collider.first_hit(sphere).value();
+  ASSERT_LT(hit.t, std::numeric_limits<Scalar>::min());
+  const Scalar free = collider.last_free_t(sphere, hit);
+  EXPECT_GT(free, 0);
+  Scalar flushed = 0;
+  {
+    const FloatingPointModeScope mode({"flush to zero", FE_TONEAREST, true});
+    flushed = collider.last_free_t(sphere, hit);
+  }
+  EXPECT_EQ(flushed, free);
 }
 
 TYPED_TEST(ColliderSpheres, AnswerABatchInTasksOfAnExecutor) {
