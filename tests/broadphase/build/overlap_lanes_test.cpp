@@ -155,5 +155,45 @@ TEST_P(OverlapLanesIn, triangles_past_cell_corners_at_the_padding) {
 INSTANTIATE_TEST_SUITE_P(Resolutions, OverlapLanesIn, testing::Values(7, 100, 2048, 32768),
                          [](const auto& resolution) { return std::to_string(resolution.param); });
 
+/// An edge of each triangle passes the corner of the padded cell, but for roundings. If an instruction set rounded
+/// otherwise, it would list other triangles.
+TEST(OverlapLanes, have_the_same_bits_on_every_instruction_set) {
+  Random random(107);
+  constexpr float padding = 0x1p-7F;  // Of a grid of 4096 finest cells.
+  std::size_t met = 0;
+  std::size_t missed = 0;
+  for (std::size_t round = 0; round < case_count(2000); ++round) {
+    OverlapLanes lanes;
+    for (std::size_t lane = 0; lane < OverlapLanes::count; ++lane) {
+      const auto between = [&](std::int64_t low, std::int64_t high) {
+        return static_cast<float>(random.between(low, high));
+      };
+      const detail::PaddedPoint low = {between(0, 4000), between(0, 4000), between(0, 4000), 0};
+      const detail::PaddedPoint corner = low + detail::PaddedPoint{1 + padding, 1 + padding, 1 + padding, 0};
+      const detail::PaddedPoint along = {between(1, 9999) / 8192, -between(1, 9999) / 8192, between(-9999, 9999) / 8192,
+                                         0};
+      const detail::PaddedPoint away = {between(1, 9999) / 8192, between(1, 9999) / 8192, between(-9999, 9999) / 8192,
+                                        0};
+      lanes.corners[0][lane] = corner + along * (between(1, 9999) / 8192);
+      lanes.corners[1][lane] = corner - along * (between(1, 9999) / 8192);
+      lanes.corners[2][lane] = corner + away;
+      lanes.low[lane] = low;
+    }
+    const auto overlaps_on = [&](std::int64_t target) {
+      const ForcedInstructionSet forced(target);
+      OverlapLanes::Row<std::int32_t> overlaps;
+      detail::find_overlaps(lanes, {padding, padding, padding}, 1, overlaps);
+      return overlaps;
+    };
+    const OverlapLanes::Row<std::int32_t> expected = overlaps_on(instruction_sets().front());
+    for (const std::int32_t bits : expected) ++(bits != 0 ? met : missed);
+    for (const std::int64_t target : instruction_sets()) {
+      ASSERT_EQ(overlaps_on(target), expected) << name_of_instruction_set(target) << ", round " << round;
+    }
+  }
+  EXPECT_GT(met, case_count(1000));
+  EXPECT_GT(missed, case_count(1000));
+}
+
 }  // namespace
 }  // namespace surehit::test

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -48,11 +49,14 @@ class InvalidFileOf : public testing::Test {
  protected:
   using Damage = std::function<void(Bytes&, const ColliderParts&)>;
 
+  /// Returns the bytes of one of the meshes, which are built once.
   static Bytes saved_mesh(const std::string& name) {
-    for (const SavedMesh<Scalar>& made : saved_meshes<Scalar>()) {
-      if (made.name == name) return saved(made.collider());
-    }
-    return {};
+    static const std::map<std::string, Bytes> all = [] {
+      std::map<std::string, Bytes> made;
+      for (const SavedMesh<Scalar>& mesh : saved_meshes<Scalar>()) made.emplace(mesh.name, saved(mesh.collider()));
+      return made;
+    }();
+    return all.at(name);
   }
 
   /// Expects that a load finds the damage, although the checksum is right.
@@ -220,9 +224,12 @@ TYPED_TEST(InvalidFileOf, frames) {
   };
   this->expect_refused("prop in a prop", Reason::invalid_grid, first, grown(0));
   this->expect_refused("prop in a prop", Reason::invalid_grid, second, grown(1), false);
-  this->expect_refused("prop in a prop", Reason::invalid_grid, second, [](Bytes& bytes, const ColliderParts& parts) {
-    set_number(bytes, parts.frames + parts.frame_width, std::numeric_limits<TypeParam>::infinity());
-  });
+  constexpr TypeParam infinity = std::numeric_limits<TypeParam>::infinity();
+  for (const TypeParam side : {infinity, -infinity, std::numeric_limits<TypeParam>::quiet_NaN()}) {
+    this->expect_refused("prop in a prop", Reason::invalid_grid, second, [&](Bytes& bytes, const ColliderParts& parts) {
+      set_number(bytes, parts.frames + parts.frame_width, side);
+    });
+  }
   this->expect_refused("prop in a prop", Reason::invalid_grid, second, [](Bytes& bytes, const ColliderParts& parts) {
     const std::size_t at = parts.frames + parts.frame_width;  // The low side is above the high one.
     set_number(bytes, at, number_at<TypeParam>(bytes, at + 3 * sizeof(TypeParam)) + 1);
