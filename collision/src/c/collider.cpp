@@ -118,108 +118,115 @@ surehit_status grid_summary(const char* function, const void* handle, surehit_gr
 }  // namespace
 
 #define SUREHIT_COLLIDER_FUNCTIONS(Scalar, s)                                                                          \
-  surehit_status surehit_collider##s##_create(const surehit_mesh##s* mesh, const surehit_build_options* options,       \
-                                              surehit_collider##s** collider) {                                        \
+  SUREHIT_C_API surehit_status surehit_collider##s##_create(                                                           \
+      const surehit_mesh##s* mesh, const surehit_build_options* options, surehit_collider##s** collider) {             \
     return create<Scalar>(__func__, mesh, options, collider);                                                          \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_copy(const surehit_collider##s* collider, surehit_collider##s** copy_of) {      \
+  SUREHIT_C_API surehit_status surehit_collider##s##_copy(const surehit_collider##s* collider,                         \
+                                                          surehit_collider##s** copy_of) {                             \
     return copy<Scalar>(__func__, collider, copy_of);                                                                  \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_destroy(surehit_collider##s* collider) {                                        \
+  SUREHIT_C_API surehit_status surehit_collider##s##_destroy(surehit_collider##s* collider) {                          \
     return destroy<Collider<Scalar>>(__func__, collider);                                                              \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_build(surehit_collider##s* collider, const surehit_mesh##s* mesh,               \
-                                             const surehit_build_options* options) {                                   \
+  SUREHIT_C_API surehit_status surehit_collider##s##_build(surehit_collider##s* collider, const surehit_mesh##s* mesh, \
+                                                           const surehit_build_options* options) {                     \
     return build<Scalar>(__func__, collider, mesh, options,                                                            \
                          [](auto& of, const auto& view, const auto& asked) { return of.try_build(view, asked); });     \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_rebuild(surehit_collider##s* collider, const surehit_mesh##s* mesh,             \
-                                               const surehit_build_options* options) {                                 \
+  SUREHIT_C_API surehit_status surehit_collider##s##_rebuild(                                                          \
+      surehit_collider##s* collider, const surehit_mesh##s* mesh, const surehit_build_options* options) {              \
     return build<Scalar>(__func__, collider, mesh, options,                                                            \
                          [](auto& of, const auto& view, const auto& asked) { return of.try_rebuild(view, asked); });   \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_rebuild_vertices(surehit_collider##s* collider, const Scalar* vertices,         \
-                                                        size_t vertex_count, size_t stride,                            \
-                                                        const surehit_executor* executor) {                            \
+  SUREHIT_C_API surehit_status surehit_collider##s##_rebuild_vertices(                                                 \
+      surehit_collider##s* collider, const Scalar* vertices, size_t vertex_count, size_t stride,                       \
+      const surehit_executor* executor) {                                                                              \
     return rebuild_vertices<Scalar>(__func__, collider, vertices, vertex_count, stride, executor);                     \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_set_mask(surehit_collider##s* collider, uint32_t triangle, uint32_t mask) {     \
+  SUREHIT_C_API surehit_status surehit_collider##s##_set_mask(surehit_collider##s* collider, uint32_t triangle,        \
+                                                              uint32_t mask) {                                         \
     return set_mask<Scalar>(__func__, collider, triangle, mask);                                                       \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_set_masks(surehit_collider##s* collider, const uint32_t* masks,                 \
-                                                 size_t mask_count) {                                                  \
+  SUREHIT_C_API surehit_status surehit_collider##s##_set_masks(surehit_collider##s* collider, const uint32_t* masks,   \
+                                                               size_t mask_count) {                                    \
     return set_masks<Scalar>(__func__, collider, masks, mask_count);                                                   \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_mask(const surehit_collider##s* collider, uint32_t triangle, uint32_t* mask) {  \
+  SUREHIT_C_API surehit_status surehit_collider##s##_mask(const surehit_collider##s* collider, uint32_t triangle,      \
+                                                          uint32_t* mask) {                                            \
     return of_triangle<Scalar>(__func__, collider, triangle, mask, "mask",                                             \
                                [](const auto& of, uint32_t id) { return of.mask(id); });                               \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_first_hit(                                                                      \
+  SUREHIT_C_API surehit_status surehit_collider##s##_first_hit(                                                        \
       const surehit_collider##s* collider, const surehit_path##s* path, const surehit_query_options##s* options,       \
       const surehit_filter##s* filter, surehit_statistics* statistics, surehit_hit##s* hit) {                          \
     Arguments arguments(__func__);                                                                                     \
     return first_hit(SingleQuery<Collider<Scalar>>(arguments, collider, path, options, filter, statistics), hit);      \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_any_hit(                                                                        \
+  SUREHIT_C_API surehit_status surehit_collider##s##_any_hit(                                                          \
       const surehit_collider##s* collider, const surehit_path##s* path, const surehit_query_options##s* options,       \
       const surehit_filter##s* filter, surehit_statistics* statistics, uint8_t* blocked) {                             \
     Arguments arguments(__func__);                                                                                     \
     return any_hit(SingleQuery<Collider<Scalar>>(arguments, collider, path, options, filter, statistics), blocked);    \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_all_hits(const surehit_collider##s* collider, const surehit_path##s* path,      \
-                                                const surehit_query_options##s* options,                               \
-                                                const surehit_filter##s* filter, surehit_statistics* statistics,       \
-                                                surehit_hit##s* hits, size_t capacity, size_t* hit_count) {            \
+  SUREHIT_C_API surehit_status surehit_collider##s##_all_hits(                                                         \
+      const surehit_collider##s* collider, const surehit_path##s* path, const surehit_query_options##s* options,       \
+      const surehit_filter##s* filter, surehit_statistics* statistics, surehit_hit##s* hits, size_t capacity,          \
+      size_t* hit_count) {                                                                                             \
     Arguments arguments(__func__);                                                                                     \
     return all_hits(SingleQuery<Collider<Scalar>>(arguments, collider, path, options, filter, statistics), hits,       \
                     capacity, hit_count);                                                                              \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_first_hits(const surehit_collider##s* collider, const surehit_paths##s* paths,  \
-                                                  const surehit_batch_options##s* options, surehit_hit##s* hits) {     \
+  SUREHIT_C_API surehit_status surehit_collider##s##_first_hits(                                                       \
+      const surehit_collider##s* collider, const surehit_paths##s* paths, const surehit_batch_options##s* options,     \
+      surehit_hit##s* hits) {                                                                                          \
     Arguments arguments(__func__);                                                                                     \
     return first_hits(Batch<Collider<Scalar>>(arguments, collider, paths, options), hits);                             \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_any_hits(const surehit_collider##s* collider, const surehit_paths##s* paths,    \
-                                                const surehit_batch_options##s* options, uint8_t* blocked) {           \
+  SUREHIT_C_API surehit_status surehit_collider##s##_any_hits(                                                         \
+      const surehit_collider##s* collider, const surehit_paths##s* paths, const surehit_batch_options##s* options,     \
+      uint8_t* blocked) {                                                                                              \
     Arguments arguments(__func__);                                                                                     \
     return any_hits(Batch<Collider<Scalar>>(arguments, collider, paths, options), blocked);                            \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_last_free_point(                                                                \
+  SUREHIT_C_API surehit_status surehit_collider##s##_last_free_point(                                                  \
       const surehit_collider##s* collider, const surehit_path##s* segment, const surehit_hit##s* hit,                  \
       const surehit_query_options##s* options, const surehit_filter##s* filter, surehit_vector3##s* point) {           \
     Arguments arguments(__func__);                                                                                     \
     return last_free_point(SingleQuery<Collider<Scalar>>(arguments, collider, segment, options, filter, nullptr), hit, \
                            point);                                                                                     \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_max_t_keeping(const surehit_collider##s* collider, const surehit_path##s* path, \
-                                                     const surehit_hit##s* hit, Scalar* max_t) {                       \
+  SUREHIT_C_API surehit_status surehit_collider##s##_max_t_keeping(                                                    \
+      const surehit_collider##s* collider, const surehit_path##s* path, const surehit_hit##s* hit, Scalar* max_t) {    \
     return max_t_keeping<Scalar>(__func__, collider, path, hit, max_t);                                                \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_triangle_count(const surehit_collider##s* collider, size_t* count) {            \
+  SUREHIT_C_API surehit_status surehit_collider##s##_triangle_count(const surehit_collider##s* collider,               \
+                                                                    size_t* count) {                                   \
     return HandleCall<Collider<Scalar>>(__func__, collider).tell(count, "count", [](const auto& of) {                  \
       return of.triangle_count();                                                                                      \
     });                                                                                                                \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_triangle(const surehit_collider##s* collider, uint32_t id,                      \
-                                                surehit_triangle##s* triangle) {                                       \
+  SUREHIT_C_API surehit_status surehit_collider##s##_triangle(const surehit_collider##s* collider, uint32_t id,        \
+                                                              surehit_triangle##s* triangle) {                         \
     return of_triangle<Scalar>(__func__, collider, id, triangle, "triangle",                                           \
                                [](const auto& of, uint32_t of_id) { return to_c(of.triangle(of_id)); });               \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_normal(const surehit_collider##s* collider, uint32_t id,                        \
-                                              surehit_vector3##s* normal) {                                            \
+  SUREHIT_C_API surehit_status surehit_collider##s##_normal(const surehit_collider##s* collider, uint32_t id,          \
+                                                            surehit_vector3##s* normal) {                              \
     return of_triangle<Scalar>(__func__, collider, id, normal, "normal",                                               \
                                [](const auto& of, uint32_t of_id) { return to_c(of.normal(of_id)); });                 \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_box(const surehit_collider##s* collider, surehit_box##s* box) {                 \
+  SUREHIT_C_API surehit_status surehit_collider##s##_box(const surehit_collider##s* collider, surehit_box##s* box) {   \
     return HandleCall<Collider<Scalar>>(__func__, collider).tell(box, "box", [](const auto& of) {                      \
       return to_c(of.box());                                                                                           \
     });                                                                                                                \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_grid_summary(const surehit_collider##s* collider,                               \
-                                                    surehit_grid_summary* summary) {                                   \
+  SUREHIT_C_API surehit_status surehit_collider##s##_grid_summary(const surehit_collider##s* collider,                 \
+                                                                  surehit_grid_summary* summary) {                     \
     return grid_summary<Scalar>(__func__, collider, summary);                                                          \
   }                                                                                                                    \
-  surehit_status surehit_collider##s##_memory_bytes(const surehit_collider##s* collider, size_t* bytes) {              \
+  SUREHIT_C_API surehit_status surehit_collider##s##_memory_bytes(const surehit_collider##s* collider,                 \
+                                                                  size_t* bytes) {                                     \
     return HandleCall<Collider<Scalar>>(__func__, collider).tell(bytes, "bytes", [](const auto& of) {                  \
       return of.memory_bytes();                                                                                        \
     });                                                                                                                \

@@ -100,41 +100,45 @@ surehit_status box_of_mesh(const char* function, const typename Structs<Scalar>:
 
 }  // namespace
 
-#define SUREHIT_PAIR_FUNCTIONS(Scalar, s)                                                                              \
-  surehit_query_options##s surehit_query_options##s##_default() {                                                      \
-    const surehit::QueryOptions<Scalar> options;                                                                       \
-    return {options.min_t,                                                                                             \
-            options.max_t,                                                                                             \
-            static_cast<uint8_t>(options.culling),                                                                     \
-            options.mask,                                                                                              \
-            options.ignored_triangle,                                                                                  \
-            options.ignore_start_contact,                                                                              \
-            options.ignore_end_contact};                                                                               \
-  }                                                                                                                    \
-  surehit_status surehit_triangle##s##_intersect(const surehit_triangle##s* triangle, const surehit_path##s* path,     \
-                                                 const surehit_query_options##s* options, surehit_hit##s* hit) {       \
-    return intersect_pair<Scalar>(__func__, triangle, path, options, hit);                                             \
-  }                                                                                                                    \
-  surehit_status surehit_triangle##s##_max_t_keeping(const surehit_triangle##s* triangle, const surehit_path##s* path, \
-                                                     const surehit_hit##s* hit, Scalar* max_t) {                       \
-    return max_t_of_pair<Scalar>(__func__, triangle, path, hit, max_t);                                                \
-  }                                                                                                                    \
-  surehit_status surehit_triangle##s##_normal(const surehit_triangle##s* triangle, surehit_vector3##s* normal) {       \
-    return normal_of<Scalar>(__func__, triangle, normal);                                                              \
-  }                                                                                                                    \
-  surehit_status surehit_path##s##_point(const surehit_path##s* path, const surehit_hit##s* hit,                       \
-                                         surehit_vector3##s* point) {                                                  \
-    return of_hit<Scalar>(__func__, path, hit, point, "point",                                                         \
-                          [](const auto& way, const auto& met) { return to_c(surehit::point<Scalar>(way, met)); });    \
-  }                                                                                                                    \
-  surehit_status surehit_path##s##_distance(const surehit_path##s* path, const surehit_hit##s* hit,                    \
-                                            Scalar* distance) {                                                        \
-    return of_hit<Scalar>(__func__, path, hit, distance, "distance",                                                   \
-                          [](const auto& way, const auto& met) { return surehit::distance<Scalar>(way, met); });       \
-  }                                                                                                                    \
-  surehit_status surehit_mesh##s##_check(const surehit_mesh##s* mesh) { return check_mesh<Scalar>(__func__, mesh); }   \
-  surehit_status surehit_mesh##s##_box(const surehit_mesh##s* mesh, surehit_box##s* box) {                             \
-    return box_of_mesh<Scalar>(__func__, mesh, box);                                                                   \
+#define SUREHIT_PAIR_FUNCTIONS(Scalar, s)                                                                           \
+  SUREHIT_C_API surehit_query_options##s surehit_query_options##s##_default() {                                     \
+    const surehit::QueryOptions<Scalar> options;                                                                    \
+    return {options.min_t,                                                                                          \
+            options.max_t,                                                                                          \
+            static_cast<uint8_t>(options.culling),                                                                  \
+            options.mask,                                                                                           \
+            options.ignored_triangle,                                                                               \
+            options.ignore_start_contact,                                                                           \
+            options.ignore_end_contact};                                                                            \
+  }                                                                                                                 \
+  SUREHIT_C_API surehit_status surehit_triangle##s##_intersect(                                                     \
+      const surehit_triangle##s* triangle, const surehit_path##s* path, const surehit_query_options##s* options,    \
+      surehit_hit##s* hit) {                                                                                        \
+    return intersect_pair<Scalar>(__func__, triangle, path, options, hit);                                          \
+  }                                                                                                                 \
+  SUREHIT_C_API surehit_status surehit_triangle##s##_max_t_keeping(                                                 \
+      const surehit_triangle##s* triangle, const surehit_path##s* path, const surehit_hit##s* hit, Scalar* max_t) { \
+    return max_t_of_pair<Scalar>(__func__, triangle, path, hit, max_t);                                             \
+  }                                                                                                                 \
+  SUREHIT_C_API surehit_status surehit_triangle##s##_normal(const surehit_triangle##s* triangle,                    \
+                                                            surehit_vector3##s* normal) {                           \
+    return normal_of<Scalar>(__func__, triangle, normal);                                                           \
+  }                                                                                                                 \
+  SUREHIT_C_API surehit_status surehit_path##s##_point(const surehit_path##s* path, const surehit_hit##s* hit,      \
+                                                       surehit_vector3##s* point) {                                 \
+    return of_hit<Scalar>(__func__, path, hit, point, "point",                                                      \
+                          [](const auto& way, const auto& met) { return to_c(surehit::point<Scalar>(way, met)); }); \
+  }                                                                                                                 \
+  SUREHIT_C_API surehit_status surehit_path##s##_distance(const surehit_path##s* path, const surehit_hit##s* hit,   \
+                                                          Scalar* distance) {                                       \
+    return of_hit<Scalar>(__func__, path, hit, distance, "distance",                                                \
+                          [](const auto& way, const auto& met) { return surehit::distance<Scalar>(way, met); });    \
+  }                                                                                                                 \
+  SUREHIT_C_API surehit_status surehit_mesh##s##_check(const surehit_mesh##s* mesh) {                               \
+    return check_mesh<Scalar>(__func__, mesh);                                                                      \
+  }                                                                                                                 \
+  SUREHIT_C_API surehit_status surehit_mesh##s##_box(const surehit_mesh##s* mesh, surehit_box##s* box) {            \
+    return box_of_mesh<Scalar>(__func__, mesh, box);                                                                \
   }
 extern "C" {
 SUREHIT_PAIR_FUNCTIONS(float, f)

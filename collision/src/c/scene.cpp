@@ -138,11 +138,12 @@ template <typename Scalar, typename Result, typename Get>
 }  // namespace
 
 #define SUREHIT_SCENE_FUNCTIONS(Scalar, s)                                                                             \
-  surehit_pose##s surehit_pose##s##_identity() { return pose_to_c(Pose<Scalar>()); }                                   \
-  surehit_pose##s surehit_pose##s##_rigid(Scalar x, Scalar y, Scalar z, Scalar w, surehit_vector3##s translation) {    \
+  SUREHIT_C_API surehit_pose##s surehit_pose##s##_identity() { return pose_to_c(Pose<Scalar>()); }                     \
+  SUREHIT_C_API surehit_pose##s surehit_pose##s##_rigid(Scalar x, Scalar y, Scalar z, Scalar w,                        \
+                                                        surehit_vector3##s translation) {                              \
     return pose_to_c(Pose<Scalar>::rigid(std::array<Scalar, 4>{x, y, z, w}, from_c(translation)));                     \
   }                                                                                                                    \
-  surehit_scene_query_options##s surehit_scene_query_options##s##_default() {                                          \
+  SUREHIT_C_API surehit_scene_query_options##s surehit_scene_query_options##s##_default() {                            \
     const SceneQueryOptions<Scalar> options;                                                                           \
     return {options.min_t,                                                                                             \
             options.max_t,                                                                                             \
@@ -154,128 +155,131 @@ template <typename Scalar, typename Result, typename Get>
             options.ignore_start_contact,                                                                              \
             options.ignore_end_contact};                                                                               \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_create(surehit_scene##s** scene) {                                                 \
+  SUREHIT_C_API surehit_status surehit_scene##s##_create(surehit_scene##s** scene) {                                   \
     Arguments arguments(__func__);                                                                                     \
     arguments.check_pointer(scene, "scene");                                                                           \
     return open(arguments, scene, [] { return std::make_shared<Scene<Scalar>>(); });                                   \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_destroy(surehit_scene##s* scene) {                                                 \
+  SUREHIT_C_API surehit_status surehit_scene##s##_destroy(surehit_scene##s* scene) {                                   \
     return destroy<Scene<Scalar>>(__func__, scene);                                                                    \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_add(surehit_scene##s* scene, const surehit_collider##s* collider,                  \
-                                        const surehit_pose##s* pose, uint32_t mask, uint64_t user_data,                \
-                                        surehit_instance_id* id) {                                                     \
+  SUREHIT_C_API surehit_status surehit_scene##s##_add(surehit_scene##s* scene, const surehit_collider##s* collider,    \
+                                                      const surehit_pose##s* pose, uint32_t mask, uint64_t user_data,  \
+                                                      surehit_instance_id* id) {                                       \
     return add<Scalar, Scalar>(__func__, scene, collider, pose, mask, user_data, id);                                  \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_remove(surehit_scene##s* scene, surehit_instance_id id) {                          \
+  SUREHIT_C_API surehit_status surehit_scene##s##_remove(surehit_scene##s* scene, surehit_instance_id id) {            \
     return change(HandleCall<Scene<Scalar>>(__func__, scene), [&](auto& of) { return of.try_remove(from_c(id)); });    \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_set_pose(surehit_scene##s* scene, surehit_instance_id id,                          \
-                                             const surehit_pose##s* pose) {                                            \
+  SUREHIT_C_API surehit_status surehit_scene##s##_set_pose(surehit_scene##s* scene, surehit_instance_id id,            \
+                                                           const surehit_pose##s* pose) {                              \
     return set_pose<Scalar>(__func__, scene, id, pose);                                                                \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_set_motion(surehit_scene##s* scene, surehit_instance_id id,                        \
-                                               const surehit_vector3##s* motion) {                                     \
+  SUREHIT_C_API surehit_status surehit_scene##s##_set_motion(surehit_scene##s* scene, surehit_instance_id id,          \
+                                                             const surehit_vector3##s* motion) {                       \
     return set_motion<Scalar>(__func__, scene, id, motion);                                                            \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_set_mask(surehit_scene##s* scene, surehit_instance_id id, uint32_t mask) {         \
+  SUREHIT_C_API surehit_status surehit_scene##s##_set_mask(surehit_scene##s* scene, surehit_instance_id id,            \
+                                                           uint32_t mask) {                                            \
     return change(HandleCall<Scene<Scalar>>(__func__, scene),                                                          \
                   [&](auto& of) { return of.try_set_mask(from_c(id), mask); });                                        \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_commit(surehit_scene##s* scene, const surehit_executor* executor) {                \
+  SUREHIT_C_API surehit_status surehit_scene##s##_commit(surehit_scene##s* scene, const surehit_executor* executor) {  \
     return commit<Scalar>(__func__, scene, executor);                                                                  \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_instance_count(const surehit_scene##s* scene, size_t* count) {                     \
+  SUREHIT_C_API surehit_status surehit_scene##s##_instance_count(const surehit_scene##s* scene, size_t* count) {       \
     return HandleCall<Scene<Scalar>>(__func__, scene).tell(count, "count", [](const auto& of) {                        \
       return of.instance_count();                                                                                      \
     });                                                                                                                \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_contains(const surehit_scene##s* scene, surehit_instance_id id,                    \
-                                             uint8_t* is_there) {                                                      \
+  SUREHIT_C_API surehit_status surehit_scene##s##_contains(const surehit_scene##s* scene, surehit_instance_id id,      \
+                                                           uint8_t* is_there) {                                        \
     return HandleCall<Scene<Scalar>>(__func__, scene).tell(is_there, "is_there", [&](const auto& of) -> uint8_t {      \
       return of.contains(from_c(id)) ? 1 : 0;                                                                          \
     });                                                                                                                \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_instances(const surehit_scene##s* scene, surehit_instance_id* ids,                 \
-                                              size_t capacity, size_t* id_count) {                                     \
+  SUREHIT_C_API surehit_status surehit_scene##s##_instances(const surehit_scene##s* scene, surehit_instance_id* ids,   \
+                                                            size_t capacity, size_t* id_count) {                       \
     return instances<Scalar>(__func__, scene, ids, capacity, id_count);                                                \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_pose(const surehit_scene##s* scene, surehit_instance_id id,                        \
-                                         surehit_pose##s* pose) {                                                      \
+  SUREHIT_C_API surehit_status surehit_scene##s##_pose(const surehit_scene##s* scene, surehit_instance_id id,          \
+                                                       surehit_pose##s* pose) {                                        \
     return of_instance<Scalar>(__func__, scene, id, pose, "pose",                                                      \
                                [](const auto& of, InstanceId of_id) { return pose_to_c(of.pose(of_id)); });            \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_motion(const surehit_scene##s* scene, surehit_instance_id id,                      \
-                                           surehit_vector3##s* motion) {                                               \
+  SUREHIT_C_API surehit_status surehit_scene##s##_motion(const surehit_scene##s* scene, surehit_instance_id id,        \
+                                                         surehit_vector3##s* motion) {                                 \
     return of_instance<Scalar>(__func__, scene, id, motion, "motion",                                                  \
                                [](const auto& of, InstanceId of_id) { return to_c(of.motion(of_id)); });               \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_mask(const surehit_scene##s* scene, surehit_instance_id id, uint32_t* mask) {      \
+  SUREHIT_C_API surehit_status surehit_scene##s##_mask(const surehit_scene##s* scene, surehit_instance_id id,          \
+                                                       uint32_t* mask) {                                               \
     return of_instance<Scalar>(__func__, scene, id, mask, "mask",                                                      \
                                [](const auto& of, InstanceId of_id) { return of.mask(of_id); });                       \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_user_data(const surehit_scene##s* scene, surehit_instance_id id,                   \
-                                              uint64_t* user_data) {                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_user_data(const surehit_scene##s* scene, surehit_instance_id id,     \
+                                                            uint64_t* user_data) {                                     \
     return of_instance<Scalar>(__func__, scene, id, user_data, "user_data",                                            \
                                [](const auto& of, InstanceId of_id) { return of.user_data(of_id); });                  \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_triangle_count(const surehit_scene##s* scene, surehit_instance_id id,              \
-                                                   size_t* count) {                                                    \
+  SUREHIT_C_API surehit_status surehit_scene##s##_triangle_count(const surehit_scene##s* scene,                        \
+                                                                 surehit_instance_id id, size_t* count) {              \
     return of_instance<Scalar>(__func__, scene, id, count, "count",                                                    \
                                [](const auto& of, InstanceId of_id) { return of.triangle_count(of_id); });             \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_triangle(const surehit_scene##s* scene, surehit_instance_id id,                    \
-                                             uint32_t triangle_id, surehit_triangle##s* triangle) {                    \
+  SUREHIT_C_API surehit_status surehit_scene##s##_triangle(const surehit_scene##s* scene, surehit_instance_id id,      \
+                                                           uint32_t triangle_id, surehit_triangle##s* triangle) {      \
     return of_placed<Scalar>(                                                                                          \
         __func__, scene, id, triangle_id, triangle, "triangle",                                                        \
         [](const auto& of, InstanceId of_id, uint32_t corner_of) { return to_c(of.triangle(of_id, corner_of)); });     \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_normal(const surehit_scene##s* scene, surehit_instance_id id,                      \
-                                           uint32_t triangle_id, surehit_vector3##s* normal) {                         \
+  SUREHIT_C_API surehit_status surehit_scene##s##_normal(const surehit_scene##s* scene, surehit_instance_id id,        \
+                                                         uint32_t triangle_id, surehit_vector3##s* normal) {           \
     return of_placed<Scalar>(                                                                                          \
         __func__, scene, id, triangle_id, normal, "normal",                                                            \
         [](const auto& of, InstanceId of_id, uint32_t normal_of) { return to_c(of.normal(of_id, normal_of)); });       \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_box(const surehit_scene##s* scene, surehit_box##s* box) {                          \
+  SUREHIT_C_API surehit_status surehit_scene##s##_box(const surehit_scene##s* scene, surehit_box##s* box) {            \
     return HandleCall<Scene<Scalar>>(__func__, scene).tell(box, "box", [](const auto& of) { return to_c(of.box()); }); \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_memory_bytes(const surehit_scene##s* scene, size_t* bytes) {                       \
+  SUREHIT_C_API surehit_status surehit_scene##s##_memory_bytes(const surehit_scene##s* scene, size_t* bytes) {         \
     return HandleCall<Scene<Scalar>>(__func__, scene).tell(bytes, "bytes", [](const auto& of) {                        \
       return of.memory_bytes();                                                                                        \
     });                                                                                                                \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_first_hit(                                                                         \
+  SUREHIT_C_API surehit_status surehit_scene##s##_first_hit(                                                           \
       const surehit_scene##s* scene, const surehit_path##s* path, const surehit_scene_query_options##s* options,       \
       const surehit_scene_filter##s* filter, surehit_statistics* statistics, surehit_scene_hit##s* hit) {              \
     Arguments arguments(__func__);                                                                                     \
     return first_hit(SingleQuery<Scene<Scalar>>(arguments, scene, path, options, filter, statistics), hit);            \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_any_hit(                                                                           \
+  SUREHIT_C_API surehit_status surehit_scene##s##_any_hit(                                                             \
       const surehit_scene##s* scene, const surehit_path##s* path, const surehit_scene_query_options##s* options,       \
       const surehit_scene_filter##s* filter, surehit_statistics* statistics, uint8_t* blocked) {                       \
     Arguments arguments(__func__);                                                                                     \
     return any_hit(SingleQuery<Scene<Scalar>>(arguments, scene, path, options, filter, statistics), blocked);          \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_all_hits(const surehit_scene##s* scene, const surehit_path##s* path,               \
-                                             const surehit_scene_query_options##s* options,                            \
-                                             const surehit_scene_filter##s* filter, surehit_statistics* statistics,    \
-                                             surehit_scene_hit##s* hits, size_t capacity, size_t* hit_count) {         \
+  SUREHIT_C_API surehit_status surehit_scene##s##_all_hits(                                                            \
+      const surehit_scene##s* scene, const surehit_path##s* path, const surehit_scene_query_options##s* options,       \
+      const surehit_scene_filter##s* filter, surehit_statistics* statistics, surehit_scene_hit##s* hits,               \
+      size_t capacity, size_t* hit_count) {                                                                            \
     Arguments arguments(__func__);                                                                                     \
     return all_hits(SingleQuery<Scene<Scalar>>(arguments, scene, path, options, filter, statistics), hits, capacity,   \
                     hit_count);                                                                                        \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_first_hits(const surehit_scene##s* scene, const surehit_paths##s* paths,           \
-                                               const surehit_scene_batch_options##s* options,                          \
-                                               surehit_scene_hit##s* hits) {                                           \
+  SUREHIT_C_API surehit_status surehit_scene##s##_first_hits(                                                          \
+      const surehit_scene##s* scene, const surehit_paths##s* paths, const surehit_scene_batch_options##s* options,     \
+      surehit_scene_hit##s* hits) {                                                                                    \
     Arguments arguments(__func__);                                                                                     \
     return first_hits(Batch<Scene<Scalar>>(arguments, scene, paths, options), hits);                                   \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_any_hits(const surehit_scene##s* scene, const surehit_paths##s* paths,             \
-                                             const surehit_scene_batch_options##s* options, uint8_t* blocked) {        \
+  SUREHIT_C_API surehit_status surehit_scene##s##_any_hits(                                                            \
+      const surehit_scene##s* scene, const surehit_paths##s* paths, const surehit_scene_batch_options##s* options,     \
+      uint8_t* blocked) {                                                                                              \
     Arguments arguments(__func__);                                                                                     \
     return any_hits(Batch<Scene<Scalar>>(arguments, scene, paths, options), blocked);                                  \
   }                                                                                                                    \
-  surehit_status surehit_scene##s##_last_free_point(                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_last_free_point(                                                     \
       const surehit_scene##s* scene, const surehit_path##s* segment, const surehit_scene_hit##s* hit,                  \
       const surehit_scene_query_options##s* options, const surehit_scene_filter##s* filter,                            \
       surehit_vector3##s* point) {                                                                                     \
@@ -287,9 +291,9 @@ extern "C" {
 SUREHIT_SCENE_FUNCTIONS(float, f)
 SUREHIT_SCENE_FUNCTIONS(double, d)
 
-surehit_status surehit_scened_add_colliderf(surehit_scened* scene, const surehit_colliderf* collider,
-                                            const surehit_posed* pose, uint32_t mask, uint64_t user_data,
-                                            surehit_instance_id* id) {
+SUREHIT_C_API surehit_status surehit_scened_add_colliderf(surehit_scened* scene, const surehit_colliderf* collider,
+                                                          const surehit_posed* pose, uint32_t mask, uint64_t user_data,
+                                                          surehit_instance_id* id) {
   return add<double, float>(__func__, scene, collider, pose, mask, user_data, id);
 }
 }

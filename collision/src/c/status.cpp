@@ -15,17 +15,17 @@ LastError& last_error() noexcept {
 
 extern "C" {
 
-const char* surehit_last_error() { return last_error().message; }
+SUREHIT_C_API const char* surehit_last_error() { return last_error().message; }
 
-surehit_status surehit_last_error_status() { return last_error().status; }
+SUREHIT_C_API surehit_status surehit_last_error_status() { return last_error().status; }
 
-std::size_t surehit_last_error_element() { return last_error().element; }
+SUREHIT_C_API std::size_t surehit_last_error_element() { return last_error().element; }
 
-std::uint32_t surehit_version() {
+SUREHIT_C_API std::uint32_t surehit_version() {
   return 1'000'000 * SUREHIT_VERSION_MAJOR + 1'000 * SUREHIT_VERSION_MINOR + SUREHIT_VERSION_PATCH;
 }
 
-surehit_status surehit_check_abi(std::uint32_t abi) {
+SUREHIT_C_API surehit_status surehit_check_abi(std::uint32_t abi) {
   Arguments arguments(__func__);
   if (abi != SUREHIT_C_ABI) {
     arguments.refuse(SUREHIT_WRONG_ABI, SUREHIT_C_ABI, "the program has ABI %u, and the library has ABI %u", abi,
