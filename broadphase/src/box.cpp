@@ -22,8 +22,8 @@ Box<Scalar> box_of(const TriangleMeshView<Scalar>& mesh) {
     Point corners[3];
     vertices.load_corners(i, corners);
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      low[corner] = corners[corner] < low[corner] ? corners[corner] : low[corner];
-      high[corner] = corners[corner] > high[corner] ? corners[corner] : high[corner];
+      low[corner] = detail::lesser(corners[corner], low[corner]);
+      high[corner] = detail::greater(corners[corner], high[corner]);
     }
   }
   Box<Scalar> box;

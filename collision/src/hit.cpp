@@ -10,6 +10,7 @@
 #include "path_range.hpp"
 #include "support/exact_difference.hpp"
 #include "support/floating_point_environment.hpp"
+#include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
 #include "unit_of_cross.hpp"
 #include "walk/direction.hpp"
@@ -79,7 +80,7 @@ double scaled_distance(const Path<double>& path, double t) {
 
 /// Returns |t| |D|, or NaN or infinity if D or t is not finite.
 template <typename Scalar>
-[[gnu::noinline]] Scalar distance_of(const Path<Scalar>& path, Scalar t) {
+SUREHIT_NOINLINE Scalar distance_of(const Path<Scalar>& path, Scalar t) {
   const bool are_finite =
       detail::is_finite(path.toward) && (!path.has_end() || detail::is_finite(path.start)) && std::isfinite(t);
   if (are_finite) return scaled_distance(path, t);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "support/inlining.hpp"
 #include "surehit/path.hpp"
 
 namespace surehit::detail {
@@ -9,8 +10,8 @@ namespace surehit::detail {
 /// Returns true if the path misses the box from `low` to `high`. These have three floats or doubles each. All
 /// comparisons are exact. The path may be of any kind and have any length.
 template <typename Scalar, typename Corner>
-[[gnu::always_inline]] [[nodiscard]] inline bool misses_box(const Path<Scalar>& path, const Corner& low,
-                                                            const Corner& high) {
+SUREHIT_ALWAYS_INLINE [[nodiscard]] inline bool misses_box(const Path<Scalar>& path, const Corner& low,
+                                                           const Corner& high) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Scalar start = path.start[static_cast<Eigen::Index>(axis)];
     const Scalar toward = path.toward[static_cast<Eigen::Index>(axis)];

@@ -11,6 +11,7 @@
 #include "filter/bounded_contact.hpp"
 #include "filter/plane_contact.hpp"
 #include "misses_box.hpp"
+#include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
 #include "walk/direction.hpp"
 
@@ -93,7 +94,7 @@ bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact
 // The three functions with exact steps are not inlined, because their stack frames are large. The frames of the walk
 // are on the stack at the same time.
 template <typename Scalar>
-[[gnu::noinline]] bool Narrowphase<Scalar>::find_exactly(const Triangle<Scalar>& triangle, Contact& found) const {
+SUREHIT_NOINLINE bool Narrowphase<Scalar>::find_exactly(const Triangle<Scalar>& triangle, Contact& found) const {
   std::optional<Contact> contact;
   if (!try_compact_contact(path_, triangle, range_, contact)) {
     const BoundedContact bounded = bounded_contact(path_, triangle, range_);
@@ -123,8 +124,8 @@ bool Narrowphase<Scalar>::comes_before(const Candidate<Scalar>& x, const Candida
 }
 
 template <typename Scalar>
-[[gnu::noinline]] bool Narrowphase<Scalar>::exactly_before(const Candidate<Scalar>& x,
-                                                           const Candidate<Scalar>& y) const {
+SUREHIT_NOINLINE bool Narrowphase<Scalar>::exactly_before(const Candidate<Scalar>& x,
+                                                          const Candidate<Scalar>& y) const {
   ++statistics_.exact_orders;
   const auto order = exact_order(path_, x.triangle, y.triangle, range_);
   return order != 0 ? order < 0 : x.id < y.id;
@@ -154,7 +155,7 @@ Hit<Scalar> Narrowphase<Scalar>::hit(const Candidate<Scalar>& candidate) const {
 }
 
 template <typename Scalar>
-[[gnu::noinline]] void Narrowphase<Scalar>::round_exactly(const Candidate<Scalar>& candidate, Hit<Scalar>& hit) const {
+SUREHIT_NOINLINE void Narrowphase<Scalar>::round_exactly(const Candidate<Scalar>& candidate, Hit<Scalar>& hit) const {
   const bool crosses = candidate.contact.side != Side::edge_on;
   if (crosses && try_round(bounded_contact(path_, candidate.triangle, range_), hit)) return;
   ++statistics_.exact_roundings;

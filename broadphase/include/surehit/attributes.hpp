@@ -1,8 +1,9 @@
 #pragma once
 
 /// Marks a symbol that a shared library exports. All other symbols are hidden, and so are all of a static library. The
-/// CMake targets and surehit.pc define `SUREHIT_SHARED` if the library is shared.
-#if defined(SUREHIT_SHARED)
+/// CMake targets and surehit.pc define `SUREHIT_SHARED` if the library is shared. On Windows, a shared library exports
+/// all symbols.
+#if defined(SUREHIT_SHARED) && !defined(_WIN32)
 #define SUREHIT_API __attribute__((visibility("default")))
 #else
 #define SUREHIT_API

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <vector>
 
+#include "support/vector_of.hpp"
+
 namespace surehit::detail {
 namespace {
 
@@ -13,36 +15,35 @@ constexpr std::uint8_t max_distance = CellWord::max_distance;
 constexpr std::uint32_t octants = 8;
 
 /// Distances of 16 cells side by side on the x axis, one byte each. Every target has such vectors.
-using Cells = std::uint8_t __attribute__((vector_size(16)));
+using Cells = VectorOf<std::uint8_t, 16>;
 /// The two halves of such a vector.
-using Halves = std::uint64_t __attribute__((vector_size(16)));
+using Halves = VectorOf<std::uint64_t, 2>;
 constexpr std::size_t row_unit = sizeof(Cells);
 
-[[gnu::always_inline]] inline Cells lesser(Cells x, Cells y) { return x < y ? x : y; }
-[[gnu::always_inline]] inline Cells all_cells(std::uint8_t x) { return Cells{} + x; }
+SUREHIT_ALWAYS_INLINE inline Cells all_cells(std::uint8_t x) { return Cells{} + x; }
 
-[[gnu::always_inline]] inline Cells load(const std::uint8_t* from) {
+SUREHIT_ALWAYS_INLINE inline Cells load(const std::uint8_t* from) {
   Cells cells;
   std::memcpy(&cells, from, sizeof cells);
   return cells;
 }
 
-[[gnu::always_inline]] inline void store(Cells cells, std::uint8_t* to) { std::memcpy(to, &cells, sizeof cells); }
+SUREHIT_ALWAYS_INLINE inline void store(Cells cells, std::uint8_t* to) { std::memcpy(to, &cells, sizeof cells); }
 
 /// Returns, for each cell, what is `by` cells ahead of it: upward or downward, as the octant looks. `next` holds the 16
 /// cells that follow in that direction.
 template <bool is_upward, int by>
-[[gnu::always_inline]] inline Cells ahead(Cells cells, Cells next) {
-  const auto near = reinterpret_cast<Halves>(cells);
-  const auto far = reinterpret_cast<Halves>(next);
-  const Halves middle = is_upward ? __builtin_shufflevector(near, far, 1, 2) : __builtin_shufflevector(far, near, 1, 2);
-  if constexpr (by == 8) return reinterpret_cast<Cells>(middle);
+SUREHIT_ALWAYS_INLINE inline Cells ahead(Cells cells, Cells next) {
+  const auto near = with_bits_of<Halves>(cells);
+  const auto far = with_bits_of<Halves>(next);
+  const Halves middle = is_upward ? shuffled<1, 2>(near, far) : shuffled<1, 2>(far, near);
+  if constexpr (by == 8) return with_bits_of<Cells>(middle);
   const Halves& first = by < 8 ? near : middle;
   const Halves& second = by < 8 ? middle : far;
   constexpr int bits = by % 8 * 8;
   constexpr bool to_the_right = is_upward == (std::endian::native == std::endian::little);
-  return reinterpret_cast<Cells>(to_the_right ? first >> bits | second << (64 - bits)
-                                              : first << bits | second >> (64 - bits));
+  return with_bits_of<Cells>(to_the_right ? first >> bits | second << (64 - bits)
+                                          : first << bits | second >> (64 - bits));
 }
 
 /// Measures the distances in each octant, row by row. An empty cell has seven neighbours ahead. Its cube is larger by
@@ -110,7 +111,7 @@ class Octants {
   /// in this cell, of one more than they allow in the next cell, and so on. The minimum is taken over four cells first,
   /// then over four groups of four.
   template <bool is_upward>
-  [[gnu::always_inline]] void measure_row(std::uint32_t octant, std::uint32_t step_y, std::uint32_t step_z) {
+  SUREHIT_ALWAYS_INLINE void measure_row(std::uint32_t octant, std::uint32_t step_y, std::uint32_t step_z) {
     const std::uint32_t y = (octant & 2) == 0 ? cells_[1] - 1 - step_y : step_y;
     const std::uint32_t z = (octant & 4) == 0 ? cells_[2] - 1 - step_z : step_z;
     const std::uint32_t next_y = (octant & 2) == 0 ? y + 1 : y - 1;
@@ -144,7 +145,7 @@ class Octants {
   /// Returns the minimum over a cell and three cells ahead of it, at distances of `by`. Each allows `by` more than the
   /// one before.
   template <bool is_upward, int by>
-  [[gnu::always_inline]] static Cells min_of_four(Cells cells, Cells next) {
+  SUREHIT_ALWAYS_INLINE static Cells min_of_four(Cells cells, Cells next) {
     return lesser(
         lesser(cells, ahead<is_upward, by>(cells, next) + by),
         lesser(ahead<is_upward, 2 * by>(cells, next) + 2 * by, ahead<is_upward, 3 * by>(cells, next) + 3 * by));

@@ -7,6 +7,7 @@
 
 #include "support/double4.hpp"
 #include "support/float4.hpp"
+#include "support/inlining.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 
 namespace surehit::detail {
@@ -25,7 +26,7 @@ class VertexLanes {
   }
 
   /// Loads a vertex.
-  [[gnu::always_inline]] void load(std::size_t vertex, Point& point) const {
+  SUREHIT_ALWAYS_INLINE void load(std::size_t vertex, Point& point) const {
     if (vertex < followed_) {
       load_whole(vertex, point);
     } else {
@@ -33,7 +34,7 @@ class VertexLanes {
     }
   }
   /// Loads the corners a, b and c of a triangle.
-  [[gnu::always_inline]] void load_corners(std::size_t triangle, Point (&corners)[3]) const {
+  SUREHIT_ALWAYS_INLINE void load_corners(std::size_t triangle, Point (&corners)[3]) const {
     const std::size_t vertices[3] = {mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2)};
     if (std::max({vertices[0], vertices[1], vertices[2]}) < followed_) {
       for (std::size_t i = 0; i < 3; ++i) load_whole(vertices[i], corners[i]);
@@ -43,7 +44,7 @@ class VertexLanes {
   }
 
  private:
-  [[gnu::always_inline]] void load_whole(std::size_t vertex, Point& point) const {
+  SUREHIT_ALWAYS_INLINE void load_whole(std::size_t vertex, Point& point) const {
     std::memcpy(&point, vertices_ + vertex * (3 * sizeof(Scalar)), sizeof point);
   }
   void gather(std::size_t index, Point& point) const {

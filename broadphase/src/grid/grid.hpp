@@ -12,6 +12,7 @@
 #include "grid/grid_frame.hpp"
 #include "grid/packed_ids.hpp"
 #include "support/default_init_allocator.hpp"
+#include "support/inlining.hpp"
 #include "surehit/box.hpp"
 #include "surehit/executor.hpp"
 #include "surehit/grid_options.hpp"
@@ -98,22 +99,22 @@ class Grid {
   }
 
   /// Returns the words of the top cells of the outermost grid. x runs fastest, then y, then z.
-  [[gnu::always_inline]] [[nodiscard]] std::span<const CellWord> top() const noexcept {
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] std::span<const CellWord> top() const noexcept {
     return {top_.data(), top_count_};
   }
   /// Returns the words of the top cells of all grids. Those of a frame begin at its `first_top`.
-  [[gnu::always_inline]] [[nodiscard]] std::span<const CellWord> all_top() const noexcept {
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] std::span<const CellWord> all_top() const noexcept {
     return {top_.data(), top_.empty() ? 0 : top_.size() - top_slack};
   }
   /// Returns the words of the cells of all bricks. Each brick has `brick_size` words, in the same order.
-  [[gnu::always_inline]] [[nodiscard]] std::span<const CellWord> bricks() const noexcept { return bricks_; }
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] std::span<const CellWord> bricks() const noexcept { return bricks_; }
   /// Returns the triangle ids of all lists, one list after the other.
   [[nodiscard]] const detail::PackedIds& entries() const noexcept { return entries_; }
 
   /// Returns all lists by their numbers, and one more that begins where the last list ends. Returns nothing if the mesh
   /// has no triangles. After the list of a cell with an inner grid comes an empty list. The bits of its box are the
   /// index of the inner grid's frame.
-  [[gnu::always_inline]] [[nodiscard]] std::span<const CellList> lists() const noexcept { return lists_; }
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] std::span<const CellList> lists() const noexcept { return lists_; }
   /// Returns the index of the first entry of a cell's list.
   [[nodiscard]] std::size_t first_entry(CellWord word) const noexcept { return lists_[word.list()].first_entry; }
   /// Returns the number of triangles in a cell's list.

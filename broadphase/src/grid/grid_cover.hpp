@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "support/float4.hpp"
+#include "support/inlining.hpp"
 
 namespace surehit {
 
@@ -35,8 +36,8 @@ class GridCover {
     float enters, leaves;
   };
   /// Returns the part of a path that runs from tau = 0 to `end`. The path is mirrored as `octant` says.
-  [[gnu::always_inline]] [[nodiscard]] Part part_of(const detail::Float4& start, const detail::Float4& inverse_rate,
-                                                    std::uint32_t octant, float end) const noexcept {
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] Part part_of(const detail::Float4& start, const detail::Float4& inverse_rate,
+                                                   std::uint32_t octant, float end) const noexcept {
     using namespace detail;
     const Sides& x = sides_[0][octant & 1];
     const Sides& y = sides_[1][octant >> 1 & 1];
@@ -52,8 +53,8 @@ class GridCover {
       const Float4 leaves =
           min(min(crosses(x.far[i], 0), crosses(y.far[i], 1)), min(crosses(z.far[i], 2), all_lanes(end)));
       const Int4 is_met = enters <= leaves;
-      first = min(first, is_met ? enters : first);
-      last = max(last, is_met ? leaves : last);
+      first = min(first, choose(is_met, enters, first));
+      last = max(last, choose(is_met, leaves, last));
     }
     return {min_lane(first)[0], -min_lane(-last)[0]};
   }

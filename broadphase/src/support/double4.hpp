@@ -4,55 +4,56 @@
 #include <cstdint>
 
 #include "support/float4.hpp"
+#include "support/inlining.hpp"
 
 namespace surehit::detail {
 
-// Vectors of x, y and z in double, and of a fourth lane, which is 0 unless a function says otherwise. GCC and Clang
-// compile them for the vectors of any target. All functions are inlined, so the convention for calls does not matter.
+// Vectors of x, y and z in double, and of a fourth lane, which is 0 unless a function says otherwise. All functions are
+// inlined, so the convention for calls does not matter.
 
-using Double4 = double __attribute__((vector_size(32)));
-using Long4 = std::int64_t __attribute__((vector_size(32)));  ///< It may be a mask, whose lanes are all ones or zero.
+using Double4 = VectorOf<double, 4>;
+using Long4 = VectorOf<std::int64_t, 4>;  ///< It may be a mask, whose lanes are all ones or zero.
 
 /// Returns x in every lane.
-[[gnu::always_inline]] inline Double4 all_lanes(double x) { return Double4{x, x, x, x}; }
+SUREHIT_ALWAYS_INLINE inline Double4 all_lanes(double x) { return Double4{x, x, x, x}; }
 
 /// Returns each lane as a double.
-[[gnu::always_inline]] inline Double4 to_double(Float4 x) { return __builtin_convertvector(x, Double4); }
+SUREHIT_ALWAYS_INLINE inline Double4 to_double(Float4 x) { return converted<Double4>(x); }
 
 /// Returns a vector of three coordinates.
 template <typename Vector>
-[[gnu::always_inline]] inline Double4 to_double4(const Vector& x) {
+SUREHIT_ALWAYS_INLINE inline Double4 to_double4(const Vector& x) {
   if constexpr (sizeof(x[0]) == sizeof(float)) return to_double(Float4{x[0], x[1], x[2], 0});
   return Double4{double{x[0]}, double{x[1]}, double{x[2]}, 0};
 }
 
-[[gnu::always_inline]] inline Double4 max(Double4 a, Double4 b) { return a > b ? a : b; }
+SUREHIT_ALWAYS_INLINE inline Double4 max(Double4 a, Double4 b) { return greater(a, b); }
 
-[[gnu::always_inline]] inline Double4 absolute(Double4 x) {
-  return reinterpret_cast<Double4>(reinterpret_cast<Long4>(x) & 0x7fffffffffffffff);
+SUREHIT_ALWAYS_INLINE inline Double4 absolute(Double4 x) {
+  return with_bits_of<Double4>(with_bits_of<Long4>(x) & 0x7fffffffffffffff);
 }
 
-[[gnu::always_inline]] inline Double4 with_fourth(Double4 x, double fourth) {
-  return __builtin_shufflevector(x, all_lanes(fourth), 0, 1, 2, 4);
+SUREHIT_ALWAYS_INLINE inline Double4 with_fourth(Double4 x, double fourth) {
+  return shuffled<0, 1, 2, 4>(x, all_lanes(fourth));
 }
 
 /// Returns the maximum lane.
-[[gnu::always_inline]] inline double max_lane(Double4 x) {
-  const Double4 pairs = max(x, __builtin_shufflevector(x, x, 2, 3, 0, 1));
+SUREHIT_ALWAYS_INLINE inline double max_lane(Double4 x) {
+  const Double4 pairs = max(x, shuffled<2, 3, 0, 1>(x, x));
   return pairs[0] > pairs[1] ? pairs[0] : pairs[1];
 }
 
 /// Returns the sum of the first three lanes.
-[[gnu::always_inline]] inline double sum_of_three(Double4 x) { return x[0] + x[1] + x[2]; }
+SUREHIT_ALWAYS_INLINE inline double sum_of_three(Double4 x) { return x[0] + x[1] + x[2]; }
 
 /// Rounds each lane to float.
-[[gnu::always_inline]] inline Float4 to_float(Double4 x) { return __builtin_convertvector(x, Float4); }
+SUREHIT_ALWAYS_INLINE inline Float4 to_float(Double4 x) { return converted<Float4>(x); }
 
 /// Returns true if any of the first three lanes of a mask is all ones.
-[[gnu::always_inline]] inline bool any_of_three(Long4 mask) { return (mask[0] | mask[1] | mask[2]) != 0; }
+SUREHIT_ALWAYS_INLINE inline bool any_of_three(Long4 mask) { return (mask[0] | mask[1] | mask[2]) != 0; }
 
 /// Returns x - y without error, in each lane: the difference and what it leaves out (Knuth). Nothing may overflow.
-[[gnu::always_inline]] inline std::array<Double4, 2> exact_difference(Double4 x, Double4 y) {
+SUREHIT_ALWAYS_INLINE inline std::array<Double4, 2> exact_difference(Double4 x, Double4 y) {
   const Double4 difference = x - y;
   const Double4 y_part = x - difference;
   const Double4 x_part = difference + y_part;

@@ -4,6 +4,8 @@
 
 #if defined(__SSE2__) || defined(_M_X64)
 #include <xmmintrin.h>
+#elif defined(_M_ARM64)
+#include <intrin.h>
 #elif !defined(__aarch64__)
 #include <cfenv>
 #endif
@@ -31,18 +33,39 @@ FloatingPointEnvironment::FloatingPointEnvironment() noexcept {
 
 void FloatingPointEnvironment::restore() noexcept { _mm_setcsr(static_cast<unsigned>(caller_)); }
 
-#elif defined(__aarch64__)
+#elif defined(__aarch64__) || defined(_M_ARM64)
 
-FloatingPointEnvironment::FloatingPointEnvironment() noexcept {
+namespace {
+
+std::uint64_t read_control() {
+#if defined(_MSC_VER) && !defined(__clang__)
+  return static_cast<std::uint64_t>(_ReadStatusReg(ARM64_FPCR));
+#else
   std::uint64_t control = 0;
   __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+  return control;
+#endif
+}
+
+void write_control(std::uint64_t control) {
+#if defined(_MSC_VER) && !defined(__clang__)
+  _WriteStatusReg(ARM64_FPCR, static_cast<__int64>(control));
+#else
+  __asm__ volatile("msr fpcr, %0" : : "r"(control));
+#endif
+}
+
+}  // namespace
+
+FloatingPointEnvironment::FloatingPointEnvironment() noexcept {
+  const std::uint64_t control = read_control();
   if (control == 0) return;  // Zero means: to nearest, no flush-to-zero, no traps.
   caller_ = control;
   restore_ = true;
-  __asm__ volatile("msr fpcr, %0" : : "r"(std::uint64_t{0}));
+  write_control(0);
 }
 
-void FloatingPointEnvironment::restore() noexcept { __asm__ volatile("msr fpcr, %0" : : "r"(caller_)); }
+void FloatingPointEnvironment::restore() noexcept { write_control(caller_); }
 
 #else
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "support/inlining.hpp"
 #include "surehit/path.hpp"
 
 namespace surehit::detail {
@@ -7,7 +8,7 @@ namespace surehit::detail {
 /// Returns the direction D of a path. For a segment, `toward` is the end. For a ray or a line, it is the direction. T
 /// may be a scalar or a vector.
 template <typename T>
-[[gnu::always_inline]] inline T direction_of(PathKind kind, const T& start, const T& toward) {
+SUREHIT_ALWAYS_INLINE inline T direction_of(PathKind kind, const T& start, const T& toward) {
   return kind == PathKind::segment ? toward - start : toward;
 }
 

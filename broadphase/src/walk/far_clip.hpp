@@ -9,6 +9,7 @@
 #include "grid/grid_frame.hpp"
 #include "support/double4.hpp"
 #include "support/float4.hpp"
+#include "support/inlining.hpp"
 #include "surehit/path.hpp"
 #include "walk/direction.hpp"
 #include "walk/grid_traversal.hpp"
@@ -36,8 +37,8 @@ struct FarClip {
 
   /// Clips a path to a frame. [first_t, last_t] is the range. `clipped` must be as `ClippedPath::clip_in_float` leaves
   /// a far path, and it gets the result.
-  [[gnu::always_inline]] FarClip(const GridFrame& frame, const Path<float>& path, float first_t, float last_t,
-                                 ClippedPath::InFloat in_float, ClippedPath& clipped) noexcept {
+  SUREHIT_ALWAYS_INLINE FarClip(const GridFrame& frame, const Path<float>& path, float first_t, float last_t,
+                                ClippedPath::InFloat in_float, ClippedPath& clipped) noexcept {
     if (in_float == ClippedPath::InFloat::far) [[likely]]
       status = clip(frame, path, first_t, last_t, clipped);
     if (status == Status::unknown) [[unlikely]]
@@ -45,8 +46,8 @@ struct FarClip {
   }
 
  private:
-  [[gnu::always_inline]] Status clip(const GridFrame& frame, const Path<float>& path, float first_t, float last_t,
-                                     ClippedPath& clipped) noexcept {
+  SUREHIT_ALWAYS_INLINE Status clip(const GridFrame& frame, const Path<float>& path, float first_t, float last_t,
+                                    ClippedPath& clipped) noexcept {
     using namespace detail;
     const Float4 stop = frame.float_stop;
     const Float4 far = clipped.start;
@@ -79,8 +80,8 @@ struct FarClip {
     const std::int64_t all_if_end = -std::int64_t{is_end};
     const Long4 ends = {all_if_end, all_if_end, all_if_end, all_if_end};
     moved_t = is_end ? 1 : 0.5 * (double{may_enter} + double{may_leave});
-    const Double4 to_point = ends ? to_end : (start - low) + moved_t * way;
-    const Double4 place = ends ? toward : low + to_point;
+    const Double4 to_point = choose(ends, to_end, (start - low) + moved_t * way);
+    const Double4 place = choose(ends, toward, low + to_point);
     for (std::size_t axis = 0; axis < 4; ++axis) point[axis] = place[axis];
     const Float4 from = negated_where(to_float(to_point * scale + cells_low), is_mirrored) + turned;
     if (any_lane(~((-stop <= from) & (from <= stop + stop)))) return Status::unknown;

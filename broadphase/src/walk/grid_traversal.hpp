@@ -9,6 +9,7 @@
 
 #include "grid/grid.hpp"
 #include "support/double4.hpp"
+#include "support/inlining.hpp"
 #include "surehit/path.hpp"
 #include "walk/direction.hpp"
 
@@ -76,7 +77,7 @@ struct ClippedPath {
   WalkParameter tau;                 ///< Only `origin[2]` is set if the path is clipped in float.
 
   /// Returns a mask of the axes on which the path is mirrored.
-  [[gnu::always_inline]] [[nodiscard]] detail::Int4 is_mirrored() const noexcept {
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] detail::Int4 is_mirrored() const noexcept {
     using namespace detail;
     return (all_lanes(static_cast<std::int32_t>(octant)) & Int4{1, 2, 4, 0}) != all_lanes(0);
   }
@@ -111,8 +112,8 @@ struct ClippedPath {
   /// Returns true if the path meets nothing, because it ends in the cube of empty cells in which it begins (L6). Most
   /// short paths do. The path must be clipped. If it begins in a cell with a list, the word of its last cell is
   /// prefetched.
-  [[gnu::always_inline]] [[nodiscard]] bool stays_in_empty_space(const Grid& grid,
-                                                                 const GridFrame& frame) const noexcept {
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] bool stays_in_empty_space(const Grid& grid,
+                                                                const GridFrame& frame) const noexcept {
     using namespace detail;
     const CellWord* const top = grid.all_top().data();
     const auto shift = static_cast<std::int32_t>(2 * grid.levels());
@@ -124,7 +125,7 @@ struct ClippedPath {
       // Most short paths go through one more cell, the last one. Without a prefetch the walk would wait for its word.
       const Int4 stop = to_int(frame.float_stop) >> shift;
       const Int4 end_cell = min(max(last, first), stop - 1);
-      __builtin_prefetch(&top[order.index(end_cell)]);
+      prefetch(&top[order.index(end_cell)]);
       return false;
     }
     const auto cells = static_cast<std::int32_t>(word.distance(octant));
@@ -132,7 +133,7 @@ struct ClippedPath {
   }
 
   /// Returns tau at t, rounded up (L12).
-  [[gnu::always_inline]] [[nodiscard]] float beyond(double t) const noexcept {
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] float beyond(double t) const noexcept {
     return is_clipped_in_float ? beyond(t, tau.origin[2]) : tau.beyond(t);
   }
   /// Returns tau at t, rounded up, where tau is t - `enters`.
@@ -162,14 +163,14 @@ struct ClippedPath {
 };
 
 template <typename Scalar>
-[[gnu::always_inline]] inline ClippedPath::ClippedPath(const GridFrame& frame, const Path<Scalar>& path, double first_t,
-                                                       double last_t) noexcept {
+SUREHIT_ALWAYS_INLINE inline ClippedPath::ClippedPath(const GridFrame& frame, const Path<Scalar>& path, double first_t,
+                                                      double last_t) noexcept {
   clip(frame, path, first_t, last_t);
 }
 
 template <typename Scalar>
-[[gnu::always_inline]] inline void ClippedPath::clip(const GridFrame& frame, const Path<Scalar>& path, double first_t,
-                                                     double last_t) noexcept {
+SUREHIT_ALWAYS_INLINE inline void ClippedPath::clip(const GridFrame& frame, const Path<Scalar>& path, double first_t,
+                                                    double last_t) noexcept {
   if constexpr (std::is_same_v<Scalar, float>) {
     // The limits of a path of floats are floats.
     if (clip_in_float(frame, path, static_cast<float>(first_t), static_cast<float>(last_t)) == InFloat::done) return;
@@ -179,14 +180,14 @@ template <typename Scalar>
 }
 
 template <typename Scalar>
-[[gnu::always_inline]] inline ClippedPath::ClippedPath(const Grid& grid, const Path<Scalar>& path, double first_t,
-                                                       double last_t) noexcept {
+SUREHIT_ALWAYS_INLINE inline ClippedPath::ClippedPath(const Grid& grid, const Path<Scalar>& path, double first_t,
+                                                      double last_t) noexcept {
   if (!grid.is_empty()) clip(grid.frame(), path, first_t, last_t);
 }
 
-[[gnu::always_inline]] inline ClippedPath::InFloat ClippedPath::clip_in_float(const GridFrame& frame,
-                                                                              const Path<float>& path, float first_t,
-                                                                              float last_t) noexcept {
+SUREHIT_ALWAYS_INLINE inline ClippedPath::InFloat ClippedPath::clip_in_float(const GridFrame& frame,
+                                                                             const Path<float>& path, float first_t,
+                                                                             float last_t) noexcept {
   using namespace detail;
   if (!frame.has_floats) return InFloat::none;
   const Float4 path_start = {path.start[0], path.start[1], path.start[2], 0};
@@ -196,8 +197,8 @@ template <typename Scalar>
   return clip_near(frame, at, move, path.has_end(), first_t, last_t);
 }
 
-[[gnu::always_inline]] inline bool ClippedPath::try_clip_in_float(const GridFrame& frame, const MovedPath& path,
-                                                                  double first_t, double last_t) noexcept {
+SUREHIT_ALWAYS_INLINE inline bool ClippedPath::try_clip_in_float(const GridFrame& frame, const MovedPath& path,
+                                                                 double first_t, double last_t) noexcept {
   using namespace detail;
   if (!frame.has_floats) return false;
   const Double4 scale = to_double(frame.float_scale);
@@ -230,9 +231,9 @@ template <typename Scalar>
 }
 
 // It has no branches on the direction, because a processor could not predict them.
-[[gnu::always_inline]] inline ClippedPath::InFloat ClippedPath::clip_near(const GridFrame& frame, detail::Float4 at,
-                                                                          detail::Float4 move, bool is_short,
-                                                                          float first_t, float last_t) noexcept {
+SUREHIT_ALWAYS_INLINE inline ClippedPath::InFloat ClippedPath::clip_near(const GridFrame& frame, detail::Float4 at,
+                                                                         detail::Float4 move, bool is_short,
+                                                                         float first_t, float last_t) noexcept {
   using namespace detail;
   const Float4 stop = frame.float_stop;
   const Float4 speed = absolute(move);
@@ -241,7 +242,7 @@ template <typename Scalar>
   const Int4 is_still = speed < all_lanes(min_rate);
   const Float4 from = negated_where(at, is_mirrored) + masked(is_mirrored, stop);
   rate = masked(~is_still, speed);
-  inverse_rate = is_still ? all_lanes(max_inverse) : 1 / speed;
+  inverse_rate = choose(is_still, all_lanes(max_inverse), 1 / speed);
   Float4 leaving = (from - stop) * inverse_rate;
   leaving[3] = -last_t;
   const Float4 limits = max_lanes(-from * inverse_rate, leaving, speed, masked(~is_near, all_lanes(1.0F)));
@@ -285,13 +286,13 @@ class GridTraversal {
   /// Begins at the first cell of a frame of the grid. If the path is not clipped to this frame, the walk is at its end
   /// at once. The grid, the frame and the path must outlive the walk. `enters` is the tau at which the walk begins:
   /// where the path enters the grid's cover (L7).
-  [[gnu::always_inline]] GridTraversal(const Grid& grid, const GridFrame& frame, const ClippedPath& path,
-                                       float enters = 0) noexcept
+  SUREHIT_ALWAYS_INLINE GridTraversal(const Grid& grid, const GridFrame& frame, const ClippedPath& path,
+                                      float enters = 0) noexcept
       : grid_(grid), frame_(frame), path_(path), end_(path.end) {
     begin(enters);
   }
   /// Begins at the first cell of the outermost grid.
-  [[gnu::always_inline]] GridTraversal(const Grid& grid, const ClippedPath& path, float enters = 0) noexcept
+  SUREHIT_ALWAYS_INLINE GridTraversal(const Grid& grid, const ClippedPath& path, float enters = 0) noexcept
       : grid_(grid), frame_(grid.frame()), path_(path), end_(path.end) {
     begin(enters);
   }
@@ -307,7 +308,7 @@ class GridTraversal {
   [[nodiscard]] std::int32_t size() const noexcept { return size_; }
 
   /// Goes beyond the current cell, or beyond the cube of empty cells that begins with it (L2).
-  [[gnu::always_inline]] void advance() noexcept {
+  SUREHIT_ALWAYS_INLINE void advance() noexcept {
     if (size_ != step_size_) [[unlikely]] {  // NOLINT(bugprone-branch-clone): less likely than the next branch
       leap();
     } else if (word_.is_empty() && word_.distance(path_.octant) >= min_leap) {
@@ -318,7 +319,7 @@ class GridTraversal {
   }
 
   /// Returns false if the path meets no triangle of the cell's list, because it misses the box of the list (L3).
-  [[gnu::always_inline]] [[nodiscard]] bool meets_box() const noexcept {
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] bool meets_box() const noexcept {
     const TausOfBox tau = taus_of_box();
     return !detail::any_lane_exceeds_any(tau.enters, tau.leaves);
   }
@@ -326,7 +327,7 @@ class GridTraversal {
   /// Returns false if the path meets no triangle of the cell's list, because it misses the slab of the list (L4). The
   /// path misses the slab if it is beyond the same plane where it enters the box and where it leaves the box.
   /// `meets_box` must be true.
-  [[gnu::always_inline]] [[nodiscard]] bool meets(CellSlab slab) const noexcept {
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] bool meets(CellSlab slab) const noexcept {
     using namespace detail;
     const TausOfBox tau = taus_of_box();
     const Int4 bits = all_lanes(static_cast<std::int32_t>(slab.bits()));
@@ -344,11 +345,11 @@ class GridTraversal {
   }
 
   /// Ends the walk at parameter t, because the caller does not need what the path meets beyond it.
-  [[gnu::always_inline]] void shorten(double t) noexcept { end_ = std::min(end_, path_.beyond(t)); }
+  SUREHIT_ALWAYS_INLINE void shorten(double t) noexcept { end_ = std::min(end_, path_.beyond(t)); }
 
  private:
   /// Goes to the first cell.
-  [[gnu::always_inline]] void begin(float enters) noexcept {
+  SUREHIT_ALWAYS_INLINE void begin(float enters) noexcept {
     using namespace detail;
     if (path_.status != ClippedPath::Status::clipped) return;
     is_mirrored_ = path_.is_mirrored();
@@ -365,7 +366,7 @@ class GridTraversal {
   struct TausOfBox {
     detail::Float4 enters, leaves;  ///< On each axis. The fourth lane has the tau where the walk begins or ends.
   };
-  [[gnu::always_inline]] [[nodiscard]] TausOfBox taus_of_box() const noexcept {
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] TausOfBox taus_of_box() const noexcept {
     using namespace detail;
     const Int4 bits = all_lanes(static_cast<std::int32_t>(grid_.box(word_).bits()));
     // Where the path is mirrored, low and high sides are exchanged and counted from the other end.
@@ -386,11 +387,11 @@ class GridTraversal {
   }
 
   /// Goes to the next top cell.
-  [[gnu::always_inline]] void step() noexcept {
+  SUREHIT_ALWAYS_INLINE void step() noexcept {
     using namespace detail;
     // The comparisons tell which planes are crossed before `tau` is known. The next step waits only for them.
-    const Float4 next_axis = __builtin_shufflevector(crossing_, crossing_, 1, 2, 0, 3);
-    const Float4 last_axis = __builtin_shufflevector(crossing_, crossing_, 2, 0, 1, 3);
+    const Float4 next_axis = shuffled<1, 2, 0, 3>(crossing_, crossing_);
+    const Float4 last_axis = shuffled<2, 0, 1, 3>(crossing_, crossing_);
     const Int4 crossed = (crossing_ <= next_axis) & (crossing_ <= last_axis) & Int4{-1, -1, -1, 0};
     const Float4 tau = min(min(crossing_, next_axis), last_axis);
     at_end_ = !(tau[0] < end_);
@@ -408,7 +409,7 @@ class GridTraversal {
   }
 
   /// Goes beyond the cell, or the cube of empty cells, and finds the next cell anew.
-  [[gnu::always_inline]] void leap() noexcept {
+  SUREHIT_ALWAYS_INLINE void leap() noexcept {
     using namespace detail;
     const std::int32_t cells = word_.is_empty() ? static_cast<std::int32_t>(word_.distance(path_.octant)) : 1;
     const Float4 plane = planes_ + static_cast<float>(size_ * (cells - 1));
@@ -416,7 +417,8 @@ class GridTraversal {
     const Float4 tau = min_lane(crossing);
     // The position is not beyond the plane, but for roundings. So it fits an integer.
     const Int4 position = to_int(path_.start + tau * path_.rate);
-    const Int4 finest = crossing == tau ? to_int(plane) : max(position, to_int(planes_) - size_);  // L2, (i) and (iii)
+    const Int4 finest =
+        choose(crossing == tau, to_int(plane), max(position, to_int(planes_) - size_));  // L2, (i) and (iii)
     at_end_ = !(tau[0] < end_) || any_lane(finest >= to_int(frame_.float_stop));
     if (at_end_) return;
     enter(finest);
@@ -424,7 +426,7 @@ class GridTraversal {
   }
 
   /// Computes what `step` needs. Steps end at the first outer plane that is crossed (L2).
-  [[gnu::always_inline]] void begin_steps() noexcept {
+  SUREHIT_ALWAYS_INLINE void begin_steps() noexcept {
     using namespace detail;
     step_size_ = static_cast<std::int32_t>(frame_.division);
     crossing_ = (planes_ - path_.start) * path_.inverse_rate;
@@ -434,7 +436,7 @@ class GridTraversal {
   }
 
   /// Makes the undivided cell that holds this finest cell the current one.
-  [[gnu::always_inline]] void enter(detail::Int4 finest) noexcept {
+  SUREHIT_ALWAYS_INLINE void enter(detail::Int4 finest) noexcept {
     size_ = static_cast<std::int32_t>(frame_.division);
     top_ = order().index(finest >> static_cast<std::int32_t>(2 * grid_.levels()));
     planes_ = detail::to_float((finest & -size_) + size_);
@@ -442,9 +444,9 @@ class GridTraversal {
     if (word_.is_divided()) descend(finest);
   }
   [[nodiscard]] const GridFrame::TopOrder& order() const noexcept { return frame_.top_orders[path_.octant]; }
-  [[gnu::always_inline]] void look() noexcept { word_ = grid_.all_top().data()[top_]; }
+  SUREHIT_ALWAYS_INLINE void look() noexcept { word_ = grid_.all_top().data()[top_]; }
   /// Goes from a divided cell to the undivided cell in it that holds this finest cell.
-  [[gnu::always_inline]] void descend(detail::Int4 finest) noexcept {
+  SUREHIT_ALWAYS_INLINE void descend(detail::Int4 finest) noexcept {
     const auto [word, size] = undivided(grid_, word_, finest, is_mirrored_);
     word_ = word;
     size_ = size;
@@ -457,8 +459,8 @@ class GridTraversal {
   };
   /// Returns the undivided cell that holds the finest cell. It is a function of its own that takes only values, so that
   /// the state of the walk stays in registers.
-  [[gnu::noinline]] static Cell undivided(const Grid& grid, CellWord word, detail::Int4 finest,
-                                          detail::Int4 is_mirrored) noexcept {
+  SUREHIT_NOINLINE static Cell undivided(const Grid& grid, CellWord word, detail::Int4 finest,
+                                         detail::Int4 is_mirrored) noexcept {
     std::uint32_t shift = 2 * grid.levels();
     do {
       shift -= 2;

@@ -37,11 +37,10 @@ constexpr std::size_t max_lanes = hn::MaxLanes(FloatTag());
 /// Rounds toward zero. The numbers must fit an integer. On x86, Highway's own function needs four more operations for
 /// numbers that do not fit.
 HWY_INLINE Ints to_ints(Floats x) {
-#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
-  using FloatLanes = float __attribute__((vector_size(sizeof(x.raw))));
-  using IntLanes = std::int32_t __attribute__((vector_size(sizeof(x.raw))));
-  const auto lanes = __builtin_convertvector(reinterpret_cast<FloatLanes>(x.raw), IntLanes);
-  return Ints{reinterpret_cast<decltype(Ints::raw)>(lanes)};
+#if defined(SUREHIT_HAS_GNU_VECTORS) && HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
+  constexpr std::size_t count = sizeof(x.raw) / sizeof(float);
+  const auto lanes = converted<VectorOf<std::int32_t, count>>(with_bits_of<VectorOf<float, count>>(x.raw));
+  return Ints{with_bits_of<decltype(Ints::raw)>(lanes)};
 #else
   return hn::ConvertTo(IntTag(), x);
 #endif

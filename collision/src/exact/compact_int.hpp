@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "exact/int128.hpp"
 #include "exact/wide_int.hpp"
+#include "support/inlining.hpp"
 
 namespace surehit::detail {
-
-__extension__ typedef __int128 Int128;
 
 /// An exact integer below 2^Bits in magnitude, in one number of 64 or 128 bits. It has the functions of `WideInt` that
 /// the exact stage needs. The bound is part of the type and grows with each operation.
@@ -110,8 +110,8 @@ WideInt<B> wide(const CompactInt<B>& x) {
 
 /// Does the same as `rounded_quotient` of wide integers.
 template <typename Scalar, int N, int D>
-[[nodiscard, gnu::noinline]] Scalar rounded_quotient(const CompactInt<N>& numerator, const CompactInt<D>& denominator,
-                                                     int exponent = 0) {
+[[nodiscard]] SUREHIT_NOINLINE Scalar rounded_quotient(const CompactInt<N>& numerator, const CompactInt<D>& denominator,
+                                                       int exponent = 0) {
   return rounded_quotient<Scalar>(numerator.widened(), denominator.widened(), exponent);
 }
 

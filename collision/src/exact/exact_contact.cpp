@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "exact/exact_pair.hpp"
+#include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
@@ -18,8 +19,8 @@ bool are_compact(const Scale<Scalar>& scale, const PathRange<Scalar>& range) {
 }
 
 template <typename Size, typename Scalar, typename AnyTriangle>
-[[gnu::noinline]] std::optional<Contact> find_contact(const Path<Scalar>& path, const AnyTriangle& triangle,
-                                                      const Scale<Scalar>& scale, const PathRange<Scalar>& range) {
+SUREHIT_NOINLINE std::optional<Contact> find_contact(const Path<Scalar>& path, const AnyTriangle& triangle,
+                                                     const Scale<Scalar>& scale, const PathRange<Scalar>& range) {
   typename ExactPair<Scalar, Size>::Parameter t;
   std::optional<Contact> contact = ExactPair<Scalar, Size>(path, triangle, scale).find(range, t, nullptr);
   if (contact) {
@@ -33,8 +34,8 @@ template <typename Size, typename Scalar, typename AnyTriangle>
 }
 
 template <typename Size, typename Scalar, typename AnyTriangle>
-[[gnu::noinline]] void round_hit(const Path<Scalar>& path, const AnyTriangle& triangle, const Scale<Scalar>& scale,
-                                 const PathRange<Scalar>& range, Hit<Scalar>& hit) {
+SUREHIT_NOINLINE void round_hit(const Path<Scalar>& path, const AnyTriangle& triangle, const Scale<Scalar>& scale,
+                                const PathRange<Scalar>& range, Hit<Scalar>& hit) {
   typename ExactPair<Scalar, Size>::Parameter t;
   Weights<Scalar> weights;
   if (!ExactPair<Scalar, Size>(path, triangle, scale).find(range, t, &weights)) return;
@@ -44,14 +45,14 @@ template <typename Size, typename Scalar, typename AnyTriangle>
 }
 
 template <typename Size, typename Scalar, typename AnyTriangle>
-[[gnu::noinline]] void find_parameter(const Path<Scalar>& path, const AnyTriangle& triangle, const Scale<Scalar>& scale,
-                                      const PathRange<Scalar>& range, typename ExactPair<Scalar, Size>::Parameter& t) {
+SUREHIT_NOINLINE void find_parameter(const Path<Scalar>& path, const AnyTriangle& triangle, const Scale<Scalar>& scale,
+                                     const PathRange<Scalar>& range, typename ExactPair<Scalar, Size>::Parameter& t) {
   static_cast<void>(ExactPair<Scalar, Size>(path, triangle, scale).find(range, t, nullptr));
 }
 
 template <typename Size, typename Scalar, typename AnyTriangle>
-[[gnu::noinline]] int compare_contacts(const Path<Scalar>& path, const AnyTriangle& triangle, const AnyTriangle& other,
-                                       const Scale<Scalar>& scale, const PathRange<Scalar>& range) {
+SUREHIT_NOINLINE int compare_contacts(const Path<Scalar>& path, const AnyTriangle& triangle, const AnyTriangle& other,
+                                      const Scale<Scalar>& scale, const PathRange<Scalar>& range) {
   typename ExactPair<Scalar, Size>::Parameter t;
   typename ExactPair<Scalar, Size>::Parameter other_t;
   find_parameter<Size>(path, triangle, scale, range, t);

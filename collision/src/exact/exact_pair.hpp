@@ -5,6 +5,7 @@
 #include "contact.hpp"
 #include "exact/exact_scale.hpp"
 #include "path_range.hpp"
+#include "support/inlining.hpp"
 
 namespace surehit::detail {
 
@@ -60,7 +61,7 @@ class ExactPair {
     Int<B::cross> normal;         ///< The normal's component on that axis.
   };
 
-  [[gnu::noinline]] Plane find_plane() const {
+  SUREHIT_NOINLINE Plane find_plane() const {
     Plane plane;
     IntVector<Int<B::cross>> normal;
     set_cross(normal, e1_, e2_);
@@ -77,8 +78,8 @@ class ExactPair {
   /// Cuts the interval [first, last] to the range. Returns the contact, or nothing if they do not overlap. Sets `t` to
   /// the lower end of the overlap. `t` and `first` may be the same object.
   template <typename F, typename L, typename P>
-  [[gnu::noinline]] std::optional<Contact> cut(const Ratio<F>& first, const Ratio<L>& last,
-                                               const PathRange<Scalar>& range, Ratio<P>& t) {
+  SUREHIT_NOINLINE std::optional<Contact> cut(const Ratio<F>& first, const Ratio<L>& last,
+                                              const PathRange<Scalar>& range, Ratio<P>& t) {
     Contact contact = {};
     contact.at_start = path_.has_start() && first.num.sign() <= 0 && last.num.sign() >= 0;
     if (path_.has_end()) {
@@ -104,8 +105,8 @@ class ExactPair {
 
   /// Handles det ≠ 0. The contact is at T / det, and its weights are U / det and V / det. Returns false if det = 0,
   /// which decides nothing.
-  [[gnu::noinline]] bool crosses_plane(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights,
-                                       std::optional<Contact>& contact) {
+  SUREHIT_NOINLINE bool crosses_plane(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights,
+                                      std::optional<Contact>& contact) {
     const Crossing crossing = cross_plane(t);
     if (crossing == Crossing::none) return false;
     if (crossing == Crossing::beside) return true;
@@ -120,7 +121,7 @@ class ExactPair {
   /// triangle.
   enum class Crossing { none, beside, from_front, from_back };
 
-  [[gnu::noinline]] Crossing cross_plane(Parameter& t) const {
+  SUREHIT_NOINLINE Crossing cross_plane(Parameter& t) const {
     Int<B::det> det;
     Int<B::det> u;
     Int<B::det> v;
@@ -136,7 +137,7 @@ class ExactPair {
   }
 
   /// Computes the determinants a second time. If they were kept, they would use stack while `cut` runs.
-  [[gnu::noinline]] Weights<Scalar> crossing_weights() const {
+  SUREHIT_NOINLINE Weights<Scalar> crossing_weights() const {
     Int<B::det> det;
     Int<B::det> u;
     Int<B::det> v;
@@ -145,7 +146,7 @@ class ExactPair {
     return {rounded_quotient<Scalar>(u, det), rounded_quotient<Scalar>(v, det)};
   }
 
-  [[gnu::noinline]] void set_determinants(Int<B::det>& det, Int<B::det>& u, Int<B::det>& v, Parameter& t) const {
+  SUREHIT_NOINLINE void set_determinants(Int<B::det>& det, Int<B::det>& u, Int<B::det>& v, Parameter& t) const {
     IntVector<Int<B::cross>> cross;
     set_cross(cross, d_, e2_);
     set_dot(det, e1_, cross);
@@ -157,8 +158,8 @@ class ExactPair {
   }
 
   /// Handles det = 0 and a triangle that spans a plane. Returns false if it spans none, which decides nothing.
-  [[gnu::noinline]] bool is_parallel_to_plane(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights,
-                                              std::optional<Contact>& contact) {
+  SUREHIT_NOINLINE bool is_parallel_to_plane(const PathRange<Scalar>& range, Parameter& t, Weights<Scalar>* weights,
+                                             std::optional<Contact>& contact) {
     const Plane plane = find_plane();
     if (plane.is_degenerate) return false;
     if (plane.contains_start) contact = along_plane(plane, range, t, weights);
@@ -167,8 +168,8 @@ class ExactPair {
 
   /// Handles a path in the plane of a triangle. All is projected along an axis on which the normal is not zero. Each
   /// weight of the line's point at t is then linear: (s + t d) / n. No weight may be negative, so each one bounds t.
-  [[gnu::noinline]] std::optional<Contact> along_plane(const Plane& plane, const PathRange<Scalar>& range, Parameter& t,
-                                                       Weights<Scalar>* weights) {
+  SUREHIT_NOINLINE std::optional<Contact> along_plane(const Plane& plane, const PathRange<Scalar>& range, Parameter& t,
+                                                      Weights<Scalar>* weights) {
     const std::size_t axis = plane.axis;
     const Int<B::cross>& n = plane.normal;
     PlaneParameter at;
@@ -184,8 +185,8 @@ class ExactPair {
 
   /// Sets s and d of one weight. The line's point at t has the weight (s + t d) / n, where n is the normal's component
   /// on the axis.
-  [[gnu::noinline]] void set_weight(PlaneWeight which, std::size_t axis, const Int<B::cross>& n, PlaneTerm& s,
-                                    PlaneTerm& d) const {
+  SUREHIT_NOINLINE void set_weight(PlaneWeight which, std::size_t axis, const Int<B::cross>& n, PlaneTerm& s,
+                                   PlaneTerm& d) const {
     switch (which) {
       case PlaneWeight::u:
         s = cross_component(s_, e2_, axis);
@@ -206,8 +207,8 @@ class ExactPair {
     }
   }
 
-  [[gnu::noinline]] Scalar weight_at(PlaneWeight which, std::size_t axis, const Int<B::cross>& n,
-                                     const PlaneParameter& t) const {
+  SUREHIT_NOINLINE Scalar weight_at(PlaneWeight which, std::size_t axis, const Int<B::cross>& n,
+                                    const PlaneParameter& t) const {
     WideInt<2 * B::cross + 7> num;
     {
       PlaneTerm s;
@@ -219,8 +220,8 @@ class ExactPair {
     return rounded_quotient<Scalar>(num, wide(t.den) * wide(n));
   }
 
-  [[gnu::noinline]] std::optional<Contact> cut_to_weights(std::size_t axis, const Int<B::cross>& n,
-                                                          const PathRange<Scalar>& range, PlaneParameter& t) {
+  SUREHIT_NOINLINE std::optional<Contact> cut_to_weights(std::size_t axis, const Int<B::cross>& n,
+                                                         const PathRange<Scalar>& range, PlaneParameter& t) {
     Interval interval;
     for (const PlaneWeight which : {PlaneWeight::u, PlaneWeight::v, PlaneWeight::w}) {
       if (!bound_by(which, axis, n, interval)) return std::nullopt;
@@ -250,8 +251,8 @@ class ExactPair {
     }
   };
 
-  [[gnu::noinline]] bool bound_by(PlaneWeight which, std::size_t axis, const Int<B::cross>& n,
-                                  Interval& interval) const {
+  SUREHIT_NOINLINE bool bound_by(PlaneWeight which, std::size_t axis, const Int<B::cross>& n,
+                                 Interval& interval) const {
     PlaneTerm s;
     PlaneTerm d;
     set_weight(which, axis, n, s, d);
@@ -305,7 +306,7 @@ class ExactPair {
 
   /// Returns the weights of b and c at the point min + (num / den) (max - min).
   template <typename N, typename D>
-  [[gnu::noinline]] static Weights<Scalar> span_weights(const Span& span, const N& num, const D& den) {
+  SUREHIT_NOINLINE static Weights<Scalar> span_weights(const Span& span, const N& num, const D& den) {
     return span_weights(span, rounded_quotient<Scalar>(num, den), rounded_quotient<Scalar>(den - num, den));
   }
 
@@ -315,8 +316,8 @@ class ExactPair {
   }
 
   /// Handles a path with a length against a degenerate triangle, which is a segment or a point.
-  [[gnu::noinline]] std::optional<Contact> along_degenerate(const PathRange<Scalar>& range, Parameter& t,
-                                                            Weights<Scalar>* weights) {
+  SUREHIT_NOINLINE std::optional<Contact> along_degenerate(const PathRange<Scalar>& range, Parameter& t,
+                                                           Weights<Scalar>* weights) {
     const Span ends = span();
     Differences<Size> r;
     Differences<Size> g;
@@ -329,16 +330,16 @@ class ExactPair {
     return are_parallel(d_, r) ? along_span(ends, r, g, range, t, weights) : std::nullopt;
   }
 
-  [[gnu::noinline]] static bool are_parallel(const Differences<Size>& x, const Differences<Size>& y) {
+  SUREHIT_NOINLINE static bool are_parallel(const Differences<Size>& x, const Differences<Size>& y) {
     IntVector<Int<B::cross>> cross;
     set_cross(cross, x, y);
     return is_zero(cross);
   }
 
   /// Handles a path on the line of the corners, by its coordinates on an axis on which it moves.
-  [[gnu::noinline]] std::optional<Contact> along_span(const Span& ends, const Differences<Size>& r,
-                                                      const Differences<Size>& g, const PathRange<Scalar>& range,
-                                                      Parameter& t, Weights<Scalar>* weights) {
+  SUREHIT_NOINLINE std::optional<Contact> along_span(const Span& ends, const Differences<Size>& r,
+                                                     const Differences<Size>& g, const PathRange<Scalar>& range,
+                                                     Parameter& t, Weights<Scalar>* weights) {
     const std::size_t axis = nonzero_axis(d_);
     PlaneParameter at;
     const std::optional<Contact> contact = cut_to_span(r[axis], g[axis], d_[axis], range, at);
@@ -348,9 +349,9 @@ class ExactPair {
     return contact;
   }
 
-  [[gnu::noinline]] std::optional<Contact> cut_to_span(const Int<B::difference>& r, const Int<B::difference>& g,
-                                                       const Int<B::difference>& d, const PathRange<Scalar>& range,
-                                                       PlaneParameter& t) {
+  SUREHIT_NOINLINE std::optional<Contact> cut_to_span(const Int<B::difference>& r, const Int<B::difference>& g,
+                                                      const Int<B::difference>& d, const PathRange<Scalar>& range,
+                                                      PlaneParameter& t) {
     Ratio<Int<B::difference>> first;
     Ratio<Int<B::difference>> last;
     Int<B::difference> ahead = r;  // This becomes min - start, and then max - start.
@@ -362,9 +363,9 @@ class ExactPair {
   }
 
   /// Returns the weights at the point min + w (max - min), where w = (r + t d) / g.
-  [[gnu::noinline]] static Weights<Scalar> weights_along_span(const Span& ends, const Int<B::difference>& r,
-                                                              const Int<B::difference>& g, const Int<B::difference>& d,
-                                                              const PlaneParameter& t) {
+  SUREHIT_NOINLINE static Weights<Scalar> weights_along_span(const Span& ends, const Int<B::difference>& r,
+                                                             const Int<B::difference>& g, const Int<B::difference>& d,
+                                                             const PlaneParameter& t) {
     WideInt<B::difference + B::cross + 5> w = wide(r) * wide(t.den);
     w.add(wide(d) * wide(t.num));
     const auto den = wide(g) * wide(t.den);
@@ -376,9 +377,9 @@ class ExactPair {
 
   /// Handles two lines in one plane that are not parallel. They cross where r + t d = w g. The product with g gives
   /// t = (r × g)·axis / (g × d)·axis. The product with d gives w = (d × r)·axis / (d × g)·axis.
-  [[gnu::noinline]] std::optional<Contact> across_span(std::size_t axis, const Span& ends, const Differences<Size>& r,
-                                                       const Differences<Size>& g, const PathRange<Scalar>& range,
-                                                       Parameter& t, Weights<Scalar>* weights) {
+  SUREHIT_NOINLINE std::optional<Contact> across_span(std::size_t axis, const Span& ends, const Differences<Size>& r,
+                                                      const Differences<Size>& g, const PathRange<Scalar>& range,
+                                                      Parameter& t, Weights<Scalar>* weights) {
     const auto across = cross_component(d_, g, axis);
     const auto w = cross_component(d_, r, axis);
     const auto from_end = across - w;
@@ -391,8 +392,8 @@ class ExactPair {
   }
 
   /// Returns an axis on which d × g is not zero. Returns nothing if the two lines are not in one plane.
-  [[gnu::noinline]] std::optional<std::size_t> crossing_axis(const Differences<Size>& r,
-                                                             const Differences<Size>& g) const {
+  SUREHIT_NOINLINE std::optional<std::size_t> crossing_axis(const Differences<Size>& r,
+                                                            const Differences<Size>& g) const {
     IntVector<Int<B::cross>> cross;
     set_cross(cross, d_, g);
     Int<B::det> height;
@@ -401,8 +402,8 @@ class ExactPair {
   }
 
   /// Handles a path of length zero. It is a point at t = 0, and it meets a triangle that contains this point.
-  [[gnu::noinline]] std::optional<Contact> standing_point(const PathRange<Scalar>& range, Parameter& t,
-                                                          Weights<Scalar>* weights) {
+  SUREHIT_NOINLINE std::optional<Contact> standing_point(const PathRange<Scalar>& range, Parameter& t,
+                                                         Weights<Scalar>* weights) {
     if (!(range.first <= 0 && range.last >= 0)) return std::nullopt;
     t.set(Int<1>(), Int<1>::power_of_two(0));
     Contact contact = {};
@@ -418,7 +419,7 @@ class ExactPair {
   }
 
   /// Returns whether the triangle contains the start, which must be in its plane.
-  [[gnu::noinline]] bool on_plane(const Plane& plane, Weights<Scalar>* weights) const {
+  SUREHIT_NOINLINE bool on_plane(const Plane& plane, Weights<Scalar>* weights) const {
     const Int<B::cross>& n = plane.normal;
     const auto u = cross_component(s_, e2_, plane.axis);
     const auto v = cross_component(e1_, s_, plane.axis);
@@ -430,7 +431,7 @@ class ExactPair {
   }
 
   /// Returns whether a degenerate triangle, which is a segment or a point, contains the start.
-  [[gnu::noinline]] bool on_span(Weights<Scalar>* weights) const {
+  SUREHIT_NOINLINE bool on_span(Weights<Scalar>* weights) const {
     const Span ends = span();
     Differences<Size> r;
     Differences<Size> g;

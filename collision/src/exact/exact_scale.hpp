@@ -9,6 +9,7 @@
 
 #include "exact/exact_terms.hpp"
 #include "scene/placement.hpp"
+#include "support/inlining.hpp"
 #include "surehit/path.hpp"
 #include "surehit/triangle.hpp"
 
@@ -75,8 +76,8 @@ using Differences = IntVector<typename Size::template Int<Bits<Size>::difference
 
 /// It is not inlined, because each copy of it would take stack.
 template <typename Int, typename Scalar>
-[[gnu::noinline]] void set_difference(IntVector<Int>& out, const Vector3<Scalar>& x, const Vector3<Scalar>& y,
-                                      const BinaryUnit& unit) {
+SUREHIT_NOINLINE void set_difference(IntVector<Int>& out, const Vector3<Scalar>& x, const Vector3<Scalar>& y,
+                                     const BinaryUnit& unit) {
   Int subtrahend;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
@@ -186,8 +187,8 @@ void set_vectors(const Path<Scalar>& path, const Triangle<Scalar>& triangle, con
 
 /// Adds a b 2^exponent, or subtracts it. The exponent must not be negative.
 template <int Out, int A, int B>
-[[gnu::noinline]] void add_product(WideInt<Out>& out, const WideInt<A>& a, const WideInt<B>& b, int exponent,
-                                   bool subtract) {
+SUREHIT_NOINLINE void add_product(WideInt<Out>& out, const WideInt<A>& a, const WideInt<B>& b, int exponent,
+                                  bool subtract) {
   static_assert(A + B <= Out);
   WideInt<Out> product;
   product.set_product(a, b);
@@ -253,9 +254,9 @@ void add_image(IntVector<Int>& out, const PlacedTriangle<Scalar>& triangle, cons
 
 /// Sets S, D, E1 and E2 of a placed triangle. The path is seen from the instance, so D is less by the motion.
 template <typename Int, typename Scalar>
-[[gnu::noinline]] void set_vectors(const Path<Scalar>& path, const PlacedTriangle<Scalar>& triangle,
-                                   const Scale<Scalar>& scale, IntVector<Int>& s, IntVector<Int>& d, IntVector<Int>& e1,
-                                   IntVector<Int>& e2) {
+SUREHIT_NOINLINE void set_vectors(const Path<Scalar>& path, const PlacedTriangle<Scalar>& triangle,
+                                  const Scale<Scalar>& scale, IntVector<Int>& s, IntVector<Int>& d, IntVector<Int>& e1,
+                                  IntVector<Int>& e2) {
   const PlacedUnits<Scalar> units(triangle);
   const Vector3<Scalar> zero = Vector3<Scalar>::Zero();
   const auto& [a, b, c] = triangle.local;
@@ -290,7 +291,7 @@ struct Limit {
 
   /// Returns the sign of ratio - limit. Bit lengths decide first, because a shift of a long integer is expensive.
   template <int B>
-  [[nodiscard, gnu::noinline]] int compare(const Ratio<WideInt<B>>& ratio) const {
+  [[nodiscard]] SUREHIT_NOINLINE int compare(const Ratio<WideInt<B>>& ratio) const {
     const int sign = parts.significand == 0 ? 0 : parts.negative ? -1 : 1;
     if (ratio.num.sign() != sign) return ratio.num.sign() < sign ? -1 : 1;
     if (sign == 0) return 0;

@@ -6,6 +6,7 @@
 
 #include "exact/compact_int.hpp"
 #include "exact/wide_int.hpp"
+#include "support/inlining.hpp"
 
 namespace surehit::detail {
 
@@ -55,8 +56,8 @@ using IntVector = std::array<Int, 3>;
 
 /// Sets out = a b - c d.
 template <int Out, int A, int B>
-[[gnu::noinline]] void set_minor(WideInt<Out>& out, const WideInt<A>& a, const WideInt<B>& b, const WideInt<A>& c,
-                                 const WideInt<B>& d) {
+SUREHIT_NOINLINE void set_minor(WideInt<Out>& out, const WideInt<A>& a, const WideInt<B>& b, const WideInt<A>& c,
+                                const WideInt<B>& d) {
   const WideInt<A + B> product = c * d;
   out.set_product(a, b);
   out.add(product, true);
@@ -76,7 +77,7 @@ void set_cross(IntVector<Out>& out, const IntVector<A>& x, const IntVector<B>& y
 }
 
 template <int Out, int A, int B>
-[[gnu::noinline]] void set_dot(WideInt<Out>& out, const IntVector<WideInt<A>>& x, const IntVector<WideInt<B>>& y) {
+SUREHIT_NOINLINE void set_dot(WideInt<Out>& out, const IntVector<WideInt<A>>& x, const IntVector<WideInt<B>>& y) {
   WideInt<A + B> product;
   out.set_product(x[0], y[0]);
   product.set_product(x[1], y[1]);

@@ -7,15 +7,11 @@
 #include <limits>
 #include <type_traits>
 
+#include "exact/int128.hpp"
 #include "exact/rounded_to_nearest.hpp"
+#include "support/inlining.hpp"
 
 namespace surehit::detail {
-
-#if !defined(__SIZEOF_INT128__)
-#error \
-    "surehit's exact arithmetic needs a compiler with 128-bit integers: GCC or Clang for a 64-bit machine or WebAssembly"
-#endif
-__extension__ typedef unsigned __int128 Uint128;
 
 /// An exact integer below 2^Bits in magnitude. The bound is part of the type and grows with each operation. So no
 /// overflow can happen, and none is checked. Only the limbs in use are read or written, so small values are cheap for
@@ -332,8 +328,8 @@ struct Decomposed {
 /// most 3 too large. The remainder corrects it. Of all bits below the quotient, rounding only needs to know whether the
 /// remainder is zero.
 template <typename Scalar, int N, int D>
-[[nodiscard, gnu::noinline]] Scalar rounded_quotient(const WideInt<N>& numerator, const WideInt<D>& denominator,
-                                                     int exponent = 0) {
+[[nodiscard]] SUREHIT_NOINLINE Scalar rounded_quotient(const WideInt<N>& numerator, const WideInt<D>& denominator,
+                                                       int exponent = 0) {
   if (numerator.is_zero()) return 0;
   WideInt<std::max(N, D) + 65> n = numerator;
   WideInt<std::max(N, D) + 65> d = denominator;
@@ -345,10 +341,10 @@ template <typename Scalar, int N, int D>
   }
   const int below = d.bit_length() - 64;
   const Uint128 leading = (Uint128{n.bits_from(below + 64)} << 64) | n.bits_from(below);
-  std::uint64_t quotient = static_cast<std::uint64_t>(leading / d.bits_from(below));
-  quotient -= static_cast<std::uint64_t>(n.reduce(quotient, d));
+  std::uint64_t estimate = quotient(leading, d.bits_from(below));
+  estimate -= static_cast<std::uint64_t>(n.reduce(estimate, d));
   const bool negative = (numerator.sign() < 0) != (denominator.sign() < 0);
-  return rounded_to_nearest<Scalar>(quotient, !n.is_zero(), exponent - shift, negative);
+  return rounded_to_nearest<Scalar>(estimate, !n.is_zero(), exponent - shift, negative);
 }
 
 }  // namespace surehit::detail

@@ -9,6 +9,7 @@
 #include "filter/kernel_bound.hpp"
 #include "grid/grid.hpp"
 #include "support/float4.hpp"
+#include "support/inlining.hpp"
 #include "surehit/path.hpp"
 #include "walk/direction.hpp"
 
@@ -60,7 +61,7 @@ struct KernelPath {
   }
 
   /// Sets all members of a path of floats. The fourth lanes are the reach and `d_size`.
-  [[gnu::always_inline]] void set(Float4 from, Float4 way) {
+  SUREHIT_ALWAYS_INLINE void set(Float4 from, Float4 way) {
     static_assert(std::is_standard_layout_v<KernelPath<float>> && sizeof(KernelPath<float>) == 2 * sizeof(Float4));
     auto* const bytes = reinterpret_cast<unsigned char*>(this);
     std::memcpy(bytes, &from, sizeof from);

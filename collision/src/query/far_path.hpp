@@ -11,6 +11,7 @@
 #include "path_range.hpp"
 #include "support/double4.hpp"
 #include "support/float4.hpp"
+#include "support/inlining.hpp"
 #include "surehit/path.hpp"
 #include "walk/far_clip.hpp"
 
@@ -38,7 +39,7 @@ class FarPath {
   ///     With o = (start - low) + t D, the size of t D is at most |start - low| + |o|. The rounding of the difference,
   ///     of D, of the product and of the two sums add up to v (3 |start - low| + 3 |o| + |point|) in first order.
   ///     Since |o| <= |point| + |low|, this is at most v (3 |start| + 6 |low| + 4 |point|).
-  [[gnu::always_inline]] [[nodiscard]] KernelPath<float> kernel_path(const GridFrame& frame) const {
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] KernelPath<float> kernel_path(const GridFrame& frame) const {
     Double4 point;
     for (int axis = 0; axis < 4; ++axis) point[axis] = clip.point[static_cast<std::size_t>(axis)];
     const Float4 start = {path.start[0], path.start[1], path.start[2], 0};
@@ -75,7 +76,7 @@ class FarPath {
 
   /// Gives the hits of the kernel the parameter of the path. The sums are rounded outward.
   template <typename FirstHits>
-  [[gnu::always_inline]] void set_parameter(FirstHits& first) const {
+  SUREHIT_ALWAYS_INLINE void set_parameter(FirstHits& first) const {
     const double lower = clip.moved_t + double{first.t_lower};
     const double upper = clip.moved_t + double{first.t_upper};
     constexpr double min = std::numeric_limits<float>::min();

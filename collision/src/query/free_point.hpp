@@ -6,6 +6,7 @@
 #include "exact/exact_contact.hpp"
 #include "path_range.hpp"
 #include "support/floating_point_environment.hpp"
+#include "support/inlining.hpp"
 #include "surehit/path.hpp"
 
 namespace surehit::detail {
@@ -16,9 +17,9 @@ namespace surehit::detail {
 /// `Options` are those of a collider or of a scene. `is_blocked(path, options, s)` returns true if the segment to the
 /// point at s has a hit.
 template <typename Scalar, typename Options, typename IsBlocked>
-[[nodiscard, gnu::noinline]] Vector3<Scalar> find_free_point(const Segment<Scalar>& segment, Scalar t,
-                                                             const Options& options,
-                                                             const IsBlocked& is_blocked) noexcept {
+[[nodiscard]] SUREHIT_NOINLINE Vector3<Scalar> find_free_point(const Segment<Scalar>& segment, Scalar t,
+                                                               const Options& options,
+                                                               const IsBlocked& is_blocked) noexcept {
   const FloatingPointEnvironment environment;
   const Path<Scalar> path = segment;
   if (!is_finite(path) || !std::isfinite(t)) return segment.start;

@@ -7,6 +7,7 @@
 
 #include "exact/exact_scale.hpp"
 #include "support/exact_difference.hpp"
+#include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
@@ -90,7 +91,7 @@ struct ExactMatrix {
 
 /// Sets the inverse to the nearest doubles.
 template <typename Scalar>
-[[gnu::noinline]] void invert_exactly(const typename Pose<Scalar>::Matrix3& matrix, Matrix& inverse) {
+SUREHIT_NOINLINE void invert_exactly(const typename Pose<Scalar>::Matrix3& matrix, Matrix& inverse) {
   const ExactMatrix<Scalar> exact_matrix(matrix);
   const auto det = exact_matrix.det();
   for (std::size_t row = 0; row < 3; ++row) {

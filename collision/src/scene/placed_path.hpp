@@ -15,6 +15,7 @@
 #include "scene/placement.hpp"
 #include "support/double4.hpp"
 #include "support/exact_difference.hpp"
+#include "support/inlining.hpp"
 #include "surehit/path.hpp"
 #include "walk/grid_traversal.hpp"
 
@@ -70,14 +71,14 @@ class PlacedPath {
   };
 
   // It is inlined into code for the best instruction set.
-  [[gnu::always_inline]] PlacedPath(const ScenePath<Scalar>& any_path, const Placement<Scalar>& any_placement,
-                                    const InstanceFrame& any_frame)
+  SUREHIT_ALWAYS_INLINE PlacedPath(const ScenePath<Scalar>& any_path, const Placement<Scalar>& any_placement,
+                                   const InstanceFrame& any_frame)
       : scene_path(any_path), placement(any_placement), frame(&any_frame) {
     status = place();
   }
   /// Takes a lane of paths that were placed side by side. The lane must be among `PlacedLanes::near`.
-  [[gnu::always_inline]] PlacedPath(const ScenePath<Scalar>& any_path, const Placement<Scalar>& any_placement,
-                                    const InstanceFrame& any_frame, const PlacedLanes& lanes, std::size_t lane)
+  SUREHIT_ALWAYS_INLINE PlacedPath(const ScenePath<Scalar>& any_path, const Placement<Scalar>& any_placement,
+                                   const InstanceFrame& any_frame, const PlacedLanes& lanes, std::size_t lane)
       : scene_path(any_path),
         placement(any_placement),
         frame(&any_frame),
@@ -131,7 +132,7 @@ class PlacedPath {
   template <typename MeshScalar>
   [[nodiscard]] RangeWeights<MeshScalar> weights_of_range() const;
 
-  [[gnu::always_inline]] Status place() {
+  SUREHIT_ALWAYS_INLINE Status place() {
     if (!frame->is_usable) return Status::rough;
     if (frame->moves && scene_path.path.has_end()) return place_carefully();
     const Double4 from = scene_path.start - frame->placed_anchor;
@@ -156,16 +157,17 @@ class PlacedPath {
   }
 
   /// Returns true if the path misses the mesh's box in its range (I10).
-  [[gnu::always_inline]] [[nodiscard]] bool misses_box() const {
+  SUREHIT_ALWAYS_INLINE [[nodiscard]] bool misses_box() const {
     const Double4 offset = moved.start - frame->anchor;
     const Double4 grown = frame->half_size + moved.position_error + (start_size + 3 * frame->half_size) * 0x1p-45;
     const Long4 moves = absolute(moved.direction) >= 0x1p-500;
-    const Double4 inverse = 1 / (moves ? moved.direction : all_lanes(1.0));
+    const Double4 inverse = 1 / choose(moves, moved.direction, all_lanes(1.0));
     const Double4 middle_time = -offset * inverse;
     const Double4 half_time = grown * absolute(inverse);
     const auto outward = [](double t, double share) { return t + std::fabs(t) * share; };
-    const Double4 enters = moves ? middle_time - half_time : all_lanes(-std::numeric_limits<double>::infinity());
-    const Double4 leaves = moves ? middle_time + half_time : all_lanes(std::numeric_limits<double>::infinity());
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const Double4 enters = choose(moves, middle_time - half_time, all_lanes(-infinity));
+    const Double4 leaves = choose(moves, middle_time + half_time, all_lanes(infinity));
     const double first = outward(double{scene_path.range.first} - moved.moved_t, -0x1p-50);
     const double last = outward(double{scene_path.range.last} - moved.moved_t, 0x1p-50);
     return std::max({first, enters[0], enters[1], enters[2]}) > std::min({last, leaves[0], leaves[1], leaves[2]});
@@ -182,7 +184,7 @@ class PlacedPath {
 
   /// Does the same with pairs of doubles. Paths that move against the instance need this. So do instances far from the
   /// scene's origin, and poses that are nearly singular.
-  [[gnu::noinline]] Status place_carefully() {
+  SUREHIT_NOINLINE Status place_carefully() {
     is_fine_ = true;
     World world;
     set_way(world);
@@ -207,7 +209,7 @@ class PlacedPath {
 
   /// Moves the start to where the path is nearest to the anchor in the frame of the mesh. A pose that is nearly
   /// singular can bring a near point far away.
-  [[gnu::noinline]] Status move_again(World& world) {
+  SUREHIT_NOINLINE Status move_again(World& world) {
     const Double4& direction = moved.direction;
     const double length = sum_of_three(direction * direction);
     const double back = sum_of_three((moved.start - frame->anchor) * direction);
@@ -278,8 +280,8 @@ class PlacedPath {
   }
 
   /// Brings the path into the frame of the mesh, and bounds the errors (I7).
-  [[gnu::always_inline]] void set_moved(const Double4& middle, double middle_error, const Double4& way,
-                                        double way_error) {
+  SUREHIT_ALWAYS_INLINE void set_moved(const Double4& middle, double middle_error, const Double4& way,
+                                       double way_error) {
     constexpr double eps = 0x1p-53;
     Double4 offset = middle;
     Double4 direction = way;
@@ -319,7 +321,7 @@ class PlacedPath {
 
 template <typename Scalar>
 template <typename MeshScalar>
-[[gnu::always_inline]] inline KernelPath<MeshScalar> PlacedPath<Scalar>::kernel_path() const {
+SUREHIT_ALWAYS_INLINE inline KernelPath<MeshScalar> PlacedPath<Scalar>::kernel_path() const {
   constexpr double mesh_eps = std::numeric_limits<MeshScalar>::epsilon() / 2;
   constexpr bool is_rounded = std::is_same_v<MeshScalar, float>;
   constexpr double smallest = is_rounded ? 0x1p-149 : 0;
@@ -350,7 +352,7 @@ template <typename MeshScalar>
 
 template <typename Scalar>
 template <typename MeshScalar>
-[[gnu::always_inline]] inline RangeWeights<MeshScalar> PlacedPath<Scalar>::kernel_weights() const {
+SUREHIT_ALWAYS_INLINE inline RangeWeights<MeshScalar> PlacedPath<Scalar>::kernel_weights() const {
   const PathRange<Scalar>& range = scene_path.range;
   const bool is_whole = scene_path.path.has_end() && range.first == 0 && range.last == 1;
   if (is_whole && kernel_scale() == 1 && rounded(moved.moved_t) == moved.moved_t) {
@@ -363,7 +365,7 @@ template <typename MeshScalar>
 
 template <typename Scalar>
 template <typename MeshScalar>
-[[gnu::noinline]] RangeWeights<MeshScalar> PlacedPath<Scalar>::weights_of_range() const {
+SUREHIT_NOINLINE RangeWeights<MeshScalar> PlacedPath<Scalar>::weights_of_range() const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   bool is_exact = true;
   // Returns the number for the kernel of an end of the range. If it is none, the range has no such end.

@@ -7,6 +7,7 @@
 #include "exact/exact_contact.hpp"
 #include "filter/placed_contact.hpp"
 #include "narrowphase.hpp"
+#include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
@@ -20,7 +21,7 @@ bool SceneNarrowphase<Scalar>::find_contact(const PlacedPath<Scalar>& path, Plac
 }
 
 template <typename Scalar>
-[[gnu::noinline]] bool SceneNarrowphase<Scalar>::find_exactly(PlacedCandidate<Scalar>& candidate) const {
+SUREHIT_NOINLINE bool SceneNarrowphase<Scalar>::find_exactly(PlacedCandidate<Scalar>& candidate) const {
   const PlacedTriangle<Scalar> triangle = placed(candidate);
   std::optional<Contact> contact;
   if (!try_compact_contact(path_.path, triangle, path_.range, contact)) {
@@ -51,8 +52,8 @@ bool SceneNarrowphase<Scalar>::comes_before(const PlacedCandidate<Scalar>& x, co
 }
 
 template <typename Scalar>
-[[gnu::noinline]] bool SceneNarrowphase<Scalar>::exactly_before(const PlacedCandidate<Scalar>& x,
-                                                                const PlacedCandidate<Scalar>& y) const {
+SUREHIT_NOINLINE bool SceneNarrowphase<Scalar>::exactly_before(const PlacedCandidate<Scalar>& x,
+                                                               const PlacedCandidate<Scalar>& y) const {
   ++statistics_.exact_orders;
   const auto order = exact_order(path_.path, placed(x), placed(y), path_.range);
   return order != 0 ? order < 0 : std::tie(x.instance, x.id) < std::tie(y.instance, y.id);
@@ -90,8 +91,8 @@ SceneHit<Scalar> SceneNarrowphase<Scalar>::hit(const PlacedCandidate<Scalar>& ca
 }
 
 template <typename Scalar>
-[[gnu::noinline]] void SceneNarrowphase<Scalar>::round_exactly(const PlacedCandidate<Scalar>& candidate,
-                                                               Hit<Scalar>& hit) const {
+SUREHIT_NOINLINE void SceneNarrowphase<Scalar>::round_exactly(const PlacedCandidate<Scalar>& candidate,
+                                                              Hit<Scalar>& hit) const {
   ++statistics_.exact_roundings;
   exact_rounding(path_.path, placed(candidate), path_.range, hit);
 }

@@ -98,7 +98,7 @@ HWY_INLINE TreePath::TreePath(const InstanceTree& tree, const ScenePath<Scalar>&
   const Float4 rate = to_float(way * power);
   const Float4 at = to_float(start);
   const Int4 is_still = absolute(rate) < 0x1p-60F;
-  inverse = is_still ? all_lanes(0x1p90F) : 1 / rate;
+  inverse = choose(is_still, all_lanes(0x1p90F), 1 / rate);
   const Int4 falls = inverse < 0.0F;
   const Float4 outward = negated_where(all_lanes(static_cast<float>(slack)), falls);
   near_shift = -((at + outward) * inverse);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cfenv>
+#include <cmath>
 #include <limits>
 
 #include "support/floating_point_mode.hpp"
@@ -75,7 +76,9 @@ TEST(FloatingPointEnvironmentTest, puts_back_the_sticky_flags_of_the_caller) {
   {
     const FloatingPointEnvironment environment;
     EXPECT_EQ(sum(1, 0x1p-60), 1);
-    std::feraiseexcept(FE_INVALID);
+    // An operation raises this flag. Some systems' functions raise it in the registers of the x87 too.
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(std::isnan(sum(infinity, -infinity)));
   }
   EXPECT_EQ(control_word(), before);
   EXPECT_EQ(std::fetestexcept(FE_ALL_EXCEPT), FE_OVERFLOW);
