@@ -329,9 +329,9 @@ Vector3<Scalar> Collider<Scalar>::normal(std::uint32_t id) const noexcept {
 
 template struct detail::ColliderState<float>;
 template struct detail::ColliderState<double>;
-template struct SUREHIT_API detail::DeleteColliderState<float>;
-template struct SUREHIT_API detail::DeleteColliderState<double>;
-template class SUREHIT_API Collider<float>;
-template class SUREHIT_API Collider<double>;
+template struct detail::DeleteColliderState<float>;
+template struct detail::DeleteColliderState<double>;
+template class Collider<float>;
+template class Collider<double>;
 
 }  // namespace surehit

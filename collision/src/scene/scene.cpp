@@ -400,9 +400,9 @@ Vector3<Scalar> Scene<Scalar>::last_free_point(const Segment<Scalar>& segment, c
   return find_free_point(state(), segment, hit, options, &filter);
 }
 
-template struct SUREHIT_API detail::DeleteSceneState<float>;
-template struct SUREHIT_API detail::DeleteSceneState<double>;
-template class SUREHIT_API Scene<float>;
-template class SUREHIT_API Scene<double>;
+template struct detail::DeleteSceneState<float>;
+template struct detail::DeleteSceneState<double>;
+template class Scene<float>;
+template class Scene<double>;
 
 }  // namespace surehit
