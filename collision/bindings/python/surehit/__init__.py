@@ -1,0 +1,26 @@
+"""Where straight paths first meet triangle meshes, exactly.
+
+>>> import surehit
+>>> floor = surehit.Collider([[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]], [[0, 1, 2], [0, 2, 3]])
+>>> floor.first_hit(surehit.Segment((5, 5, 1), (5, 5, -1)))
+Hit(t=0.5, u=0.0, v=0.5, triangle=0, side=<Side.FRONT: 1>)
+
+Hit or miss is what real arithmetic gives on the given numbers: there is no tolerance. The numbers of a hit are the exact
+ones, rounded once.
+"""
+
+from ._layouts import ALL_BITS, NO_TRIANGLE, Statistics
+from ._library import LIBRARY_VERSION as __version__
+from ._options import Options, SceneOptions
+from .collider import Collider, GridSummary
+from .errors import Error, InvalidInstance, InvalidMesh, InvalidValue, OutOfMemory, OutOfRange
+from .hits import Hit, Hits, InstanceId, SceneHit, Side
+from .pair import distance, intersect, point
+from .paths import Line, Lines, Path, Paths, Ray, Rays, Segment, Segments
+from .scene import Scene, rigid_pose, translation_pose
+
+__all__ = [
+    "ALL_BITS", "Collider", "Error", "GridSummary", "Hit", "Hits", "InstanceId", "InvalidInstance", "InvalidMesh",
+    "InvalidValue", "Line", "Lines", "NO_TRIANGLE", "Options", "OutOfMemory", "OutOfRange", "Path", "Paths", "Ray",
+    "Rays", "Scene", "SceneHit", "SceneOptions", "Segment", "Segments", "Side", "Statistics", "__version__", "distance",
+    "intersect", "point", "rigid_pose", "translation_pose"]

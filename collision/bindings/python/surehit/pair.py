@@ -1,0 +1,60 @@
+"""One path and one triangle, and points of paths."""
+
+from __future__ import annotations
+
+from ctypes import byref
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from ._layouts import NO_TRIANGLE, Layouts, layouts_of
+from ._library import check, function
+from ._numbers import converted, wished_dtype
+from ._options import AskedOptions
+from .hits import Hit, SceneHit, hit_of
+from .paths import Path
+
+
+def intersect(path: Path, triangle: ArrayLike, *, dtype: DTypeLike | None = None, **options: Any) -> Hit | None:
+    """Returns where a path first meets one triangle of three rows, or None. The hit's triangle is 0.
+
+    A triangle of float32 asks in float, and every other one in double, unless ``dtype`` says which.
+    """
+    layouts = layouts_of(wished_dtype(triangle) if dtype is None else dtype)
+    corners = np.ascontiguousarray(converted(triangle, layouts.dtype, "triangle"))
+    if corners.shape != (3, 3):
+        raise ValueError(f"triangle must have the shape (3, 3), and not {corners.shape}")
+    asked = AskedOptions(layouts, layouts.collider).single(options)
+    hit = layouts.collider.Hit()
+    check(function(f"triangle{layouts.suffix}_intersect")(
+        corners.ctypes.data, byref(path.struct(layouts)), None if asked is None else byref(asked), byref(hit)))
+    return None if hit.triangle == NO_TRIANGLE else hit_of(hit)
+
+
+def point(path: Path, hit: Hit | SceneHit, dtype: DTypeLike = np.float64) -> NDArray[Any]:
+    """Returns the path's point at hit.t. Each coordinate is exact for the rounded t, and rounded once.
+
+    It is not promised that the point is on the triangle.
+    """
+    layouts = layouts_of(dtype)
+    result = np.empty(3, layouts.dtype)
+    check(function(f"path{layouts.suffix}_point")(byref(path.struct(layouts)), byref(_hit_at(hit.t, layouts)),
+                                                  result.ctypes.data))
+    return result
+
+
+def distance(path: Path, hit: Hit | SceneHit, dtype: DTypeLike = np.float64) -> float:
+    """Returns the distance between the path's start and its point at hit.t, within one ulp."""
+    layouts = layouts_of(dtype)
+    result = layouts.real()
+    check(function(f"path{layouts.suffix}_distance")(byref(path.struct(layouts)), byref(_hit_at(hit.t, layouts)),
+                                                     byref(result)))
+    return float(result.value)
+
+
+def _hit_at(t: float, layouts: Layouts) -> Any:
+    struct = layouts.collider.Hit(t=t, triangle=0)
+    if struct.t != t and t == t:
+        raise ValueError(f"hit.t is {t}, which is no {layouts.dtype}")
+    return struct
