@@ -6,6 +6,7 @@
 #include "exact/root_rounding.hpp"
 #include "exact/scaled_double.hpp"
 #include "exact/wide_int.hpp"
+#include "support/inlining.hpp"
 
 namespace surehit::detail {
 
@@ -23,7 +24,7 @@ struct QuadraticRoot {
   using Discriminant = WideInt<2 * B + 1>;
 
   /// Returns b² - a c.
-  [[nodiscard, gnu::noinline]] Discriminant discriminant() const {
+  [[nodiscard]] SUREHIT_NOINLINE Discriminant discriminant() const {
     Discriminant result = b * b;
     const WideInt<2 * B> product = a * c;
     result.add(product, true);
@@ -32,14 +33,14 @@ struct QuadraticRoot {
 
   /// Returns bounds of a root of a quadratic with b < 0 < c. It is c / (√(b² - a c) - b), a quotient of sums without
   /// cancellation.
-  [[nodiscard, gnu::noinline]] DoubleRange range() const {
+  [[nodiscard]] SUREHIT_NOINLINE DoubleRange range() const {
     const ScaledDouble root = sqrt(ScaledDouble::of_magnitude(discriminant()));
     return range_of(ScaledDouble::of_magnitude(c) / (root + ScaledDouble::of_magnitude(b)));
   }
 
   /// Returns the sign of the root less x = m 2^e, where m ≥ 0 has at most 55 bits and e ≤ 0 (R1).
   template <typename Scalar>
-  [[nodiscard, gnu::noinline]] int compare(const Dyadic& x) const {
+  [[nodiscard]] SUREHIT_NOINLINE int compare(const Dyadic& x) const {
     constexpr int shift = 1 - Decomposed<Scalar>::min_exponent;
     const int up = std::max(0, -x.exponent);
     const WideInt<55> m = WideInt<55>::shifted(x.significand, 0, false);
@@ -74,7 +75,7 @@ class RootOrder {
     set_minor(ac_, x.a, y.c, x.c, y.a);
   }
 
-  [[nodiscard, gnu::noinline]] int sign() const {
+  [[nodiscard]] SUREHIT_NOINLINE int sign() const {
     const int root_of_x = x_.discriminant().sign();
     const int root_of_y = y_.discriminant().sign();
     // The sign of left = ab - y.a √dx, and then that of left + x.a √dy.
@@ -93,7 +94,7 @@ class RootOrder {
   using Minor = WideInt<2 * B + 1>;
 
   /// Returns the sign of j = x.a y.b² - 2 y.a x.b y.b + y.a² x.c, which is that of ab² - y.a² dx.
-  [[nodiscard, gnu::noinline]] int sign_of_j() const {
+  [[nodiscard]] SUREHIT_NOINLINE int sign_of_j() const {
     // It is y.b ab - y.a (y.a... ) in the minors: y.b (x.a y.b - x.b y.a) - y.a (x.b y.b - y.a x.c).
     WideInt<3 * B + 4> result = y_.b * ab_;
     Minor inner = x_.b * y_.b;
@@ -106,7 +107,7 @@ class RootOrder {
     return result.sign();
   }
   /// Returns the sign of k = x.a ac - 2 x.b ab.
-  [[nodiscard, gnu::noinline]] int sign_of_k() const {
+  [[nodiscard]] SUREHIT_NOINLINE int sign_of_k() const {
     WideInt<3 * B + 4> result = x_.a * ac_;
     const WideInt<3 * B + 1> product = x_.b * ab_;
     result.add(product, true);
@@ -114,7 +115,7 @@ class RootOrder {
     return result.sign();
   }
   /// Returns the sign of the resultant ac² - 4 ab bc.
-  [[nodiscard, gnu::noinline]] int sign_of_resultant() const {
+  [[nodiscard]] SUREHIT_NOINLINE int sign_of_resultant() const {
     WideInt<4 * B + 8> result = ac_ * ac_;
     WideInt<4 * B + 4> product;
     {

@@ -6,6 +6,7 @@
 
 #include "exact/scaled_double.hpp"
 #include "exact/wide_int.hpp"
+#include "support/inlining.hpp"
 
 namespace surehit::detail {
 
@@ -50,7 +51,7 @@ template <typename Scalar, typename Compare>
 
 /// Returns the sign of x + y √d, where d must not be negative.
 template <int X, int Y, int D>
-[[nodiscard, gnu::noinline]] int sign_with_root(const WideInt<X>& x, const WideInt<Y>& y, const WideInt<D>& d) {
+[[nodiscard]] SUREHIT_NOINLINE int sign_with_root(const WideInt<X>& x, const WideInt<Y>& y, const WideInt<D>& d) {
   const int of_x = x.sign();
   const int of_y = y.sign() * d.sign();
   if (of_x == of_y || of_y == 0) return of_x;
@@ -74,7 +75,7 @@ struct RootNumber {
 
   /// Returns the sign of the number less x, for a midpoint of two Scalars.
   template <typename Scalar>
-  [[nodiscard, gnu::noinline]] int compare(const Dyadic& x) const {
+  [[nodiscard]] SUREHIT_NOINLINE int compare(const Dyadic& x) const {
     constexpr int shift = 1 - Decomposed<Scalar>::min_exponent;
     WideInt<std::max(P + shift, R + 55) + 1> left = p;
     WideInt<Q + shift> factor = q;
@@ -89,7 +90,7 @@ struct RootNumber {
 
   /// Returns bounds of the number, which must not be negative. If p and q √d have opposite signs, they cancel. The
   /// conjugate number then gives the same value without a cancellation: (p² - q² d) / (r (p - q √d)).
-  [[nodiscard, gnu::noinline]] DoubleRange range() const {
+  [[nodiscard]] SUREHIT_NOINLINE DoubleRange range() const {
     const ScaledDouble root = ScaledDouble::of_magnitude(q) * sqrt(ScaledDouble::of_magnitude(d));
     const ScaledDouble sum = ScaledDouble::of_magnitude(p) + root;
     const ScaledDouble denominator = ScaledDouble::of_magnitude(r);

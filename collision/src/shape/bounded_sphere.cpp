@@ -7,6 +7,7 @@
 #include "exact/scaled_double.hpp"
 #include "filter/bounded.hpp"
 #include "shape/sphere_touch.hpp"
+#include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
@@ -146,8 +147,8 @@ bool try_round(const DoubleRange& range, Scalar& rounded) {
 
 /// Rounds the weights of a contact that is not at a corner.
 template <typename Number, typename Scalar>
-[[gnu::noinline]] bool try_round_weights(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
-                                         const SphereContact& contact, ShapeHit<Scalar>& hit) {
+SUREHIT_NOINLINE bool try_round_weights(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                        const SphereContact& contact, ShapeHit<Scalar>& hit) {
   const TermsOf<Number> terms = terms_of<Number>(sphere, triangle);
   if (!has_usual_sizes(terms)) return false;
   const DoubleRange t = {contact.t_lower, contact.t_upper};
@@ -175,8 +176,8 @@ template <typename Number, typename Scalar>
 }
 
 template <typename Number, typename Scalar>
-[[gnu::noinline]] Verdict find_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
-                                       SphereContact& found) {
+SUREHIT_NOINLINE Verdict find_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                      SphereContact& found) {
   const TermsOf<Number> terms = terms_of<Number>(sphere, triangle);
   if (!has_usual_sizes(terms)) return Verdict::undecided;
   Signs signs;

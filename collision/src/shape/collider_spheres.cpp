@@ -116,29 +116,26 @@ Scalar Collider<Scalar>::last_free_t(const SweptSphere<Scalar>& sphere, const Sh
   return is_touched ? std::nextafter(hit.t, Scalar{0}) : hit.t;
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                                   \
-  template SUREHIT_API std::optional<ShapeHit<Scalar>> Collider<Scalar>::first_hit(                                   \
-      const SweptSphere<Scalar>&, const ShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept;                 \
-  template SUREHIT_API std::optional<ShapeHit<Scalar>> Collider<Scalar>::first_hit(                                   \
-      const SweptSphere<Scalar>&, ShapeHitFilter<Scalar>, const ShapeQueryOptions<Scalar>&, QueryStatistics*)         \
-      const noexcept;                                                                                                 \
-  template SUREHIT_API bool Collider<Scalar>::any_hit(const SweptSphere<Scalar>&, const ShapeQueryOptions<Scalar>&,   \
-                                                      QueryStatistics*) const noexcept;                               \
-  template SUREHIT_API bool Collider<Scalar>::any_hit(const SweptSphere<Scalar>&, ShapeHitFilter<Scalar>,             \
-                                                      const ShapeQueryOptions<Scalar>&, QueryStatistics*)             \
-      const noexcept;                                                                                                 \
-  template SUREHIT_API void Collider<Scalar>::all_hits(const SweptSphere<Scalar>&, std::vector<ShapeHit<Scalar>>&,    \
-                                                       const ShapeQueryOptions<Scalar>&, QueryStatistics*) const;     \
-  template SUREHIT_API void Collider<Scalar>::all_hits(const SweptSphere<Scalar>&, std::vector<ShapeHit<Scalar>>&,    \
-                                                       ShapeHitFilter<Scalar>, const ShapeQueryOptions<Scalar>&,      \
-                                                       QueryStatistics*) const;                                       \
-  template SUREHIT_API void Collider<Scalar>::first_hits(                                                             \
-      std::span<const SweptSphere<Scalar>>, std::span<ShapeHit<Scalar>>, const ShapeBatchOptions<Scalar>&)            \
-      const noexcept;                                                                                                 \
-  template SUREHIT_API void Collider<Scalar>::any_hits(std::span<const SweptSphere<Scalar>>, std::span<std::uint8_t>, \
-                                                       const ShapeBatchOptions<Scalar>&) const noexcept;              \
-  template SUREHIT_API Scalar Collider<Scalar>::last_free_t(const SweptSphere<Scalar>&, const ShapeHit<Scalar>&)      \
-      const noexcept;
+#define SUREHIT_INSTANTIATE(Scalar)                                                                                    \
+  template std::optional<ShapeHit<Scalar>> Collider<Scalar>::first_hit(                                                \
+      const SweptSphere<Scalar>&, const ShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept;                  \
+  template std::optional<ShapeHit<Scalar>> Collider<Scalar>::first_hit(                                                \
+      const SweptSphere<Scalar>&, ShapeHitFilter<Scalar>, const ShapeQueryOptions<Scalar>&, QueryStatistics*)          \
+      const noexcept;                                                                                                  \
+  template bool Collider<Scalar>::any_hit(const SweptSphere<Scalar>&, const ShapeQueryOptions<Scalar>&,                \
+                                          QueryStatistics*) const noexcept;                                            \
+  template bool Collider<Scalar>::any_hit(const SweptSphere<Scalar>&, ShapeHitFilter<Scalar>,                          \
+                                          const ShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept;          \
+  template void Collider<Scalar>::all_hits(const SweptSphere<Scalar>&, std::vector<ShapeHit<Scalar>>&,                 \
+                                           const ShapeQueryOptions<Scalar>&, QueryStatistics*) const;                  \
+  template void Collider<Scalar>::all_hits(const SweptSphere<Scalar>&, std::vector<ShapeHit<Scalar>>&,                 \
+                                           ShapeHitFilter<Scalar>, const ShapeQueryOptions<Scalar>&, QueryStatistics*) \
+      const;                                                                                                           \
+  template void Collider<Scalar>::first_hits(std::span<const SweptSphere<Scalar>>, std::span<ShapeHit<Scalar>>,        \
+                                             const ShapeBatchOptions<Scalar>&) const noexcept;                         \
+  template void Collider<Scalar>::any_hits(std::span<const SweptSphere<Scalar>>, std::span<std::uint8_t>,              \
+                                           const ShapeBatchOptions<Scalar>&) const noexcept;                           \
+  template Scalar Collider<Scalar>::last_free_t(const SweptSphere<Scalar>&, const ShapeHit<Scalar>&) const noexcept;
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)
 #undef SUREHIT_INSTANTIATE

@@ -7,6 +7,7 @@
 #include "exact/quadratic_root.hpp"
 #include "exact/root_rounding.hpp"
 #include "shape/sphere_touch.hpp"
+#include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
@@ -71,7 +72,7 @@ class ExactSphere {
   [[nodiscard]] int sign_along() const { return dot(normal_of(terms_), terms_.step).sign(); }
 
   /// Returns the equation of the t at which the ball comes to a part (S3).
-  [[nodiscard, gnu::noinline]] Root<Scalar> root(Feature part) const {
+  [[nodiscard]] SUREHIT_NOINLINE Root<Scalar> root(Feature part) const {
     Root<Scalar> root;
     const auto rr = terms_.radius * terms_.radius;
     const auto& d = terms_.step;
@@ -99,7 +100,7 @@ class ExactSphere {
   }
 
   /// Sets the weights of b and c at the touched point (S7).
-  [[gnu::noinline]] void round_weights(const SphereContact& contact, Scalar& u, Scalar& v) const {
+  SUREHIT_NOINLINE void round_weights(const SphereContact& contact, Scalar& u, Scalar& v) const {
     u = v = 0;
     if (is_corner(contact.feature)) {
       u = contact.feature == Feature::corner_b ? 1 : 0;
@@ -138,8 +139,8 @@ class ExactSphere {
   using Volume = WideInt<Bits::volume + 1>;
 
   /// Returns (x + t y) / z, rounded once. It is in [0, 1], and z is positive.
-  [[nodiscard, gnu::noinline]] Scalar rounded_weight(const SphereContact& contact, const Volume& x, const Volume& y,
-                                                     const Volume& z) const {
+  [[nodiscard]] SUREHIT_NOINLINE Scalar rounded_weight(const SphereContact& contact, const Volume& x, const Volume& y,
+                                                       const Volume& z) const {
     if (contact.at_start || y.is_zero()) return rounded_quotient<Scalar>(x, z);
     // t is (-b - √d) / a, so this is (a x - b y - y √d) / (a z).
     const Root<Scalar> t = root(contact.timed_by);
