@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds surehit and its examples, runs the four that draw, and says where the pictures are.
+# Builds surehit and four examples that draw, runs them, and says where the pictures are.
 set -euo pipefail
 
 if [[ $# -gt 0 ]]; then
@@ -16,7 +16,7 @@ stage() { printf '\n== %s\n' "$*"; }
 stage "Packages"
 .ci/install_packages.sh library examples
 
-stage "Building the library and the examples (Release)"
+stage "Building the library and the examples that draw (Release)"
 cmake --preset quickstart
 cmake --build --preset quickstart
 
