@@ -55,6 +55,7 @@ template <typename Scalar>
   all.push_back({"fan", double_fan<Scalar>(8), {.crowded = 4}});
   all.push_back({"far apart", grounds_askew<Scalar>(random)});
   all.push_back({"one cell", scattered_triangles<Scalar>(200, Scalar{0.25F}, random), {{1, 1, 1}, 1, 0}});
+  all.push_back({"a level of bricks", scattered_triangles<Scalar>(200, Scalar{0.25F}, random), {{2, 2, 2}, 1, 30}});
   all.push_back({"bricks", scattered_triangles<Scalar>(200, Scalar{0.25F}, random), {{2, 2, 2}, 1, 3}});
   const GeneratedMesh<Scalar> level = placed<Scalar>(rough_ground<Scalar>(6, Scalar{0.3F}, random), 8, {0, 0, 0});
   const GeneratedMesh<Scalar> with_prop = joined<Scalar>(level, prop(500, {1, 1, 1}));
