@@ -28,14 +28,10 @@ struct TableKind {
 
 const std::vector<TableKind>& all_tables() {
   static const std::vector<TableKind> tables = {
-      {"queries", measure_queries},
-      {"build", measure_builds},
-      {"load", measure_loads},
-      {"size", measure_sizes},
-      {"tick", measure_ticks},
-      {"threads", measure_threads, false},
-      {"exactness", measure_exactness},
-      {"statistics", measure_statistics},
+      {"queries", measure_queries},     {"build", measure_builds},
+      {"load", measure_loads},          {"size", measure_sizes},
+      {"tick", measure_ticks},          {"threads", measure_threads, false},
+      {"exactness", measure_exactness}, {"statistics", measure_statistics},
       {"scene", measure_worlds},
   };
   return tables;

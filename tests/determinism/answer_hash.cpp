@@ -37,7 +37,8 @@ bool scene_answers_are_published(const char* name) {
 
 }  // namespace
 
-/// The answers to the hard questions, and about the hard scene, and the bytes of both, of a library that somebody else has compiled.
+/// The answers to the hard questions and about the hard scene, and the bytes of both, of a library that somebody else
+/// has compiled.
 int main() {
   const bool floats = answers_are_published<float>("float");
   const bool doubles = answers_are_published<double>("double");
