@@ -75,7 +75,17 @@ class MeshBlocks {
   enum class Slabs : std::uint8_t { none, where_smooth };
   template <typename Index>
   using Corners = detail::UnsetVector<std::array<Index, 3>>;
-  using AnyCorners = std::variant<Corners<std::uint16_t>, Corners<std::uint32_t>>;
+  using VariantCorners = std::variant<Corners<std::uint16_t>, Corners<std::uint32_t>>;
+  /// Corners with indices of either size. GCC 12 ends a variant whose copy constructor throws as if it had a value, so
+  /// a copy is assigned to an empty one.
+  struct AnyCorners : VariantCorners {
+    AnyCorners() = default;
+    AnyCorners(const AnyCorners& other) : VariantCorners() { *this = other; }
+    AnyCorners& operator=(const AnyCorners& other) = default;
+    AnyCorners(AnyCorners&&) noexcept = default;
+    AnyCorners& operator=(AnyCorners&&) noexcept = default;
+    ~AnyCorners() = default;
+  };
 
   template <typename Visit>
   decltype(auto) with_corners(const Visit& visit) const {
