@@ -23,7 +23,6 @@ template <typename ScalarOfMesh>
 struct Asked<Collider<ScalarOfMesh>> {
   using Scalar = ScalarOfMesh;
   using Answer = Hit<Scalar>;
-  using Filter = HitFilter<Scalar>;
   using Options = QueryOptions<Scalar>;
   using AnyBatchOptions = BatchOptions<Scalar>;
   using CHit = typename Structs<Scalar>::Hit;

@@ -69,7 +69,7 @@ class AskedBuild {
     BuildOptions options;
     options.grid.resolution = {given_.resolution_x, given_.resolution_y, given_.resolution_z};
     if (given_.cells_per_triangle != 0) options.grid.cells_per_triangle = given_.cells_per_triangle;
-    if (given_.crowded != 0) options.grid.crowded = given_.crowded == UINT32_MAX ? 0 : given_.crowded;
+    if (given_.crowded != 0) options.grid.crowded = given_.crowded;
     options.masks = {given_.masks, given_.mask_count};
     options.executor = executor_of(given_.executor);
     return options;
