@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +18,8 @@
 #include "support/small_meshes.hpp"
 #include "support/threads.hpp"
 #include "surehit/collider.hpp"
+#include "surehit/hit.hpp"
+#include "surehit/intersect.hpp"
 
 namespace surehit::test {
 namespace {
