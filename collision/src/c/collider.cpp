@@ -117,6 +117,7 @@ surehit_status grid_summary(const char* function, const void* handle, surehit_gr
 
 }  // namespace
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define SUREHIT_COLLIDER_FUNCTIONS(Scalar, s)                                                                          \
   SUREHIT_C_API surehit_status surehit_collider##s##_create(                                                           \
       const surehit_mesh##s* mesh, const surehit_build_options* options, surehit_collider##s** collider) {             \
@@ -231,6 +232,7 @@ surehit_status grid_summary(const char* function, const void* handle, surehit_gr
       return of.memory_bytes();                                                                                        \
     });                                                                                                                \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 extern "C" {
 SUREHIT_COLLIDER_FUNCTIONS(float, f)
 SUREHIT_COLLIDER_FUNCTIONS(double, d)

@@ -100,6 +100,7 @@ surehit_status box_of_mesh(const char* function, const typename Structs<Scalar>:
 
 }  // namespace
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define SUREHIT_PAIR_FUNCTIONS(Scalar, s)                                                                           \
   SUREHIT_C_API surehit_query_options##s surehit_query_options##s##_default() {                                     \
     const surehit::QueryOptions<Scalar> options;                                                                    \
@@ -140,6 +141,7 @@ surehit_status box_of_mesh(const char* function, const typename Structs<Scalar>:
   SUREHIT_C_API surehit_status surehit_mesh##s##_box(const surehit_mesh##s* mesh, surehit_box##s* box) {            \
     return box_of_mesh<Scalar>(__func__, mesh, box);                                                                \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 extern "C" {
 SUREHIT_PAIR_FUNCTIONS(float, f)
 SUREHIT_PAIR_FUNCTIONS(double, d)
