@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -24,7 +26,7 @@ class FileReader {
   /// Returns the number of bytes that are left.
   [[nodiscard]] std::size_t left() const { return bytes_.size() - at_; }
   /// Returns true if so many elements of this size are left. No product overflows.
-  [[nodiscard]] bool has(std::uint64_t count, std::size_t size) const { return count <= left() / size; }
+  [[nodiscard]] bool has(std::size_t count, std::size_t size) const { return count <= left() / size; }
   /// Returns the next number. It must be left, here and below.
   template <typename Number>
   [[nodiscard]] Number take() {
@@ -32,6 +34,11 @@ class FileReader {
     Number number;
     std::memcpy(&number, take_bytes(sizeof number).data(), sizeof number);
     return number;
+  }
+  /// Returns the next count of 64 bits. A count that is too large for this machine stays too large for any file.
+  [[nodiscard]] std::size_t take_count() {
+    return static_cast<std::size_t>(
+        std::min<std::uint64_t>(take<std::uint64_t>(), std::numeric_limits<std::size_t>::max()));
   }
   [[nodiscard]] std::span<const std::byte> take_bytes(std::size_t count) {
     assert(count <= left());

@@ -84,7 +84,7 @@ class GridReading {
     offsets.cells = reader.offset();
     cells_ = FileReader(reader.take_bytes(counts_.cells), offsets.cells);
     offsets.lists = reader.offset();
-    lists_ = FileReader(reader.take_bytes(counts_.lists * list_bytes), offsets.lists);
+    lists_ = FileReader(reader.take_bytes(std::size_t{counts_.lists} * list_bytes), offsets.lists);
     if (!read_cells()) return error_;
     offsets.entries = reader.offset();
     grid_.entries_.assign(reader.take_bytes(counts_.entries * grid_.entries_.width()));
@@ -155,14 +155,14 @@ class GridReading {
       return fail(Reason::wrong_counts, cells_.offset(), "a grid of " + std::to_string(count) + " cells begins here");
     }
     depth_ = depth;
-    words_.assign(count, 0);
+    words_.assign(static_cast<std::size_t>(count), 0);
     for (std::uint32_t& word : words_) {
       if (!read_cell(0, word)) return false;
     }
     measure_empty_space(words_, frame.cells, distances_);
     const std::size_t first = grid_.top_.size();
     frame.begin_at(static_cast<std::uint32_t>(first));
-    grid_.top_.resize(first + count);
+    grid_.top_.resize(first + words_.size());
     std::transform(words_.begin(), words_.end(), grid_.top_.data() + first,
                    [](std::uint32_t bits) { return CellWord(bits); });
     return true;
@@ -249,8 +249,8 @@ class GridReading {
   std::uint32_t depth_ = 0;            ///< The number of grids around the one that is read.
   FileReader cells_{{}};
   FileReader lists_{{}};
-  std::uint64_t entries_ = 0;        ///< The number of entries of the lists so far.
-  std::uint64_t outer_entries_ = 0;  ///< The number of entries of the outermost grid.
+  std::size_t entries_ = 0;        ///< The number of entries of the lists so far.
+  std::size_t outer_entries_ = 0;  ///< The number of entries of the outermost grid.
   std::vector<std::uint32_t> words_;
   UnsetVector<std::uint8_t> distances_;
 };

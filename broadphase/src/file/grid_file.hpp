@@ -15,10 +15,10 @@ namespace surehit::detail {
 
 /// How many elements each part of a saved grid has. FORMAT.md describes the parts.
 struct GridCounts {
-  std::uint32_t frames = 0;   ///< The grids: the outermost one and all inner ones.
-  std::uint64_t cells = 0;    ///< The top cells of all grids, and the cells of all bricks.
-  std::uint32_t lists = 0;    ///< The cells that have a list.
-  std::uint64_t entries = 0;  ///< The entries of all lists.
+  std::uint32_t frames = 0;  ///< The grids: the outermost one and all inner ones.
+  std::size_t cells = 0;     ///< The top cells of all grids, and the cells of all bricks.
+  std::uint32_t lists = 0;   ///< The cells that have a list.
+  std::size_t entries = 0;   ///< The entries of all lists.
 
   /// Returns the counts of a grid.
   [[nodiscard]] static GridCounts of(const Grid& grid);

@@ -19,9 +19,9 @@ namespace {
 struct Counts {
   static constexpr std::size_t bytes = 72;  ///< Their size in the file.
 
-  std::uint64_t vertices = 0;
-  std::uint64_t triangles = 0;
-  std::uint64_t masks = 0;
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  std::size_t masks = 0;
   GridOptions options;
   GridCounts grid;
 
@@ -32,38 +32,38 @@ struct Counts {
   }
   [[nodiscard]] static Counts from(FileReader& reader) {
     Counts counts;
-    counts.vertices = reader.take<std::uint64_t>();
-    counts.triangles = reader.take<std::uint64_t>();
-    counts.masks = reader.take<std::uint64_t>();
+    counts.vertices = reader.take_count();
+    counts.triangles = reader.take_count();
+    counts.masks = reader.take_count();
     for (std::uint32_t& cells : counts.options.resolution) cells = reader.take<std::uint32_t>();
     counts.options.crowded = reader.take<std::uint32_t>();
     counts.options.cells_per_triangle = reader.take<double>();
     counts.grid.frames = reader.take<std::uint32_t>();
     counts.grid.lists = reader.take<std::uint32_t>();
-    counts.grid.cells = reader.take<std::uint64_t>();
-    counts.grid.entries = reader.take<std::uint64_t>();
+    counts.grid.cells = reader.take_count();
+    counts.grid.entries = reader.take_count();
     return counts;
   }
   void write(FileWriter& writer) const {
-    writer.write(vertices);
-    writer.write(triangles);
-    writer.write(masks);
+    writer.write(std::uint64_t{vertices});
+    writer.write(std::uint64_t{triangles});
+    writer.write(std::uint64_t{masks});
     for (const std::uint32_t cells : options.resolution) writer.write(cells);
     writer.write(options.crowded);
     writer.write(options.cells_per_triangle);
     writer.write(grid.frames);
     writer.write(grid.lists);
-    writer.write(grid.cells);
-    writer.write(grid.entries);
+    writer.write(std::uint64_t{grid.cells});
+    writer.write(std::uint64_t{grid.entries});
   }
 
   /// Returns the number of bytes of an index.
   [[nodiscard]] std::size_t index_bytes() const {
-    return vertices <= std::uint64_t{1} << 16 ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
+    return vertices <= std::size_t{1} << 16 ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
   }
   /// Returns the size of each part, and the number of its elements, in the order of the file.
   template <typename Scalar>
-  [[nodiscard]] std::array<std::pair<std::uint64_t, std::size_t>, 7> parts() const {
+  [[nodiscard]] std::array<std::pair<std::size_t, std::size_t>, 7> parts() const {
     PackedIds ids;
     ids.clear(triangles);
     return {{{vertices, 3 * sizeof(Scalar)},
@@ -82,7 +82,7 @@ static_assert(3 * 8 + 4 * 4 + 8 + 2 * 4 + 2 * 8 == Counts::bytes);
 template <typename Scalar>
 std::uint64_t saved_bytes(const ColliderState<Scalar>& state) {
   std::uint64_t size = head_bytes + Counts::bytes + checksum_bytes;
-  for (const auto& [count, bytes] : Counts::of(state).template parts<Scalar>()) size += count * bytes;
+  for (const auto& [count, bytes] : Counts::of(state).template parts<Scalar>()) size += std::uint64_t{count} * bytes;
   return size;
 }
 
@@ -150,7 +150,7 @@ std::optional<InvalidFile> load(std::span<const std::byte> bytes, std::size_t ba
   if (reader.left() < Counts::bytes) return fault(Reason::wrong_size, reader.offset(), "the counts are missing");
   const std::size_t counts_offset = reader.offset();
   const Counts counts = Counts::from(reader);
-  std::uint64_t left = reader.left();
+  std::size_t left = reader.left();
   for (const auto& [count, size] : counts.template parts<Scalar>()) {
     if (count > left / size) {
       return fault(Reason::wrong_counts, counts_offset,
@@ -168,8 +168,8 @@ std::optional<InvalidFile> load(std::span<const std::byte> bytes, std::size_t ba
   const std::size_t mesh_offset = reader.offset();
   const std::byte* const vertices = reader.take_bytes(counts.vertices * 3 * sizeof(Scalar)).data();
   const std::byte* const corners = reader.take_bytes(counts.triangles * 3 * counts.index_bytes()).data();
-  const auto indices = [&]<typename Index>(Index) {
-    return TriangleIndexView::strided(reinterpret_cast<const Index*>(corners), counts.triangles, 0);
+  const auto indices = [corners, count = counts.triangles]<typename Index>(Index) {
+    return TriangleIndexView::strided(reinterpret_cast<const Index*>(corners), count, 0);
   };
   const TriangleMeshView<Scalar> mesh(
       VertexView<Scalar>::strided(reinterpret_cast<const Scalar*>(vertices), counts.vertices, 0),

@@ -171,7 +171,7 @@ class SceneReading {
   bool read_collider() {
     const std::size_t offset = reader_.offset();
     if (!reader_.has(1, sizeof(std::uint64_t))) return fail(Reason::wrong_counts, offset, "colliders are missing");
-    const auto size = reader_.take<std::uint64_t>();
+    const std::size_t size = reader_.take_count();
     if (!reader_.has(size, 1)) return fail(Reason::wrong_counts, offset, "the collider does not fit into the file");
     const std::size_t base = reader_.offset();
     const std::span<const std::byte> bytes = reader_.take_bytes(size);

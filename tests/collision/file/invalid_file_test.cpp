@@ -437,6 +437,11 @@ TYPED_TEST(InvalidFileOf, inner_grids_that_lie_too_deep) {
     set_number(forged, 80, std::uint64_t{depth + 1});
     repair(forged);
     EXPECT_EQ(Collider<TypeParam>().try_load(forged, {.is_trusted = true}).has_value(), depth <= 4);
+    // One cell fits any box that is finite.
+    Bytes not_finite = forged;
+    set_number(not_finite, parts.frames + parts.frame_width, std::numeric_limits<TypeParam>::quiet_NaN());
+    repair(not_finite);
+    EXPECT_FALSE(Collider<TypeParam>().try_load(not_finite, {.is_trusted = true}));
     EXPECT_FALSE(Collider<TypeParam>().try_load(forged));  // The triangle is not small.
   }
 }
