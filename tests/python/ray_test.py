@@ -5,7 +5,6 @@ from types import SimpleNamespace
 
 import numpy as np
 
-import surehit
 from surehit.ray import RayMeshIntersector
 
 FLOORS = SimpleNamespace(vertices=np.array([[x, y, z] for z in (0.0, 1.0) for x, y in ((0, 0), (4, 0), (4, 4), (0, 4))]),

@@ -75,6 +75,8 @@ def rows(values: ArrayLike, dtype: np.dtype[Any], name: str, width: int = 3) -> 
 
 def in_place(values: NDArray[Any]) -> NDArray[Any]:
     """Returns an array of rows that can be read by its address and a stride. It copies only other layouts."""
+    if values.flags.c_contiguous and values.flags.aligned:
+        return values
     size = values.dtype.itemsize
     is_row = values.shape[1] == 1 or values.strides[1] == size
     is_apart = values.shape[0] < 2 or values.strides[0] >= size * values.shape[1]
@@ -84,7 +86,7 @@ def in_place(values: NDArray[Any]) -> NDArray[Any]:
 
 def stride_of(values: NDArray[Any]) -> int:
     """Returns the bytes from one row to the next. An array of one row or none may have any."""
-    return int(values.strides[0]) if values.shape[0] > 1 else values.dtype.itemsize * values.shape[1]
+    return values.strides[0] if values.shape[0] > 1 else values.dtype.itemsize * values.shape[1]
 
 
 def triple(values: ArrayLike, dtype: np.dtype[Any], name: str) -> NDArray[Any]:

@@ -37,7 +37,7 @@ class Queries(Generic[AnyHit]):
         self._prefix = f"{word}{layouts.suffix}_"
         self._hit_of: Callable[[Any], Any] = hit_of if word == "collider" else scene_hit_of
         self._asked_options = AskedOptions(layouts, self._kind)
-        self._first_hit = self._function("first_hit")
+        self._calls = {name: self._function(name) for name in ("first_hit", "any_hit", "first_hits", "any_hits")}
 
     def _function(self, name: str) -> Any:
         return function(self._prefix + name)
@@ -51,25 +51,30 @@ class Queries(Generic[AnyHit]):
                 statistics: Statistics | None, *results: Any) -> None:
         if not isinstance(path, Path):
             raise TypeError(f"the path must be a Segment, a Ray or a Line, and not {type(path).__name__}")
-        raised = Raised()
-        struct = self._asked_options.single(options) if options else None
-        chosen = filter_struct(self._kind, accepts, self._hit_of, raised, False) if accepts is not None else None
-        raised.check(call(self._handle, byref(path.struct(self._layouts)), None if struct is None else byref(struct),
-                          None if chosen is None else byref(chosen),
-                          None if statistics is None else byref(statistics), *results))
+        raised = chosen = None
+        if accepts is not None:
+            raised = Raised()
+            chosen = byref(filter_struct(self._kind, accepts, self._hit_of, raised, False))
+        asked = byref(self._asked_options.single(options)) if options else None
+        status = call(self._handle, byref(path.struct(self._layouts)), asked, chosen,
+                      None if statistics is None else byref(statistics), *results)
+        if raised is not None:
+            raised.check(status)
+        elif status != 0:
+            check(status)
 
     def first_hit(self, path: Path, *, filter: Callable[[AnyHit], Any] | None = None,
                   statistics: Statistics | None = None, **options: Any) -> AnyHit | None:
         """Returns the hit with the lowest exact t, and among equal ones that of the lowest ids. None is a miss."""
         hit = self._kind.Hit()
-        self._single(self._first_hit, path, options, filter, statistics, byref(hit))
+        self._single(self._calls["first_hit"], path, options, filter, statistics, byref(hit))
         return None if hit.triangle == NO_TRIANGLE else self._hit_of(hit)
 
     def any_hit(self, path: Path, *, filter: Callable[[AnyHit], Any] | None = None,
                 statistics: Statistics | None = None, **options: Any) -> bool:
         """Returns whether the path hits anything. It is cheaper than ``first_hit``."""
         blocked = c_uint8()
-        self._single(self._function("any_hit"), path, options, filter, statistics, byref(blocked))
+        self._single(self._calls["any_hit"], path, options, filter, statistics, byref(blocked))
         return blocked.value != 0
 
     def all_hits(self, path: Path, *, filter: Callable[[AnyHit], Any] | None = None,
@@ -109,27 +114,44 @@ class Queries(Generic[AnyHit]):
 
     def _batch(self, name: str, paths: Paths, options: dict[str, Any], accepts: Callable[[int, AnyHit], Any] | None,
                executor: Executor | None, statistics: Statistics | None, answers: NDArray[Any]) -> None:
-        raised = Raised()
-        asked = self._kind.BatchOptions(size=ctypes.sizeof(self._kind.BatchOptions))
-        single, each = self._asked_options.batch(options, len(paths))
-        asked.options = ctypes.pointer(single) if single is not None else None
-        asked.path_options = each.ctypes.data if each is not None else None
+        raised = each = asked = None
+        if options or accepts is not None or executor is not None or statistics is not None:
+            raised = Raised()
+            asked, each = self._batch_options(options, len(paths), accepts, executor, statistics, raised)
+        struct, arrays = paths.struct(self._layouts)
+        status = self._calls[name](self._handle, byref(struct), asked, answers.ctypes.data)
+        if raised is not None:
+            raised.check(status)
+        elif status != 0:
+            check(status)
+        del arrays, each  # they had to live until here
+
+    def _batch_options(self, options: dict[str, Any], count: int, accepts: Callable[[int, AnyHit], Any] | None,
+                       executor: Executor | None, statistics: Statistics | None, raised: Raised) -> tuple[Any, Any]:
+        """Returns a pointer to the options of a batch, and the array that must live as long."""
+        asked = self._kind.BatchOptions(ctypes.sizeof(self._kind.BatchOptions))
+        each = None
+        if options:
+            single, each = self._asked_options.batch(options, count)
+            asked.options = None if single is None else ctypes.pointer(single)
+            asked.path_options = None if each is None else each.ctypes.data
         if accepts is not None:
             asked.filter = ctypes.pointer(filter_struct(self._kind, accepts, self._hit_of, raised, True))
-        asked.executor = executor_pointer(executor, raised)
-        asked.statistics = ctypes.pointer(statistics) if statistics is not None else None
-        struct, arrays = paths.struct(self._layouts)
-        raised.check(self._function(name)(self._handle, byref(struct), byref(asked), answers.ctypes.data))
-        del arrays, each  # they had to live until here
+        if executor is not None:
+            asked.executor = executor_pointer(executor, raised)
+        if statistics is not None:
+            asked.statistics = ctypes.pointer(statistics)
+        return ctypes.pointer(asked), each
 
     def _room(self, paths: Paths, out: NDArray[Any] | None, dtype: Any) -> NDArray[Any]:
         if not isinstance(paths, Paths):
             raise TypeError(f"the paths must be Segments, Rays or Lines, and not {type(paths).__name__}")
         if out is None:
             return np.empty(len(paths), dtype)
-        if not isinstance(out, np.ndarray) or out.dtype != dtype or out.shape != (len(paths),):
+        is_array = isinstance(out, np.ndarray) and out.shape == (len(paths),)
+        if not is_array or (out.dtype is not dtype and out.dtype != dtype):
             raise ValueError(f"out must be an array of the shape ({len(paths)},) and of the type {dtype}")
-        if not out.flags.c_contiguous or not out.flags.writeable or not out.flags.aligned:
+        if not out.flags.carray:
             raise ValueError("out must be contiguous, aligned and writeable")
         return out
 

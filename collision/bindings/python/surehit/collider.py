@@ -146,7 +146,7 @@ class Collider(Queries[Hit]):
         limit = self._layouts.real()
         check(self._function("max_t_keeping")(self._handle, byref(path.struct(self._layouts)),
                                               byref(self._struct_of_hit(hit)), byref(limit)))
-        return limit.value
+        return float(limit.value)
 
     def grid_summary(self) -> GridSummary:
         """Returns the size of the grid."""

@@ -42,7 +42,7 @@ class Hit(NamedTuple):
 class InstanceId(NamedTuple):
     """Names an instance of a scene. An id of a removed instance is never that of another one."""
 
-    index: int
+    index: int  # type: ignore[assignment]  # in place of the function of tuples
     generation: int
 
 
@@ -111,14 +111,15 @@ class Hits(Generic[AnyHit]):
     @property
     def instance(self) -> NDArray[Any]:
         """The instances that have the triangles, with ``index`` and ``generation``. Only hits of scenes have them."""
-        if "instance" not in self.records.dtype.names:
+        if "instance" not in (self.records.dtype.names or ()):
             raise AttributeError("only hits of a scene have instances")
         return self.records["instance"]
 
     @property
     def is_hit(self) -> NDArray[np.bool_]:
         """Which paths hit anything."""
-        return self.records["triangle"] != NO_TRIANGLE
+        is_hit: NDArray[np.bool_] = self.records["triangle"] != NO_TRIANGLE
+        return is_hit
 
     def __len__(self) -> int:
         return len(self.records)

@@ -13,7 +13,7 @@ from ._numbers import converted, has_own_type, in_place, stride_of
 
 
 def _three_numbers(values: ArrayLike, name: str) -> tuple[float, ...]:
-    if type(values) is not tuple:
+    if not isinstance(values, tuple):
         array = np.asarray(values)
         if array.dtype.kind not in "fiu" or array.dtype.itemsize > 8:
             raise TypeError(f"{name} must be numbers, and not {array.dtype}")
@@ -143,29 +143,28 @@ class Paths:
         if self._struct is not None and self._struct[0] is layouts:
             return self._struct[1:]
         given = (self.starts, self.towards)
-        arrays = tuple(self._rows(i, given[i], layouts) for i in range(2))
+        arrays = (self._rows(0, layouts), self._rows(1, layouts))
         struct = self._struct_of(layouts, *arrays)
         # A copy is made for each query, because the given arrays may have changed.
-        if all(np.may_share_memory(x, y) for x, y in zip(given, arrays)):
+        if arrays[0] is given[0] and arrays[1] is given[1]:
             self._struct = (layouts, struct, arrays)
         return struct, arrays
 
-    def _rows(self, end: int, values: NDArray[Any], layouts: Layouts) -> NDArray[Any]:
+    def _rows(self, end: int, layouts: Layouts) -> NDArray[Any]:
+        values = (self.starts, self.towards)[end]
         result = converted(values, layouts.dtype, self._names[end], self._is_plain[end])
-        return in_place(np.broadcast_to(result.reshape(-1, 3), (self._count, 3)))
+        if result.ndim == 1:
+            result = np.broadcast_to(result, (self._count, 3))
+        return in_place(result)
 
     def _struct_of(self, layouts: Layouts, starts: NDArray[Any], towards: NDArray[Any]) -> Any:
-        struct = layouts.Paths(count=len(starts), kind=self.kind)
-        struct.starts = starts.ctypes.data
-        struct.start_stride = stride_of(starts)
+        first, other = starts.ctypes.data, towards.ctypes.data
+        stride, other_stride = stride_of(starts), stride_of(towards)
         # Six numbers side by side are read fastest, so they are named as such.
         width = 3 * layouts.dtype.itemsize
-        if towards.ctypes.data == struct.starts + width and stride_of(towards) == struct.start_stride == 2 * width:
-            struct.start_stride = 0
-            return struct
-        struct.towards = towards.ctypes.data
-        struct.toward_stride = stride_of(towards)
-        return struct
+        if other == first + width and other_stride == stride == 2 * width:
+            return layouts.Paths(first, None, self._count, 0, 0, self.kind)
+        return layouts.Paths(first, other, self._count, stride, other_stride, self.kind)
 
     def __repr__(self) -> str:
         return f"<{len(self)} {type(self).__name__}>"
