@@ -1,5 +1,6 @@
 """Arrays are read where they are, nothing is rounded unseen, and errors name the element."""
 
+import ctypes
 import gc
 import threading
 import time
@@ -10,6 +11,7 @@ import numpy as np
 
 import surehit
 from surehit import _layouts, _numbers
+from surehit._library import function
 
 FLOOR = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0]], np.float32)
 TRIANGLE = np.array([[0, 1, 2]], np.uint32)
@@ -116,6 +118,9 @@ class ArgumentsTest(unittest.TestCase):
             surehit.Collider(FLOOR, [[0.0, 1.0, 2.0]])
         with self.assertRaisesRegex(ValueError, "2 masks for 1 triangles"):
             surehit.Collider(FLOOR, TRIANGLE, masks=[1, 2])
+        for refuse in (lambda: surehit.Collider(FLOOR, TRIANGLE, masks=[]), lambda: collider.set_masks([])):
+            with self.assertRaisesRegex(ValueError, "0 masks for 1 triangles"):
+                refuse()
         with self.assertRaisesRegex(ValueError, r"masks\[0\] is -1"):
             surehit.Collider(FLOOR, TRIANGLE, masks=[-1])
         with self.assertRaises(surehit.InvalidMesh):
@@ -136,6 +141,7 @@ class ArgumentsTest(unittest.TestCase):
                 (ValueError, lambda: level.first_hit(ray, mask=-1)),
                 (TypeError, lambda: level.first_hit(ray, mask=1.5)),
                 (ValueError, lambda: level.first_hits(rays, max_t=[1, 2])),
+                (ValueError, lambda: level.first_hits(rays, max_t=[1])),
                 (TypeError, lambda: level.first_hits(rays, instance_mask=1)),
                 (ValueError, lambda: level.any_hits(rays, out=np.empty(2, np.bool_))),
                 (ValueError, lambda: level.any_hits(rays, out=np.empty(6, np.bool_)[::2])),
@@ -190,10 +196,11 @@ class ArgumentsTest(unittest.TestCase):
 
     def test_memory_is_given_up(self):
         level = surehit.Collider(FLOOR, TRIANGLE)
-        finalizer = level._finalizer
+        finalizer, handle = level._finalizer, level._handle
         del level
         gc.collect()
         self.assertFalse(finalizer.alive)
+        self.assertEqual(function("colliderf_memory_bytes")(handle, ctypes.byref(ctypes.c_size_t())), 5)
 
     def test_the_lock_of_the_interpreter_is_free(self):
         random = np.random.default_rng(3)

@@ -4,6 +4,7 @@ import ctypes
 import os
 import re
 import unittest
+import unittest.mock
 from pathlib import Path
 
 from surehit import _layouts, _library
@@ -83,6 +84,8 @@ class DeclarationsTest(unittest.TestCase):
         abi = int(re.search(r"#define SUREHIT_C_ABI (\d+)", TEXT)[1])
         version = ".".join(re.search(rf"#define SUREHIT_VERSION_{part} (\d+)", TEXT)[1] for part in ("MAJOR", "MINOR"))
         self.assertEqual((_library.C_ABI, _library.VERSION), (abi, version))
+        with unittest.mock.patch.object(_library, "C_ABI", abi + 1), self.assertRaisesRegex(ImportError, "another ABI"):
+            _library._load()
         for name, number in (("STOP", _layouts.STOP), ("REJECT", _layouts.REJECT), ("ACCEPT", _layouts.ACCEPT)):
             self.assertIn(f"SUREHIT_{name} = {number}", TEXT)
 
