@@ -2,6 +2,7 @@
 
 import ctypes
 import gc
+import sys
 import threading
 import time
 import unittest
@@ -62,8 +63,8 @@ class ArgumentsTest(unittest.TestCase):
             self.assertFalse(level.any_hits(paths)[0])
 
     def test_the_type_of_numbers(self):
-        for vertices, dtype in ((FLOOR, np.float32), (FLOOR.astype(np.float16), np.float32), (FLOOR.tolist(), np.float64),
-                                (FLOOR.astype(np.int64), np.float64), (FLOOR.astype(np.float64), np.float64)):
+        for vertices, dtype in ((FLOOR, np.float32), (FLOOR.astype(np.float16), np.float32),
+                                (FLOOR.tolist(), np.float64), (FLOOR.astype(np.int64), np.float64), (FLOOR.astype(np.float64), np.float64)):
             self.assertEqual(surehit.Collider(vertices, TRIANGLE).dtype, dtype)
         self.assertEqual(surehit.Collider(FLOOR.tolist(), [[0, 1, 2]], dtype=np.float32).dtype, np.float32)
         with self.assertRaises(TypeError):
@@ -149,7 +150,8 @@ class ArgumentsTest(unittest.TestCase):
                 (IndexError, lambda: level.set_mask(-1, 0)), (ValueError, lambda: level.set_mask(0, 2**32)),
                 (surehit.InvalidValue, lambda: level.last_free_point(ray, level.first_hit(ray))),
                 (ValueError, lambda: surehit.Segments([[0, 0, 0]] * 2, [[0, 0, 0]] * 3)),
-                (ValueError, lambda: surehit.Segments([[0, 0]], [[0, 0]])), (ValueError, lambda: surehit.Ray((0, 0), (1, 1, 1))),
+                (ValueError, lambda: surehit.Segments([[0, 0]], [[0, 0]])),
+                (ValueError, lambda: surehit.Ray((0, 0), (1, 1, 1))),
                 (IndexError, lambda: rays[3]), (TypeError, lambda: surehit.Path((0, 0, 0), (0, 0, 0))),
                 (TypeError, lambda: surehit.Paths([[0, 0, 0]], [[0, 0, 0]]))):
             with self.assertRaises(error):
@@ -206,20 +208,31 @@ class ArgumentsTest(unittest.TestCase):
         random = np.random.default_rng(3)
         vertices = random.uniform(0, 1, (30000, 3)).astype(np.float32)
         level = surehit.Collider(vertices, np.arange(30000).reshape(-1, 3))
-        paths = surehit.Rays(*random.uniform(-1, 1, (2, 300000, 3)).astype(np.float32))
-        ends, counts = [], []
+        paths = surehit.Rays(*random.uniform(-1, 1, (2, 100000, 3)).astype(np.float32))
+        interval = sys.getswitchinterval()
+        # So a thread has the lock until it gives it away.
+        sys.setswitchinterval(60)
+        try:
+            self.assertTrue(any(self.runs_beside(lambda: level.any_hits(paths)) for _ in range(50)))
+        finally:
+            sys.setswitchinterval(interval)
+
+    @staticmethod
+    def runs_beside(call):
+        """Returns whether this thread did anything while another one was inside the call."""
+        times, ticks = [], []
 
         def ask():
-            level.any_hits(paths)
-            ends.append(time.perf_counter())
+            times.append(time.perf_counter())
+            call()
+            times.append(time.perf_counter())
 
         thread = threading.Thread(target=ask)
         thread.start()
         while thread.is_alive():
-            counts.append(time.perf_counter())
-        # Had the call held the lock, this thread would have counted nothing in the time of the batch.
-        inside = [x for x in counts if x < ends[0]]
-        self.assertGreater(len(inside), 100)
+            ticks.append(time.perf_counter())
+            time.sleep(0)  # gives the lock away
+        return any(times[0] < tick < times[1] for tick in ticks)
 
 
 if __name__ == "__main__":

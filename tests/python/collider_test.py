@@ -84,14 +84,15 @@ class ColliderTest(unittest.TestCase):
         corners = [tuple(brute_force.exact(vertices[i]) for i in triangle) for triangle in triangles]
         starts, ends = aimed_paths(random, vertices, triangles, 60)
         paths = surehit.Segments(starts, ends)
-        options = {"min_t": random.integers(0, 3, 60) / np.float32(4), "max_t": random.integers(1, 5, 60) / np.float32(4),
+        options = {"min_t": random.integers(0, 3, 60) / np.float32(4),
+                   "max_t": random.integers(1, 5, 60) / np.float32(4),
                    "mask": random.integers(1, 4, 60), "ignored_triangle": random.integers(0, len(triangles), 60),
                    "culling": random.choice(["none", "back", "front"], 60)}
         hits = collider.first_hits(paths, **options)
         for i in range(60):
             one = {name: values[i] for name, values in options.items()}
-            found = brute_force.contacts(brute_force.SEGMENT, starts[i], ends[i], corners, Fraction(float(one["min_t"])),
-                                         Fraction(float(one["max_t"])))
+            limits = (Fraction(float(one[name])) for name in ("min_t", "max_t"))
+            found = brute_force.contacts(brute_force.SEGMENT, starts[i], ends[i], corners, *limits)
             kept = {"none": tuple(surehit.Side), "back": (surehit.Side.FRONT,), "front": (surehit.Side.BACK,)}
             found = [(index, x) for index, x in found if masks[index] & one["mask"] and index != one["ignored_triangle"]
                      and x.side in kept[one["culling"]]]
@@ -147,7 +148,8 @@ class ColliderTest(unittest.TestCase):
         self.assertEqual(collider.first_hit(down).t, 0.25)
         self.assertEqual(before.first_hit(down).t, 0.5)
         collider.set_mask(0, 4)
-        self.assertEqual((collider.mask(0), collider.any_hit(down, mask=3), collider.any_hit(down, mask=4)), (4, False, True))
+        self.assertEqual(collider.mask(0), 4)
+        self.assertEqual([collider.any_hit(down, mask=mask) for mask in (3, 4)], [False, True])
         collider.set_masks([8])
         self.assertEqual(collider.mask(0), 8)
         collider.set_masks(None)

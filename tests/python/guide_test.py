@@ -1,4 +1,7 @@
-"""The code of the package's README runs, prints what the page says, and makes the pictures that the page shows."""
+"""The code of the package's README runs, prints what the page says, and makes the pictures that the page shows.
+
+With SUREHIT_PICTURE_FOLDER, the pictures are kept in this folder, to be looked at and shown.
+"""
 
 import contextlib
 import io
@@ -18,7 +21,7 @@ try:
 except ImportError:
     matplotlib = None
 
-GUIDE = Path(os.environ["SUREHIT_PYTHON_FOLDER"]) / "README.md"
+GUIDE = Path(os.environ["SUREHIT_SOURCE_FOLDER"]) / "collision/bindings/python/README.md"
 
 
 def blocks_of(text):
@@ -40,7 +43,9 @@ class GuideTest(unittest.TestCase):
         printed = ""
         pictures = re.findall(r"!\[[^\]]*\]\((\w+\.png)\)", text)
         kept = os.environ.get("SUREHIT_PICTURE_FOLDER")
-        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(kept or folder):
+        with tempfile.TemporaryDirectory() as folder:
+            self.addCleanup(os.chdir, os.getcwd())
+            os.chdir(kept or folder)
             for language, block, line in blocks_of(text):
                 self.assertIn(language, ("python", "text", "sh"))
                 if language == "text":

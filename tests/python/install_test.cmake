@@ -1,8 +1,8 @@
-# pip installs the package without a network, for the tests that ask it. It builds the library by CMake, or takes the one that
-# it is told to take, but none that is no surehit.
+# pip installs the package without a network, for the tests that ask it. It builds the library by CMake, or takes the one
+# that it is told to take, but none that is no surehit.
 #
-# The project around the package is a stand-in that builds nothing, and hands over a library. The tests of package/ build the
-# real one with the same options.
+# The project around the package is a stand-in that builds nothing, and hands over a library. The tests of package/ build
+# the real one as a shared library.
 set(tree "${FOLDER}/tree")
 set(package "${tree}/collision/bindings/python")
 file(REMOVE_RECURSE "${tree}" "${TO}")
@@ -12,7 +12,8 @@ file(CONFIGURE OUTPUT "${tree}/CMakeLists.txt" @ONLY CONTENT [[
 cmake_minimum_required(VERSION 3.25)
 project(stand_in LANGUAGES NONE)
 if(NOT BUILD_SHARED_LIBS OR NOT CMAKE_BUILD_TYPE STREQUAL Release OR NOT TOLD STREQUAL "two words"
-   OR NOT DEFINED SUREHIT_BUILD_TESTS OR SUREHIT_BUILD_TESTS OR NOT DEFINED SUREHIT_BUILD_EXAMPLES OR SUREHIT_BUILD_EXAMPLES)
+   OR NOT DEFINED SUREHIT_BUILD_TESTS OR SUREHIT_BUILD_TESTS
+   OR NOT DEFINED SUREHIT_BUILD_EXAMPLES OR SUREHIT_BUILD_EXAMPLES)
   message(FATAL_ERROR "the package is built with other options")
 endif()
 add_custom_target(surehit_collision

@@ -7,7 +7,8 @@ import numpy as np
 
 from surehit.ray import RayMeshIntersector
 
-FLOORS = SimpleNamespace(vertices=np.array([[x, y, z] for z in (0.0, 1.0) for x, y in ((0, 0), (4, 0), (4, 4), (0, 4))]),
+SQUARE = ((0, 0), (4, 0), (4, 4), (0, 4))
+FLOORS = SimpleNamespace(vertices=np.array([[x, y, z] for z in (0.0, 1.0) for x, y in SQUARE]),
                          faces=np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]))
 ORIGINS = [[2, 2, 3], [9, 9, 3], [1, 3, 3]]
 DOWN = [[0, 0, -1]] * 3

@@ -32,7 +32,8 @@ def version_of_sources():
     if not VERSION_HEADER.exists():
         return None
     text = VERSION_HEADER.read_text()
-    return tuple(int(re.search(rf"#define SUREHIT_VERSION_{part} (\d+)", text)[1]) for part in ("MAJOR", "MINOR", "PATCH"))
+    parts = ("MAJOR", "MINOR", "PATCH")
+    return tuple(int(re.search(rf"#define SUREHIT_VERSION_{part} (\d+)", text)[1]) for part in parts)
 
 
 def loaded_version(name):

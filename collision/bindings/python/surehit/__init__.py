@@ -5,8 +5,8 @@
 >>> floor.first_hit(surehit.Segment((5, 5, 1), (5, 5, -1)))
 Hit(t=0.5, u=0.0, v=0.5, triangle=0, side=<Side.FRONT: 1>)
 
-Hit or miss is what real arithmetic gives on the given numbers: there is no tolerance. The numbers of a hit are the exact
-ones, rounded once.
+Hit or miss is what real arithmetic gives on the given numbers: there is no tolerance. The numbers of a hit are the
+exact ones, rounded once.
 """
 
 from ._layouts import ALL_BITS, NO_TRIANGLE, Statistics

@@ -44,7 +44,8 @@ def _path() -> str:
     named = os.environ.get("SUREHIT_LIBRARY")
     if named:
         return named
-    name = {"darwin": f"libsurehit.{VERSION}.dylib", "win32": "surehit.dll"}.get(sys.platform, f"libsurehit.so.{VERSION}")
+    others = {"darwin": f"libsurehit.{VERSION}.dylib", "win32": "surehit.dll"}
+    name = others.get(sys.platform, f"libsurehit.so.{VERSION}")
     beside = Path(__file__).parent / name
     return str(beside) if beside.exists() else name
 

@@ -160,8 +160,8 @@ class Queries(Generic[AnyHit]):
                    out: Hits[AnyHit] | None = None, **options: Any) -> Hits[AnyHit]:
         """Returns the first hit of each path, with the same bits as ``first_hit``. It is much faster than single calls.
 
-        An executor, such as a ``ThreadPoolExecutor``, spreads the batch over its threads. The call may not run in one of
-        these. ``out`` is filled in place of new memory. It has the hits of as many paths.
+        An executor, such as a ``ThreadPoolExecutor``, spreads the batch over its threads. The call may not run in one
+        of these. ``out`` is filled in place of new memory. It has the hits of as many paths.
         """
         records = self._room(paths, None if out is None else out.records, self._kind.hit_dtype)
         self._batch("first_hits", paths, options, filter, executor, statistics, records)

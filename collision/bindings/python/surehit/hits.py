@@ -42,12 +42,12 @@ class Hit(NamedTuple):
 class InstanceId(NamedTuple):
     """Names an instance of a scene. An id of a removed instance is never that of another one."""
 
-    index: int  # type: ignore[assignment]  # in place of the function of tuples
+    index: int  # type: ignore  # in place of the function of tuples
     generation: int
 
 
 class SceneHit(NamedTuple):
-    """Where a path first meets a triangle of a scene. All but the instance is as in ``Hit``, for the placed triangle."""
+    """Where a path first meets a triangle of a scene. All but the instance is as in ``Hit``, for the placed one."""
 
     t: float
     u: float

@@ -18,8 +18,8 @@ from .paths import Rays
 class RayMeshIntersector:
     """Answers as the class of trimesh with this name. It is made of a mesh with ``vertices`` and ``faces``, or of both.
 
-    A ray in a triangle's plane meets the triangle, and so does one through an edge or a vertex. Of triangles that are met
-    at the same exact t, the lowest index is reported first. Numbers are float64 unless the vertices are float32.
+    A ray in a triangle's plane meets the triangle, and so does one through an edge or a vertex. Of triangles that are
+    met at the same exact t, the lowest index is reported first. Numbers are float64 unless the vertices are float32.
     """
 
     def __init__(self, geometry: Any = None, *, vertices: ArrayLike | None = None,

@@ -19,7 +19,8 @@ from .collider import Collider, _bits, _id
 from .hits import InstanceId, SceneHit
 
 
-def rigid_pose(quaternion: ArrayLike, translation: ArrayLike = (0, 0, 0), dtype: DTypeLike = np.float64) -> NDArray[Any]:
+def rigid_pose(quaternion: ArrayLike, translation: ArrayLike = (0, 0, 0),
+               dtype: DTypeLike = np.float64) -> NDArray[Any]:
     """Returns a pose that turns a mesh by a unit quaternion (x, y, z, w), and then moves it.
 
     Its entries are rounded a few times. The instance is the exact image under the rounded entries.
