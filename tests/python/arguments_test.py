@@ -64,7 +64,8 @@ class ArgumentsTest(unittest.TestCase):
 
     def test_the_type_of_numbers(self):
         for vertices, dtype in ((FLOOR, np.float32), (FLOOR.astype(np.float16), np.float32),
-                                (FLOOR.tolist(), np.float64), (FLOOR.astype(np.int64), np.float64), (FLOOR.astype(np.float64), np.float64)):
+                                (FLOOR.tolist(), np.float64), (FLOOR.astype(np.int64), np.float64),
+                                (FLOOR.astype(np.float64), np.float64)):
             self.assertEqual(surehit.Collider(vertices, TRIANGLE).dtype, dtype)
         self.assertEqual(surehit.Collider(FLOOR.tolist(), [[0, 1, 2]], dtype=np.float32).dtype, np.float32)
         with self.assertRaises(TypeError):

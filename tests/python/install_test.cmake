@@ -1,8 +1,8 @@
-# pip installs the package without a network, for the tests that ask it. It builds the library by CMake, or takes the one
-# that it is told to take, but none that is no surehit.
+# pip installs the package without a network, for the tests that ask it. It builds the library by CMake, or takes the
+# one that it is told to take, but none that is no surehit.
 #
-# The project around the package is a stand-in that builds nothing, and hands over a library. The tests of package/ build
-# the real one as a shared library.
+# The project around the package is a stand-in that builds nothing, and hands over a library. The tests of package/
+# build the real one as a shared library.
 set(tree "${FOLDER}/tree")
 set(package "${tree}/collision/bindings/python")
 file(REMOVE_RECURSE "${tree}" "${TO}")

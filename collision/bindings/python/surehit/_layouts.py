@@ -30,7 +30,8 @@ class Statistics(ctypes.Structure):
     """The work of queries. A query adds to the statistics that it is given. The numbers are not promised.
 
     Queries that run at the same time need statistics of their own. The numbers are ``paths``, ``cells``,
-    ``candidates``, ``undecided``, ``exact_decisions``, ``exact_orders``, ``exact_roundings``, ``instances`` and ``unclipped``.
+    ``candidates``, ``undecided``, ``exact_decisions``, ``exact_orders``, ``exact_roundings``, ``instances`` and
+    ``unclipped``.
     """
 
     _fields_ = [("size", c_size_t)] + [

@@ -36,8 +36,8 @@ class Collider(Queries[Hit]):
 
     ``vertices`` has the shape (N, 3), and ``triangles`` has three indices a row. An array of float32 makes a collider
     of floats, and every other one makes one of doubles, unless ``dtype`` says which. Arrays of float32, float64,
-    uint16, uint32 and int32 are read where they are. A triangle's id is its index. Degenerate and equal triangles, holes and
-    unused vertices are allowed.
+    uint16, uint32 and int32 are read where they are. A triangle's id is its index. Degenerate and equal triangles,
+    holes and unused vertices are allowed.
 
     ``masks`` has one mask for each triangle, for the option ``mask``. The other arguments are about the grid: they
     change no answer, and None or 0 leaves them to the library. ``executor`` spreads the build over threads.

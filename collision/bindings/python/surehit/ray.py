@@ -16,7 +16,7 @@ from .paths import Rays
 
 
 class RayMeshIntersector:
-    """Answers as the class of trimesh with this name. It is made of a mesh with ``vertices`` and ``faces``, or of both.
+    """Has the arguments and results of trimesh's class of this name. It is made of a mesh, or of vertices and faces.
 
     A ray in a triangle's plane meets the triangle, and so does one through an edge or a vertex. Of triangles that are
     met at the same exact t, the lowest index is reported first. Numbers are float64 unless the vertices are float32.
