@@ -88,7 +88,6 @@ if ! $quick; then
   .ci/install_packages.sh languages || left_out+=("the guide's programs in Rust and C#: their compilers cannot be installed")
   .ci/install_packages.sh python || left_out+=("the package for Python: NumPy, Matplotlib or pip cannot be installed")
   .ci/install_packages.sh web || left_out+=("WebAssembly: its packages cannot be installed")
-  .ci/install_packages.sh windows || left_out+=("Windows: MinGW-w64 and Wine cannot be installed")
   command -v npm >/dev/null || .ci/install_packages.sh npm || left_out+=("the comparison with three.js: npm cannot be installed")
   { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null ||
     .ci/install_packages.sh browser || left_out+=("the page web_picking: no Chromium can be installed")
