@@ -149,10 +149,10 @@ TYPED_TEST(ColliderSpheres, FindWhatBruteForceFindsInMeshesThatAreHardForGrids) 
 TYPED_TEST(ColliderSpheres, FindAllThatIsThereFromAfarAndWithAnySize) {
   using Scalar = TypeParam;
   Random random(9);
-  const auto mesh = rough_ground<Scalar>(8, Scalar(0.2), random);
+  const auto mesh = rough_ground<Scalar>(5, Scalar(0.2), random);
   const Scalar largest = std::sqrt(std::numeric_limits<Scalar>::max());
   std::vector<SweptSphere<Scalar>> spheres;
-  for (const Scalar far : {Scalar(1e3), Scalar(1e6), Scalar(1e12), largest}) {
+  for (const Scalar far : {Scalar(1e3), Scalar(1e12), largest}) {
     spheres.push_back({{far, 0, 1}, {-far, 0, -1}, Scalar(0.1)});
     spheres.push_back({{far, far, far}, {0, 0, 0}, 0});
     spheres.push_back({{0, 0, far}, {0, 0, far / 2}, far / 2});
