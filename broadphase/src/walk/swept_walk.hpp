@@ -108,7 +108,7 @@ class SweptWalk {
     const Axis& middle = axes[order[1]];
     const Axis& inner = axes[order[2]];
     const double size = frame.division;
-    const auto [first, last] = outer.range({}, size);
+    const auto [first, last] = outer.range({0, std::min(1.0, visitor_.limit())}, size);
     for (std::int64_t count = last - first + 1, step = 0; step < count && !visitor_.is_done(); ++step) {
       const std::int64_t i = outer.way < 0 ? last - step : first + step;
       const Times in_slab = outer.during(static_cast<double>(i) * size, static_cast<double>(i + 1) * size);

@@ -23,7 +23,7 @@
 #include "surehit/query_statistics.hpp"
 #include "surehit/shape_hit.hpp"
 #include "surehit/shape_options.hpp"
-#include "surehit/swept_sphere.hpp"
+#include "surehit/swept_shape.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 #include "surehit/vertex_view.hpp"
 
@@ -241,48 +241,52 @@ class SUREHIT_API Collider {
   /// nothing.
   [[nodiscard]] Scalar max_t_keeping(const Path<Scalar>& path, const Hit<Scalar>& hit) const noexcept;
 
-  // Moving balls. Their hits are exact too. They take more time than those of points. In an optimized build, they use
+  // Moving shapes. Their hits are exact too. They take more time than those of points. In an optimized build, they use
   // less than 32 KiB of stack in float and 256 KiB in double.
 
-  /// Returns the hit of a moving ball with the lowest exact t, and then with the lowest triangle id. Returns nothing if
-  /// the ball touches no triangle. Adds its work to `statistics`, unless this is null.
+  /// Returns the hit of a moving shape with the lowest exact t, and then with the lowest triangle id. Returns nothing
+  /// if the shape touches no triangle. Adds its work to `statistics`, unless this is null.
   ///
-  /// Goes through the cells that the box around the ball comes to. If the step or the radius is more than 2^300 cells
-  /// long, the ball is tested against all triangles. Allocates nothing.
-  [[nodiscard]] std::optional<ShapeHit<Scalar>> first_hit(const SweptSphere<Scalar>& sphere,
+  /// Goes through the cells that the box around the shape comes to. If the step or the box is more than 2^300 cells
+  /// long, the shape is tested against all triangles. Allocates nothing.
+  [[nodiscard]] std::optional<ShapeHit<Scalar>> first_hit(const SweptShape<Scalar>& shape,
                                                           const ShapeQueryOptions<Scalar>& options = {},
                                                           QueryStatistics* statistics = nullptr) const noexcept;
   /// Returns the first hit among those that the filter accepts.
-  [[nodiscard]] std::optional<ShapeHit<Scalar>> first_hit(const SweptSphere<Scalar>& sphere,
+  [[nodiscard]] std::optional<ShapeHit<Scalar>> first_hit(const SweptShape<Scalar>& shape,
                                                           ShapeHitFilter<Scalar> filter,
                                                           const ShapeQueryOptions<Scalar>& options = {},
                                                           QueryStatistics* statistics = nullptr) const noexcept;
-  /// Returns true if the ball touches any triangle. Cheaper than `first_hit`.
-  [[nodiscard]] bool any_hit(const SweptSphere<Scalar>& sphere, const ShapeQueryOptions<Scalar>& options = {},
+  /// Returns true if the shape touches any triangle. Cheaper than `first_hit`.
+  [[nodiscard]] bool any_hit(const SweptShape<Scalar>& shape, const ShapeQueryOptions<Scalar>& options = {},
                              QueryStatistics* statistics = nullptr) const noexcept;
-  /// Returns true if the filter accepts any hit of the ball.
-  [[nodiscard]] bool any_hit(const SweptSphere<Scalar>& sphere, ShapeHitFilter<Scalar> filter,
+  /// Returns true if the filter accepts any hit of the shape.
+  [[nodiscard]] bool any_hit(const SweptShape<Scalar>& shape, ShapeHitFilter<Scalar> filter,
                              const ShapeQueryOptions<Scalar>& options = {},
                              QueryStatistics* statistics = nullptr) const noexcept;
-  /// Sets `hits` to one hit for each triangle that the ball touches, in the order of exact t, and then of triangle ids.
-  /// Memory is as for the `all_hits` of paths.
-  void all_hits(const SweptSphere<Scalar>& sphere, std::vector<ShapeHit<Scalar>>& hits,
+  /// Returns true if the shape touches any triangle at its start. Its end plays no part, and neither do `max_t` and
+  /// `ignore_start_contact`. To learn which triangles, ask for `all_hits` with a `max_t` of 0.
+  [[nodiscard]] bool overlaps(const SweptShape<Scalar>& shape, const ShapeQueryOptions<Scalar>& options = {},
+                              QueryStatistics* statistics = nullptr) const noexcept;
+  /// Sets `hits` to one hit for each triangle that the shape touches, in the order of exact t, and then of triangle
+  /// ids. Memory is as for the `all_hits` of paths.
+  void all_hits(const SweptShape<Scalar>& shape, std::vector<ShapeHit<Scalar>>& hits,
                 const ShapeQueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const;
   /// Sets `hits` to all hits that the filter accepts, in the same order.
-  void all_hits(const SweptSphere<Scalar>& sphere, std::vector<ShapeHit<Scalar>>& hits, ShapeHitFilter<Scalar> filter,
+  void all_hits(const SweptShape<Scalar>& shape, std::vector<ShapeHit<Scalar>>& hits, ShapeHitFilter<Scalar> filter,
                 const ShapeQueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const;
-  /// Sets `hits[i]` to the first hit of ball i. A miss has `no_triangle` as its triangle. Lengths are as in the
+  /// Sets `hits[i]` to the first hit of shape i. A miss has `no_triangle` as its triangle. Lengths are as in the
   /// `first_hits` of paths. Allocates nothing itself.
-  void first_hits(std::span<const SweptSphere<Scalar>> spheres, std::span<ShapeHit<Scalar>> hits,
+  void first_hits(const SweptShapeSpan<Scalar>& shapes, std::span<ShapeHit<Scalar>> hits,
                   const ShapeBatchOptions<Scalar>& options = {}) const noexcept;
-  /// Sets `blocked[i]` to 1 if ball i has a hit, and to 0 otherwise.
-  void any_hits(std::span<const SweptSphere<Scalar>> spheres, std::span<std::uint8_t> blocked,
+  /// Sets `blocked[i]` to 1 if shape i has a hit, and to 0 otherwise.
+  void any_hits(const SweptShapeSpan<Scalar>& shapes, std::span<std::uint8_t> blocked,
                 const ShapeBatchOptions<Scalar>& options = {}) const noexcept;
-  /// Returns the greatest t at which the ball has not touched the triangle of a hit: the greatest Scalar below the
-  /// exact t. For the first hit, the ball has touched nothing until then. `hit` must be one of the ball's hits in this
-  /// collider. The result is 0 if they touch at the start, or if no Scalar is between 0 and t. Decides one pair of a
-  /// ball and a triangle. Allocates nothing.
-  [[nodiscard]] Scalar last_free_t(const SweptSphere<Scalar>& sphere, const ShapeHit<Scalar>& hit) const noexcept;
+  /// Returns the greatest t at which the shape has not touched the triangle of a hit: the greatest Scalar below the
+  /// exact t. For the first hit, the shape has touched nothing until then. `hit` must be one of the shape's hits in
+  /// this collider. The result is 0 if they touch at the start, or if no Scalar is between 0 and t. Decides one pair of
+  /// a shape and a triangle. Allocates nothing.
+  [[nodiscard]] Scalar last_free_t(const SweptShape<Scalar>& shape, const ShapeHit<Scalar>& hit) const noexcept;
 
   /// Returns the number of triangles.
   [[nodiscard]] std::size_t triangle_count() const noexcept;

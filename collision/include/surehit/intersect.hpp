@@ -9,7 +9,7 @@
 #include "surehit/query_options.hpp"
 #include "surehit/shape_hit.hpp"
 #include "surehit/shape_options.hpp"
-#include "surehit/swept_sphere.hpp"
+#include "surehit/swept_shape.hpp"
 #include "surehit/triangle.hpp"
 
 namespace surehit {
@@ -38,23 +38,23 @@ template <FloatOrDouble Scalar>
 [[nodiscard]] SUREHIT_API Scalar max_t_keeping(const std::type_identity_t<Path<Scalar>>& path,
                                                const Triangle<Scalar>& triangle, const Hit<Scalar>& hit) noexcept;
 
-/// Returns where a moving ball first touches one triangle, or nothing if they do not touch. The answer is that of exact
-/// real arithmetic on the given numbers. A triangle with a NaN or an infinity is not touched. The result has `triangle`
-/// 0, and `options.mask` and `options.ignored_triangle` are not used.
+/// Returns where a moving shape first touches one triangle, or nothing if they do not touch. The answer is that of
+/// exact real arithmetic on the given numbers. A triangle with a NaN or an infinity is not touched. The result has
+/// `triangle` 0, and `options.mask` and `options.ignored_triangle` are not used.
 ///
-/// They touch if some point of the step is at most the radius away from the triangle. Signs of polynomials decide this,
-/// and no root is taken. Doubles with error bounds compute most signs, and exact integers the others. Takes some
+/// They touch if their distance is zero somewhere during the step. Signs of polynomials decide this, and no root is
+/// taken. Doubles with error bounds compute most signs, and exact integers the others. Takes some
 /// hundred nanoseconds, or some ten microseconds. In double, integers round each hit. Allocates nothing.
 template <FloatOrDouble Scalar>
 [[nodiscard]] SUREHIT_API std::optional<ShapeHit<Scalar>> intersect(
-    const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+    const std::type_identity_t<SweptShape<Scalar>>& shape, const Triangle<Scalar>& triangle,
     const std::type_identity_t<ShapeQueryOptions<Scalar>>& options = {}) noexcept;
 
 #define SUREHIT_EXTERN(Scalar)                                                                                   \
   extern template SUREHIT_API std::optional<Hit<Scalar>> intersect(const Path<Scalar>&, const Triangle<Scalar>&, \
                                                                    const QueryOptions<Scalar>&) noexcept;        \
   extern template SUREHIT_API std::optional<ShapeHit<Scalar>> intersect(                                         \
-      const SweptSphere<Scalar>&, const Triangle<Scalar>&, const ShapeQueryOptions<Scalar>&) noexcept;           \
+      const SweptShape<Scalar>&, const Triangle<Scalar>&, const ShapeQueryOptions<Scalar>&) noexcept;            \
   extern template SUREHIT_API Scalar max_t_keeping(const Path<Scalar>&, const Triangle<Scalar>&,                 \
                                                    const Hit<Scalar>&) noexcept;
 SUREHIT_EXTERN(float)

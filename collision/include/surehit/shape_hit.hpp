@@ -4,8 +4,7 @@
 #include <type_traits>
 
 #include "surehit/attributes.hpp"
-#include "surehit/path.hpp"
-#include "surehit/swept_sphere.hpp"
+#include "surehit/scalar.hpp"
 #include "surehit/triangle.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 

@@ -202,8 +202,7 @@ SUREHIT_NOINLINE Verdict find_contact(const SweptSphere<Scalar>& sphere, const T
 }  // namespace
 
 template <typename Scalar>
-Verdict bounded_sphere_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
-                               SphereContact& found) {
+Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, SphereContact& found) {
   const Verdict verdict = find_contact<Sized>(sphere, triangle, found);
   return verdict != Verdict::undecided ? verdict : find_contact<Bounded>(sphere, triangle, found);
 }
@@ -220,8 +219,8 @@ bool try_round(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triang
          try_round_weights<Bounded>(sphere, triangle, contact, hit);
 }
 
-template Verdict bounded_sphere_contact(const SweptSphere<float>&, const Triangle<float>&, SphereContact&);
-template Verdict bounded_sphere_contact(const SweptSphere<double>&, const Triangle<double>&, SphereContact&);
+template Verdict bounded_contact(const SweptSphere<float>&, const Triangle<float>&, SphereContact&);
+template Verdict bounded_contact(const SweptSphere<double>&, const Triangle<double>&, SphereContact&);
 template bool try_round(const SweptSphere<float>&, const Triangle<float>&, const SphereContact&, ShapeHit<float>&);
 template bool try_round(const SweptSphere<double>&, const Triangle<double>&, const SphereContact&, ShapeHit<double>&);
 

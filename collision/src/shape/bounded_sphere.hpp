@@ -11,8 +11,8 @@ namespace surehit::detail {
 /// If it is a hit, sets `found`. The input must be finite, and the radius must not be negative. Triangles without a
 /// certain area are undecided.
 template <typename Scalar>
-[[nodiscard]] Verdict bounded_sphere_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
-                                             SphereContact& found);
+[[nodiscard]] Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                      SphereContact& found);
 
 /// Rounds t, u and v of a contact. Returns false if its bounds do not decide all of them.
 template <typename Scalar>

@@ -183,7 +183,7 @@ class ExactSphere {
 }  // namespace
 
 template <typename Scalar>
-std::optional<SphereContact> exact_sphere_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
+std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
   return ExactSphere<Scalar>(sphere, triangle).find();
 }
 
@@ -208,7 +208,7 @@ int compare_time(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& tria
 }
 
 template <typename Scalar>
-int exact_sign_along(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
+int sign_along(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
   return ExactSphere<Scalar>(sphere, triangle).sign_along();
 }
 
@@ -220,13 +220,13 @@ void round_exactly(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& tr
   exact.round_weights(contact, hit.u, hit.v);
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                                \
-  template std::optional<SphereContact> exact_sphere_contact(const SweptSphere<Scalar>&, const Triangle<Scalar>&); \
-  template int compare_times(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&,            \
-                             const Triangle<Scalar>&, const SphereContact&);                                       \
-  template int compare_time(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&, Scalar);    \
-  template int exact_sign_along(const SweptSphere<Scalar>&, const Triangle<Scalar>&);                              \
-  template void round_exactly(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&,           \
+#define SUREHIT_INSTANTIATE(Scalar)                                                                             \
+  template std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>&, const Triangle<Scalar>&);     \
+  template int compare_times(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&,         \
+                             const Triangle<Scalar>&, const SphereContact&);                                    \
+  template int compare_time(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&, Scalar); \
+  template int sign_along(const SweptSphere<Scalar>&, const Triangle<Scalar>&);                                 \
+  template void round_exactly(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&,        \
                               ShapeHit<Scalar>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

@@ -13,8 +13,8 @@ namespace surehit::detail {
 
 /// Returns the contact of a ball with a triangle, or nothing if they do not touch.
 template <typename Scalar>
-[[nodiscard]] std::optional<SphereContact> exact_sphere_contact(const SweptSphere<Scalar>& sphere,
-                                                                const Triangle<Scalar>& triangle);
+[[nodiscard]] std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>& sphere,
+                                                         const Triangle<Scalar>& triangle);
 
 /// Returns the sign of t of x less t of y.
 template <typename Scalar>
@@ -28,7 +28,7 @@ template <typename Scalar>
 
 /// Returns the sign of the step times the triangle's normal. It is 0 for a triangle without area.
 template <typename Scalar>
-[[nodiscard]] int exact_sign_along(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle);
+[[nodiscard]] int sign_along(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle);
 
 /// Sets t, u and v of a hit to those of a contact, each rounded once.
 template <typename Scalar>

@@ -3,7 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "shape/shape_contact.hpp"
 #include "surehit/shape_hit.hpp"
+#include "surehit/swept_sphere.hpp"
+#include "surehit/triangle.hpp"
+#include "walk/swept_walk.hpp"
 
 namespace surehit::detail {
 
@@ -18,20 +22,22 @@ struct SphereContact {
   bool at_start = false;  ///< True if they touch at t = 0. Then the equation is not used.
 };
 
-[[nodiscard]] constexpr Feature edge_feature(std::size_t edge) {
-  return static_cast<Feature>(static_cast<std::size_t>(Feature::edge_ab) + edge);
-}
-[[nodiscard]] constexpr Feature corner_feature(std::size_t corner) {
-  return static_cast<Feature>(static_cast<std::size_t>(Feature::corner_a) + corner);
-}
-[[nodiscard]] constexpr bool is_edge(Feature feature) {
-  return feature >= Feature::edge_ab && feature <= Feature::edge_ca;
-}
-[[nodiscard]] constexpr bool is_corner(Feature feature) { return feature >= Feature::corner_a; }
-/// Returns the number of an edge, or that of a corner.
-[[nodiscard]] constexpr std::size_t index_of(Feature feature) {
-  return static_cast<std::size_t>(feature) -
-         static_cast<std::size_t>(is_corner(feature) ? Feature::corner_a : Feature::edge_ab);
-}
+template <typename AnyScalar>
+struct ShapeTypes<SweptSphere<AnyScalar>> {
+  using Scalar = AnyScalar;
+  using Contact = SphereContact;
+};
+
+/// Returns true if a ball can touch something: all numbers are finite, and the radius is not negative.
+template <typename Scalar>
+[[nodiscard]] bool is_valid(const SweptSphere<Scalar>& sphere);
+/// Returns the box around a ball, and its way.
+template <typename Scalar>
+[[nodiscard]] SweptExtents swept_extents(const SweptSphere<Scalar>& sphere);
+/// Returns true if two triangles share the corner or the edge whose equation has t as a root. Neighbours often do. Then
+/// the ball comes to both at the same time.
+template <typename Scalar>
+[[nodiscard]] bool are_timed_alike(const Triangle<Scalar>& x_triangle, const SphereContact& x,
+                                   const Triangle<Scalar>& y_triangle, const SphereContact& y);
 
 }  // namespace surehit::detail

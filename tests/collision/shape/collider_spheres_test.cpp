@@ -64,6 +64,7 @@ class ColliderSpheres : public testing::Test {
       ASSERT_TRUE(firsts[i] == first) << what << ", ball " << i;
       ASSERT_EQ(collider.any_hit(sphere), !expected.empty()) << what << ", ball " << i;
       ASSERT_EQ(blocked[i] != 0, !expected.empty()) << what << ", ball " << i;
+      ASSERT_EQ(collider.overlaps(sphere), first.started_touching) << what << ", ball " << i;
     }
   }
 
@@ -250,6 +251,18 @@ TYPED_TEST(ColliderSpheres, KeepMasksFiltersAndOptions) {
     hits += !expected.empty();
   }
   EXPECT_GE(hits, case_count(30));
+}
+
+TYPED_TEST(ColliderSpheres, OverlapAtTheStartWhateverTheRestOfTheStepIs) {
+  using Scalar = TypeParam;
+  GeneratedMesh<Scalar> mesh;
+  mesh.add({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
+  mesh.add({{0, 0, 9}, {4, 0, 9}, {0, 4, 9}});
+  const Collider<Scalar> collider(mesh.view());
+  const Vector3<Scalar> beyond = {1, 1, std::numeric_limits<Scalar>::infinity()};
+  EXPECT_TRUE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 2}, beyond, 2}, {.ignore_start_contact = true}));
+  EXPECT_FALSE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 3}, {1, 1, 9}, 2}, {.max_t = 1}));
+  EXPECT_FALSE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 2}, {1, 1, 2}, 2}, {.ignored_triangle = 0}));
 }
 
 TYPED_TEST(ColliderSpheres, FindTheLastFreeT) {

@@ -1,10 +1,10 @@
-#include "shape/sphere_filter.hpp"
+#include "shape/shape_filter.hpp"
 
 #include "support/rounding_flags.hpp"
 
 // This file is compiled once for each instruction set. The best one is chosen when the first list is asked.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "shape/sphere_filter.cpp"
+#define HWY_TARGET_INCLUDE "shape/shape_filter.cpp"
 #include <hwy/foreach_target.h>
 // These must come after foreach_target.h.
 #include <hwy/highway.h>
@@ -22,13 +22,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Tests triangles in lanes of doubles.
 ///
-/// An axis m separates the ball from the triangle if all corners have a lower product with m than every centre of the
-/// way has, by more than r |m|. The axes are the normal n, the outward directions e × n of the edges, the directions
-/// D × e across the step and an edge, the step D, and the axes of coordinates. On most of them, the distance of the
-/// centre changes at a constant rate, so the ball is near enough during one interval of t. Where these intervals do not
-/// meet, the ball does not touch the triangle. It does not touch it before the latest of them begins.
+/// An axis m separates the shape from the triangle if all corners have a lower product with m than every centre of the
+/// way has, by more than the reach r |m| + c(m). Here c(m) is how far the core comes along m: 0 for a point, the sum of
+/// all |m_i| h_i for a box with half extents h, and |m·h| for a segment from -h to h. The axes are the normal n, the
+/// outward directions e × n of the edges, the directions D × e across the step and an edge, and the axes of
+/// coordinates. On most of them, the distance of the centre changes at a constant rate, so the shape is near enough
+/// during one interval of t. Where these intervals do not meet, the shape does not touch the triangle. It does not
+/// touch it before the latest of them begins.
 ///
-/// Let u = 2^-53. E is the largest component of an edge, W that of a centre less a corner, and S that of the step.
+/// Let u = 2^-53. E is the largest component of an edge, W that of a centre less a corner, H that of h, and S that of
+/// the step.
 ///
 /// V1. n·w is off by less than 54 u E² W, D·n by as much with S for W, and (D × e)·w by less than 54 u S E W.
 /// Proof. A difference has one rounding. So a component of n has two products of two differences each, off by 3 u of
@@ -43,10 +46,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 ///
 /// V3. r |m| is off by less than 2^-49 of itself, and by r times what the components of m are off, for the axes above.
 ///
-/// So a reach of r |m| (1 + 2^-45) + 2^-45 B (W + r) is enough, where B is E² for n, E³ for e × n and S E for D × e.
+/// V4. c(m) is off by what V1 and V2 say of m·w, with H for W. It is a sum of the same products.
+///
+/// So a reach of r |m| (1 + 2^-45) + c(m) + 2^-45 B (W + r + H) is enough, where B is E² for n, E³ for e × n and S E
+/// for D × e. On an axis of coordinates, the reach r + h_i has one rounding, and counts only if it is less than W.
 /// Coordinates outside of the sizes below may underflow or overflow, and are not tested. From 2^-150 on, no square in
 /// |m| underflows: (e × n)·(e × n) has six edges as factors, and is about 2^-900.
-template <typename Scalar>
+template <typename Scalar, Core core>
 class FilterLanes {
   static constexpr hn::ScalableTag<double> d{};
   using V = hn::Vec<hn::ScalableTag<double>>;
@@ -54,12 +60,12 @@ class FilterLanes {
   using Point = V[3];
 
  public:
-  static std::uint64_t find(const SphereFilter<Scalar>& ball, const Scalar* corners, std::size_t count,
+  static std::uint64_t find(const ShapeFilter<Scalar>& shape, const Scalar* corners, std::size_t count,
                             std::size_t from, double limit, double* enters) {
-    const std::size_t last = std::min(count, from + SphereFilter<Scalar>::max_count);
+    const std::size_t last = std::min(count, from + ShapeFilter<Scalar>::max_count);
     std::uint64_t found = 0;
     for (std::size_t at = from; at < last; at += hn::Lanes(d)) {
-      found |= test(ball, corners + at, count, limit, enters + (at - from)) << (at - from);
+      found |= test(shape, corners + at, count, limit, enters + (at - from)) << (at - from);
     }
     return last - from == 64 ? found : found & ((std::uint64_t{1} << (last - from)) - 1);
   }
@@ -79,9 +85,16 @@ class FilterLanes {
     out[1] = hn::Sub(hn::Mul(x[2], y[0]), hn::Mul(x[0], y[2]));
     out[2] = hn::Sub(hn::Mul(x[0], y[1]), hn::Mul(x[1], y[0]));
   }
+  /// Returns how far the core comes along m.
+  static HWY_INLINE V reach_of_core(const Point& m, const Point& half) {
+    if constexpr (core == Core::point) return hn::Zero(d);
+    if constexpr (core == Core::segment) return hn::Abs(dot(m, half));
+    const Point sizes = {hn::Abs(m[0]), hn::Abs(m[1]), hn::Abs(m[2])};
+    return dot(sizes, half);
+  }
   static HWY_INLINE V size_of(const Point& x) { return hn::Max(hn::Max(hn::Abs(x[0]), hn::Abs(x[1])), hn::Abs(x[2])); }
 
-  /// The interval of t in which the ball may touch a triangle.
+  /// The interval of t in which the shape may touch a triangle.
   struct Interval {
     V enters, leaves;
     Mask beside;  ///< The lanes that a constant distance keeps apart.
@@ -103,43 +116,45 @@ class FilterLanes {
     }
   };
 
-  /// Returns a bit for each triangle that the ball may touch.
-  static HWY_INLINE std::uint64_t test(const SphereFilter<Scalar>& ball, const Scalar* corners, std::size_t count,
+  /// Returns a bit for each triangle that the shape may touch.
+  static HWY_INLINE std::uint64_t test(const ShapeFilter<Scalar>& shape, const Scalar* corners, std::size_t count,
                                        double limit, double* enters) {
     Point corner[3];
     for (std::size_t k = 0; k < 9; ++k) corner[k / 3][k % 3] = load(corners + k * count);
-    const V radius = set(ball.radius);
+    const V radius = set(shape.radius);
     Interval interval{hn::Zero(d), set(1), hn::Lt(radius, hn::Zero(d))};
 
     Point w[3];    // The start less each corner.
     Point end[3];  // The end less each corner.
     Point edge[3];
     Point step;
+    Point half;
     V size = hn::Zero(d);
     V reach_of_w = hn::Zero(d);
     for (std::size_t i = 0; i < 3; ++i) {
-      step[i] = set(ball.step[i]);
+      step[i] = set(shape.step[i]);
+      half[i] = set(shape.half[i]);
       for (std::size_t k = 0; k < 3; ++k) {
-        w[k][i] = hn::Sub(set(ball.start[i]), corner[k][i]);
-        end[k][i] = hn::Sub(set(ball.end[i]), corner[k][i]);
+        w[k][i] = hn::Sub(set(shape.start[i]), corner[k][i]);
+        end[k][i] = hn::Sub(set(shape.end[i]), corner[k][i]);
         edge[k][i] = hn::Sub(corner[k == 2 ? 0 : k + 1][i], corner[k][i]);
         size = hn::Max(size, hn::Abs(edge[k][i]));
         reach_of_w = hn::Max(reach_of_w, hn::Max(hn::Abs(w[k][i]), hn::Abs(end[k][i])));
       }
       // On an axis of coordinates, the highest corner is below the centre by the lowest w.
       const V slack = hn::Mul(reach_of_w, set(0x1p-50));
-      const V reach = hn::Add(radius, slack);
+      const V reach = hn::Add(set(shape.radius + std::fabs(shape.half[i])), slack);
       const auto lowest = [&](const Point* x) { return hn::Min(hn::Min(x[0][i], x[1][i]), x[2][i]); };
       const auto highest = [&](const Point* x) { return hn::Max(hn::Max(x[0][i], x[1][i]), x[2][i]); };
       interval.keep_below(lowest(w), lowest(end), reach);
       interval.keep_below(hn::Neg(highest(w)), hn::Neg(highest(end)), reach);
     }
-    const V far = hn::Add(reach_of_w, radius);
+    const V far = hn::Add(reach_of_w, set(shape.radius + shape.size_of_half));
     const V size_2 = hn::Mul(size, size);
     const V size_3 = hn::Mul(size_2, size);
     const V error = hn::Mul(far, set(0x1p-45));
-    const V grown = set(ball.radius * (1 + 0x1p-45));
-    const V smallest = set(ball.is_usable ? 0x1p-150 : std::numeric_limits<double>::infinity());
+    const V grown = set(shape.radius * (1 + 0x1p-45));
+    const V smallest = set(shape.is_usable ? 0x1p-150 : std::numeric_limits<double>::infinity());
     const Mask is_usable = hn::And(hn::Gt(hn::Min(size, far), smallest), hn::Lt(hn::Max(size, far), set(0x1p200)));
 
     Interval tilted = interval;
@@ -147,24 +162,26 @@ class FilterLanes {
     cross(edge[0], edge[1], n);
     const V nn = dot(n, n);
     {
-      const V reach = hn::MulAdd(grown, hn::Sqrt(nn), hn::Mul(size_2, error));
+      const V of_ball = hn::MulAdd(grown, hn::Sqrt(nn), hn::Mul(size_2, error));
+      const V reach = hn::Add(of_ball, reach_of_core(n, half));
       const V first = dot(n, w[0]);
       const V last = dot(n, end[0]);
       tilted.keep_below(first, last, reach);
       tilted.keep_below(hn::Neg(first), hn::Neg(last), reach);
     }
     const V across = dot(n, step);
-    const V across_error = hn::Mul(hn::Mul(size_2, set(ball.size_of_step)), set(0x1p-45));
+    const V across_error = hn::Mul(hn::Mul(size_2, set(shape.size_of_step)), set(0x1p-45));
     for (std::size_t k = 0; k < 3; ++k) {
       Point outward;
       cross(edge[k], n, outward);
-      const V reach = hn::MulAdd(grown, hn::Sqrt(dot(outward, outward)), hn::Mul(size_3, error));
+      const V of_ball = hn::MulAdd(grown, hn::Sqrt(dot(outward, outward)), hn::Mul(size_3, error));
+      const V reach = hn::Add(of_ball, reach_of_core(outward, half));
       tilted.keep_below(dot(outward, w[k]), dot(outward, end[k]), reach);
       // Along f = D × e, the corners of the edge are at 0, and the third corner is at D·n.
       Point f;
       cross(step, edge[k], f);
-      const V reach_of_f = hn::Add(
-          hn::MulAdd(grown, hn::Sqrt(dot(f, f)), hn::Mul(hn::Mul(set(ball.size_of_step), size), error)), across_error);
+      const V of_f = hn::MulAdd(grown, hn::Sqrt(dot(f, f)), hn::Mul(hn::Mul(set(shape.size_of_step), size), error));
+      const V reach_of_f = hn::Add(hn::Add(of_f, reach_of_core(f, half)), across_error);
       const V height = dot(f, w[k]);
       const V low = hn::Min(across, hn::Zero(d));
       const V high = hn::Max(across, hn::Zero(d));
@@ -180,13 +197,26 @@ class FilterLanes {
   }
 };
 
-std::uint64_t find_floats(const SphereFilter<float>& ball, const float* corners, std::size_t count, std::size_t from,
-                          double limit, double* enters) {
-  return FilterLanes<float>::find(ball, corners, count, from, limit, enters);
+template <typename Scalar>
+HWY_INLINE std::uint64_t find(const ShapeFilter<Scalar>& shape, const Scalar* corners, std::size_t count,
+                              std::size_t from, double limit, double* enters) {
+  switch (shape.core) {
+    case Core::box:
+      return FilterLanes<Scalar, Core::box>::find(shape, corners, count, from, limit, enters);
+    case Core::segment:
+      return FilterLanes<Scalar, Core::segment>::find(shape, corners, count, from, limit, enters);
+    case Core::point:
+      break;
+  }
+  return FilterLanes<Scalar, Core::point>::find(shape, corners, count, from, limit, enters);
 }
-std::uint64_t find_doubles(const SphereFilter<double>& ball, const double* corners, std::size_t count, std::size_t from,
+std::uint64_t find_floats(const ShapeFilter<float>& shape, const float* corners, std::size_t count, std::size_t from,
+                          double limit, double* enters) {
+  return find(shape, corners, count, from, limit, enters);
+}
+std::uint64_t find_doubles(const ShapeFilter<double>& shape, const double* corners, std::size_t count, std::size_t from,
                            double limit, double* enters) {
-  return FilterLanes<double>::find(ball, corners, count, from, limit, enters);
+  return find(shape, corners, count, from, limit, enters);
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE
@@ -199,32 +229,43 @@ HWY_EXPORT(find_floats);
 HWY_EXPORT(find_doubles);
 
 template <typename Scalar>
-SphereFilter<Scalar>::SphereFilter(const SweptSphere<Scalar>& sphere) : radius(sphere.radius), size_of_step(0) {
+void ShapeFilter<Scalar>::set(Core any_core, const Vector3<Scalar>& any_start, const Vector3<Scalar>& any_end,
+                              const Vector3<Scalar>& any_half, Scalar any_radius) {
+  core = any_core;
+  radius = any_radius;
+  size_of_half = size_of_step = 0;
   double largest = radius;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    start[i] = sphere.start[axis];
-    end[i] = sphere.end[axis];
+    start[i] = any_start[axis];
+    end[i] = any_end[axis];
+    half[i] = any_half[axis];
     step[i] = end[i] - start[i];
+    size_of_half = std::max(size_of_half, std::fabs(half[i]));
     size_of_step = std::max(size_of_step, std::fabs(step[i]));
-    largest = std::max({largest, std::fabs(start[i]), std::fabs(end[i])});
+    largest = std::max({largest, std::fabs(start[i]), std::fabs(end[i]), std::fabs(half[i])});
   }
   is_usable = (size_of_step == 0 || size_of_step > 0x1p-200) && largest < 0x1p200;
 }
 
+template <typename Scalar>
+ShapeFilter<Scalar>::ShapeFilter(const SweptSphere<Scalar>& sphere) {
+  set(Core::point, sphere.start, sphere.end, {0, 0, 0}, sphere.radius);
+}
+
 template <>
-std::uint64_t SphereFilter<float>::find(const float* corners, std::size_t count, std::size_t from, double limit,
-                                        Times& enters) const {
+std::uint64_t ShapeFilter<float>::find(const float* corners, std::size_t count, std::size_t from, double limit,
+                                       Times& enters) const {
   return HWY_DYNAMIC_DISPATCH(find_floats)(*this, corners, count, from, limit, enters.data());
 }
 template <>
-std::uint64_t SphereFilter<double>::find(const double* corners, std::size_t count, std::size_t from, double limit,
-                                         Times& enters) const {
+std::uint64_t ShapeFilter<double>::find(const double* corners, std::size_t count, std::size_t from, double limit,
+                                        Times& enters) const {
   return HWY_DYNAMIC_DISPATCH(find_doubles)(*this, corners, count, from, limit, enters.data());
 }
 
-template SphereFilter<float>::SphereFilter(const SweptSphere<float>&);
-template SphereFilter<double>::SphereFilter(const SweptSphere<double>&);
+template ShapeFilter<float>::ShapeFilter(const SweptSphere<float>&);
+template ShapeFilter<double>::ShapeFilter(const SweptSphere<double>&);
 
 }  // namespace surehit::detail
 #endif

@@ -1,18 +1,20 @@
-#include "shape/sphere_query.hpp"
+#include "shape/shape_query.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 
-#include "shape/sphere_filter.hpp"
-#include "shape/sphere_narrowphase.hpp"
+#include "shape/shape_filter.hpp"
+#include "shape/shape_narrowphase.hpp"
+#include "shape/sphere_contact.hpp"
 #include "support/rounding_flags.hpp"
 #include "walk/swept_walk.hpp"
 
 namespace surehit::detail {
 namespace {
 
-/// Remembers the last triangles that a ball was tested against, since most triangles are in the lists of several cells.
+/// Remembers the last triangles that a shape was tested against, since most triangles are in the lists of several
+/// cells.
 class Recent {
  public:
   Recent() { ids_.fill(no_triangle); }
@@ -29,11 +31,13 @@ class Recent {
 };
 
 /// Gives the triangles of the lists that a walk visits to `Keep`. This keeps the hits that its query wants.
-template <typename Scalar, typename Keep>
-class SphereVisitor {
+template <typename Shape, typename Keep>
+class ShapeVisitor {
+  using Scalar = ScalarOf<Shape>;
+
  public:
-  SphereVisitor(const SphereQuery<Scalar>& query, const SweptSphere<Scalar>& sphere)
-      : query_(query), filter_(sphere), narrowphase_(sphere, query.options, query.statistics) {}
+  ShapeVisitor(const ShapeQuery<Scalar>& query, const Shape& shape)
+      : query_(query), filter_(shape), narrowphase_(shape, query.options, query.statistics), keep_(query) {}
 
   void count_cell() { ++query_.statistics.cells; }
   void visit_list(CellWord word) {
@@ -42,7 +46,7 @@ class SphereVisitor {
     const Scalar* const corners = MeshBlocks<Scalar>::corners(query_.mesh.block(word.list(), first));
     const std::size_t counting = keep_.count_that_counts(query_.grid.entries(), first, count);
     query_.statistics.candidates += counting;
-    for (std::size_t from = 0; from < counting; from += SphereFilter<Scalar>::max_count) {
+    for (std::size_t from = 0; from < counting; from += ShapeFilter<Scalar>::max_count) {
       std::uint64_t found = filter_.find(corners, count, from, keep_.limit, enters_);
       if (counting - from < 64) found &= (std::uint64_t{1} << (counting - from)) - 1;
       while (found != 0) {
@@ -66,10 +70,10 @@ class SphereVisitor {
   [[nodiscard]] double limit() const { return keep_.limit; }
   [[nodiscard]] bool is_done() const { return keep_.is_done; }
   [[nodiscard]] Keep& keep() { return keep_; }
-  [[nodiscard]] const SphereNarrowphase<Scalar>& narrowphase() const { return narrowphase_; }
+  [[nodiscard]] const ShapeNarrowphase<Shape>& narrowphase() const { return narrowphase_; }
 
  private:
-  /// Returns the lane that the ball may touch first, among the lanes of these bits. Of several, it is the lowest lane.
+  /// Returns the lane that the shape may touch first, among the lanes of these bits. Of several, it is the lowest lane.
   [[nodiscard]] std::size_t first_to_enter(std::uint64_t lanes) const {
     auto first = static_cast<std::size_t>(std::countr_zero(lanes));
     for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
@@ -80,25 +84,34 @@ class SphereVisitor {
   }
   void take(std::uint32_t id, const Triangle<Scalar>& triangle) {
     if (!query_.takes_part(id)) return;
-    SphereCandidate<Scalar> candidate{id, triangle, {}};
+    ShapeCandidate<Shape> candidate{id, triangle, {}};
     ++query_.statistics.undecided;
     if (narrowphase_.find_contact(triangle, keep_.limit, candidate.contact))
       keep_.take(query_, narrowphase_, candidate);
   }
 
-  const SphereQuery<Scalar>& query_;
-  SphereFilter<Scalar> filter_;
-  typename SphereFilter<Scalar>::Times enters_;
-  SphereNarrowphase<Scalar> narrowphase_;
+  const ShapeQuery<Scalar>& query_;
+  ShapeFilter<Scalar> filter_;
+  typename ShapeFilter<Scalar>::Times enters_;
+  ShapeNarrowphase<Shape> narrowphase_;
   Recent recent_;
   Keep keep_;
 };
 
-/// Keeps the first hit.
+/// Returns the last t that counts.
 template <typename Scalar>
+double last_t(const ShapeQuery<Scalar>& query) {
+  return std::min(1.0, double{query.options.max_t});
+}
+
+/// Keeps the first hit.
+template <typename Shape>
 struct KeepFirst {
-  void take(const SphereQuery<Scalar>& query, const SphereNarrowphase<Scalar>& narrowphase,
-            const SphereCandidate<Scalar>& candidate) {
+  using Scalar = ScalarOf<Shape>;
+
+  explicit KeepFirst(const ShapeQuery<Scalar>& query) : limit(last_t(query)) {}
+  void take(const ShapeQuery<Scalar>& query, const ShapeNarrowphase<Shape>& narrowphase,
+            const ShapeCandidate<Shape>& candidate) {
     if (first && !narrowphase.comes_before(candidate, *first)) return;
     if (query.filter != nullptr && !query.accepts(narrowphase.hit(candidate))) return;
     first = candidate;
@@ -108,7 +121,7 @@ struct KeepFirst {
   [[nodiscard]] bool passes_over(std::uint32_t id) const {
     return first && (id == first->id || (first->contact.at_start && id > first->id));
   }
-  /// Returns how many triangles of a list may be the first one. If the ball begins with a contact, they are those with
+  /// Returns how many triangles of a list may be the first one. If the shape begins with a contact, they are those with
   /// lower ids. Ids ascend in a list.
   [[nodiscard]] std::size_t count_that_counts(const PackedIds& ids, std::size_t from, std::size_t count) const {
     if (!first || !first->contact.at_start) return count;
@@ -123,89 +136,89 @@ struct KeepFirst {
     }
     return low;
   }
-  std::optional<SphereCandidate<Scalar>> first;
-  double limit = 1;
+  std::optional<ShapeCandidate<Shape>> first;
+  double limit;
   static constexpr bool is_done = false;
 };
 
 /// Notes whether there is a hit.
-template <typename Scalar>
+template <typename Shape>
 struct KeepAny {
-  void take(const SphereQuery<Scalar>& query, const SphereNarrowphase<Scalar>& narrowphase,
-            const SphereCandidate<Scalar>& candidate) {
+  using Scalar = ScalarOf<Shape>;
+
+  explicit KeepAny(const ShapeQuery<Scalar>& query) : limit(last_t(query)) {}
+  void take(const ShapeQuery<Scalar>& query, const ShapeNarrowphase<Shape>& narrowphase,
+            const ShapeCandidate<Shape>& candidate) {
     is_done = query.filter == nullptr || query.accepts(narrowphase.hit(candidate));
   }
   [[nodiscard]] static bool passes_over(std::uint32_t) { return false; }
   [[nodiscard]] static std::size_t count_that_counts(const PackedIds&, std::size_t, std::size_t count) { return count; }
-  static constexpr double limit = 1;
+  double limit;
   bool is_done = false;
 };
 
 /// Keeps all hits.
-template <typename Scalar>
+template <typename Shape>
 struct KeepAll {
-  void take(const SphereQuery<Scalar>&, const SphereNarrowphase<Scalar>&, const SphereCandidate<Scalar>& candidate) {
+  using Scalar = ScalarOf<Shape>;
+
+  explicit KeepAll(const ShapeQuery<Scalar>& query) : limit(last_t(query)) {}
+  void take(const ShapeQuery<Scalar>&, const ShapeNarrowphase<Shape>&, const ShapeCandidate<Shape>& candidate) {
     all.push_back(candidate);
   }
   [[nodiscard]] static bool passes_over(std::uint32_t) { return false; }
   [[nodiscard]] static std::size_t count_that_counts(const PackedIds&, std::size_t, std::size_t count) { return count; }
-  std::vector<SphereCandidate<Scalar>> all;
-  static constexpr double limit = 1;
+  std::vector<ShapeCandidate<Shape>> all;
+  double limit;
   static constexpr bool is_done = false;
 };
 
-/// Gives the visitor all triangles that the ball may touch.
-template <typename Scalar, typename Visitor>
-void walk(const SphereQuery<Scalar>& query, const SweptSphere<Scalar>& sphere, Visitor& visitor) {
+/// Gives the visitor all triangles that the shape may touch.
+template <typename Shape, typename Visitor>
+void walk(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape, Visitor& visitor) {
   ++query.statistics.paths;
-  if (query.grid.is_empty() || !is_valid(sphere) || !(query.options.max_t >= 0)) return;
-  SweptExtents swept;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    swept.start[axis] = sphere.start[static_cast<Eigen::Index>(axis)];
-    swept.end[axis] = sphere.end[static_cast<Eigen::Index>(axis)];
-    swept.half_extents[axis] = sphere.radius;
-  }
-  if (!SweptWalk(query.grid, swept, visitor).walk()) visitor.visit_all();
+  if (query.grid.is_empty() || !is_valid(shape) || !(query.options.max_t >= 0)) return;
+  if (!SweptWalk(query.grid, swept_extents(shape), visitor).walk()) visitor.visit_all();
 }
 
 }  // namespace
 
-template <typename Scalar>
-std::optional<ShapeHit<Scalar>> search_first(const SphereQuery<Scalar>& query,
-                                             const SweptSphere<Scalar>& sphere) noexcept {
-  SphereVisitor<Scalar, KeepFirst<Scalar>> visitor(query, sphere);
-  walk(query, sphere, visitor);
+template <typename Shape>
+std::optional<ShapeHit<ScalarOf<Shape>>> search_first(const ShapeQuery<ScalarOf<Shape>>& query,
+                                                      const Shape& shape) noexcept {
+  ShapeVisitor<Shape, KeepFirst<Shape>> visitor(query, shape);
+  walk(query, shape, visitor);
   const auto& first = visitor.keep().first;
   if (!first) return std::nullopt;
   return visitor.narrowphase().hit(*first);
 }
 
-template <typename Scalar>
-bool search_any(const SphereQuery<Scalar>& query, const SweptSphere<Scalar>& sphere) noexcept {
-  SphereVisitor<Scalar, KeepAny<Scalar>> visitor(query, sphere);
-  walk(query, sphere, visitor);
+template <typename Shape>
+bool search_any(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape) noexcept {
+  ShapeVisitor<Shape, KeepAny<Shape>> visitor(query, shape);
+  walk(query, shape, visitor);
   return visitor.is_done();
 }
 
-template <typename Scalar>
-void search_all(const SphereQuery<Scalar>& query, const SweptSphere<Scalar>& sphere,
-                std::vector<ShapeHit<Scalar>>& hits) {
-  SphereVisitor<Scalar, KeepAll<Scalar>> visitor(query, sphere);
-  walk(query, sphere, visitor);
+template <typename Shape>
+void search_all(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape,
+                std::vector<ShapeHit<ScalarOf<Shape>>>& hits) {
+  ShapeVisitor<Shape, KeepAll<Shape>> visitor(query, shape);
+  walk(query, shape, visitor);
   visitor.narrowphase().sort(visitor.keep().all);
-  for (const SphereCandidate<Scalar>& candidate : visitor.keep().all) {
-    const ShapeHit<Scalar> hit = visitor.narrowphase().hit(candidate);
+  for (const ShapeCandidate<Shape>& candidate : visitor.keep().all) {
+    const ShapeHit<ScalarOf<Shape>> hit = visitor.narrowphase().hit(candidate);
     if (query.accepts(hit)) hits.push_back(hit);
   }
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                           \
-  template std::optional<ShapeHit<Scalar>> search_first(const SphereQuery<Scalar>&,           \
-                                                        const SweptSphere<Scalar>&) noexcept; \
-  template bool search_any(const SphereQuery<Scalar>&, const SweptSphere<Scalar>&) noexcept;  \
-  template void search_all(const SphereQuery<Scalar>&, const SweptSphere<Scalar>&, std::vector<ShapeHit<Scalar>>&);
-SUREHIT_INSTANTIATE(float)
-SUREHIT_INSTANTIATE(double)
+#define SUREHIT_INSTANTIATE(Shape)                                                                   \
+  template std::optional<ShapeHit<ScalarOf<Shape>>> search_first(const ShapeQuery<ScalarOf<Shape>>&, \
+                                                                 const Shape&) noexcept;             \
+  template bool search_any(const ShapeQuery<ScalarOf<Shape>>&, const Shape&) noexcept;               \
+  template void search_all(const ShapeQuery<ScalarOf<Shape>>&, const Shape&, std::vector<ShapeHit<ScalarOf<Shape>>>&);
+SUREHIT_INSTANTIATE(SweptSphere<float>)
+SUREHIT_INSTANTIATE(SweptSphere<double>)
 #undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit::detail
