@@ -20,15 +20,15 @@ struct SweptExtents {
 };
 
 /// Visits all cells of a grid that a moving box comes to and that list triangles. It visits at least each cell that
-/// has a point which the box meets before t = `visitor.limit()`. SHAPES.md has the proof (W1 to W3).
+/// has a point which the box meets before t = `visitor.limit()`. SHAPES.md has the proof (W1 to W4).
 ///
 /// `visitor.visit_list(word)` gets the word of each cell, with its list. `visitor.is_done()` ends the walk.
-/// `visitor.count_cell()` counts a step.
+/// `visitor.count_cell()` counts a step. `slabs` has the slab of each list, or is null.
 template <typename Visitor>
 class SweptWalk {
  public:
-  SweptWalk(const Grid& grid, const SweptExtents& swept, Visitor& visitor)
-      : grid_(grid), swept_(swept), visitor_(visitor) {}
+  SweptWalk(const Grid& grid, const SweptExtents& swept, Visitor& visitor, const CellSlab* slabs = nullptr)
+      : grid_(grid), swept_(swept), visitor_(visitor), slabs_(slabs) {}
 
   /// Walks through the outermost grid, and through inner grids where the box comes to their cells. Returns false if the
   /// numbers are too large to be counted in cells. Then nothing was visited.
@@ -65,12 +65,14 @@ class SweptWalk {
       const double t = last * inverse;
       return {std::max(0.0, std::min(s, t)), std::min(1.0, std::max(s, t))};
     }
-    /// Returns the first and the last top cell that the box meets during some times, of `size` finest cells each.
-    [[nodiscard]] std::array<std::int64_t, 2> range(const Times& times, double size) const {
+    /// Returns the first and the last top cell that the box meets during some times. `inverse_size` is one over the
+    /// number of finest cells along a top cell, which is a power of two.
+    [[nodiscard]] std::array<std::int64_t, 2> range(const Times& times, double inverse_size) const {
       const double a = start + way * times.enters;
       const double b = start + way * times.leaves;
+      // Numbers below -1 count as -1, so the conversion, which cuts off, rounds down.
       const auto to_cell = [&](double x) {
-        return static_cast<std::int64_t>(std::clamp(std::floor(x / size), -1.0, static_cast<double>(cells)));
+        return static_cast<std::int64_t>(std::clamp(x * inverse_size, -1.0, static_cast<double>(cells)) + 1) - 1;
       };
       return {std::max<std::int64_t>(0, to_cell(std::min(a, b) - reach)),
               std::min<std::int64_t>(std::int64_t{cells} - 1, to_cell(std::max(a, b) + reach))};
@@ -108,17 +110,18 @@ class SweptWalk {
     const Axis& middle = axes[order[1]];
     const Axis& inner = axes[order[2]];
     const double size = frame.division;
-    const auto [first, last] = outer.range({0, std::min(1.0, visitor_.limit())}, size);
+    const double inverse_size = 1 / size;
+    const auto [first, last] = outer.range({0, std::min(1.0, visitor_.limit())}, inverse_size);
     for (std::int64_t count = last - first + 1, step = 0; step < count && !visitor_.is_done(); ++step) {
       const std::int64_t i = outer.way < 0 ? last - step : first + step;
       const Times in_slab = outer.during(static_cast<double>(i) * size, static_cast<double>(i + 1) * size);
       if (is_late(in_slab)) continue;
-      const auto [low, high] = middle.range(in_slab, size);
+      const auto [low, high] = middle.range(in_slab, inverse_size);
       for (std::int64_t j = low; j <= high; ++j) {
         const Times in_row =
             middle.during(static_cast<double>(j) * size, static_cast<double>(j + 1) * size).within(in_slab);
         if (is_late(in_row)) continue;
-        walk_row(frame, axes, {order[0], order[1], order[2]}, {i, j}, in_row, inner.range(in_row, size));
+        walk_row(frame, axes, {order[0], order[1], order[2]}, {i, j}, in_row, inner.range(in_row, inverse_size));
         if (visitor_.is_done()) return;
       }
     }
@@ -163,9 +166,30 @@ class SweptWalk {
     for (std::size_t i = 0; i < 3; ++i) {
       in_box = axes[i].during(low[i] + part * box.low(i), low[i] + part * box.high(i)).within(in_box);
     }
-    if (!is_late(in_box)) visitor_.visit_list(word);
+    if (!is_late(in_box) && meets_slab(axes, word, low, size, in_box)) visitor_.visit_list(word);
     if (!word.has_inner_grid() || visitor_.is_done()) return;
     if (!walk_frame(grid_.inner_frame(word))) visit_all_lists(grid_.inner_frame(word));
+  }
+
+  /// Returns false if the box does not come to the slab of a list during some times (W4).
+  [[nodiscard]] bool meets_slab(const std::array<Axis, 3>& axes, CellWord word, const std::array<double, 3>& low,
+                                double size, const Times& times) const {
+    if (slabs_ == nullptr) return true;
+    const CellSlab slab = slabs_[word.list()];
+    double height = 0;
+    double rate = 0;
+    double reach = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double normal = slab.normal(i);
+      height += normal * (axes[i].start - (low[i] + size / 2));
+      rate += normal * axes[i].way;
+      reach += std::fabs(normal) * axes[i].reach;
+    }
+    const double enters = height + times.enters * rate;
+    const double leaves = height + times.leaves * rate;
+    const double step = CellSlab::step * size;
+    return std::max(enters, leaves) >= slab.low() * step - reach &&
+           std::min(enters, leaves) <= (slab.high() + 1) * step + reach;
   }
 
   /// Visits all lists of an inner grid in whose cells the box cannot be counted.
@@ -216,6 +240,7 @@ class SweptWalk {
   const Grid& grid_;
   const SweptExtents& swept_;
   Visitor& visitor_;
+  const CellSlab* slabs_;
 };
 
 }  // namespace surehit

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "support/lane_bits-inl.hpp"
 
@@ -20,7 +21,21 @@ namespace surehit::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Tests triangles in lanes of doubles.
+/// What the numbers of the lanes decide. u is half the gap from 1 to the next greater number.
+template <typename Number>
+struct LanePrecision {
+  static constexpr double u = 0x1p-53;
+  static constexpr double smallest = 0x1p-150;  ///< Sizes must be above this,
+  static constexpr double largest = 0x1p200;    ///< and below this.
+};
+template <>
+struct LanePrecision<float> {
+  static constexpr double u = 0x1p-24;
+  static constexpr double smallest = ShapeFilter<float>::smallest_float;
+  static constexpr double largest = ShapeFilter<float>::largest_float;
+};
+
+/// Tests triangles in lanes of floats or doubles.
 ///
 /// An axis m separates the shape from the triangle if all corners have a lower product with m than every centre of the
 /// way has, by more than the reach r |m| + c(m). Here c(m) is how far the core comes along m: 0 for a point, the sum of
@@ -30,8 +45,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// during one interval of t. Where these intervals do not meet, the shape does not touch the triangle. It does not
 /// touch it before the latest of them begins.
 ///
-/// Let u = 2^-53. E is the largest component of an edge, W that of a centre less a corner, H that of h, and S that of
-/// the step.
+/// E is the largest component of an edge, W that of a centre less a corner, H that of h, and S that of
+/// the step. Let u be 2^-53 in double and 2^-24 in float.
 ///
 /// V1. n·w is off by less than 54 u E² W, D·n by as much with S for W, and (D × e)·w by less than 54 u S E W.
 /// Proof. A difference has one rounding. So a component of n has two products of two differences each, off by 3 u of
@@ -44,19 +59,25 @@ namespace hn = hwy::HWY_NAMESPACE;
 ///     most 4 E³. The products with w have 3 u of this more, and take part in two, two and one sums. That is 3 · 28 u
 ///     E³ W and (4 + 4 + 3) 4 u E³ W, or 128 u E³ W in all.
 ///
-/// V3. r |m| is off by less than 2^-49 of itself, and by r times what the components of m are off, for the axes above.
+/// V3. r |m| is off by less than 16 u of itself, and by r times what the components of m are off, for the axes above.
+///     |e × n| is |e| |n|, because n is across e.
 ///
 /// V4. c(m) is off by what V1 and V2 say of m·w, with H for W. It is a sum of the same products.
 ///
-/// So a reach of r |m| (1 + 2^-45) + c(m) + 2^-45 B (W + r + H) is enough, where B is E² for n, E³ for e × n and S E
+/// So a reach of r |m| (1 + 256 u) + c(m) + 256 u B (W + r + H) is enough, where B is E² for n, E³ for e × n and S E
 /// for D × e. On an axis of coordinates, the reach r + h_i has one rounding, and counts only if it is less than W.
-/// Coordinates outside of the sizes below may underflow or overflow, and are not tested. From 2^-150 on, no square in
-/// |m| underflows: (e × n)·(e × n) has six edges as factors, and is about 2^-900.
-template <typename Scalar, Core core>
+///
+/// Coordinates outside of the sizes of `LanePrecision` may underflow or overflow, and are not tested. Let E, W + r + H
+/// and S be inside, or S be 0. In double, the products of all sizes are above 2^-1000. In float, a product that
+/// underflows is off by at most 2^-149, and the root of a sum of squares by at most 2^-73. All terms with u are larger:
+/// 256 u E² r is the least one that has to cover a root of n·n, and 256 u S E r one of f·f.
+template <typename Scalar, typename Number, Core core>
 class FilterLanes {
-  static constexpr hn::ScalableTag<double> d{};
-  using V = hn::Vec<hn::ScalableTag<double>>;
-  using Mask = hn::Mask<hn::ScalableTag<double>>;
+  using Tag = hn::ScalableTag<Number>;
+  static constexpr Tag d{};
+  using V = hn::Vec<Tag>;
+  using Mask = hn::Mask<Tag>;
+  using Precision = LanePrecision<Number>;
   using Point = V[3];
 
  public:
@@ -71,12 +92,14 @@ class FilterLanes {
   }
 
  private:
-  static HWY_INLINE V load(const float* from) {
-    const hn::Rebind<float, hn::ScalableTag<double>> half;
-    return hn::PromoteTo(d, hn::LoadU(half, from));
+  static HWY_INLINE V load(const Scalar* from) {
+    if constexpr (std::is_same_v<Scalar, Number>) {
+      return hn::LoadU(d, from);
+    } else {
+      return hn::PromoteTo(d, hn::LoadU(hn::Rebind<Scalar, Tag>(), from));
+    }
   }
-  static HWY_INLINE V load(const double* from) { return hn::LoadU(d, from); }
-  static HWY_INLINE V set(double x) { return hn::Set(d, x); }
+  static HWY_INLINE V set(double x) { return hn::Set(d, static_cast<Number>(x)); }
   static HWY_INLINE V dot(const Point& x, const Point& y) {
     return hn::Add(hn::Add(hn::Mul(x[0], y[0]), hn::Mul(x[1], y[1])), hn::Mul(x[2], y[2]));
   }
@@ -99,18 +122,35 @@ class FilterLanes {
     V enters, leaves;
     Mask beside;  ///< The lanes that a constant distance keeps apart.
 
+    /// Returns the lanes that have nothing of the interval before a limit.
+    HWY_INLINE Mask outside_before(V limit) const {
+      return hn::Or(beside, hn::Or(hn::Gt(enters, leaves), hn::Gt(enters, limit)));
+    }
+    /// Returns true if these are all lanes.
+    HWY_INLINE bool is_empty_before(V limit) const { return hn::AllTrue(d, outside_before(limit)); }
+
     /// Cuts the interval to where a height that goes from `first` to `last` is at most `reach`.
     HWY_INLINE void keep_below(V first, V last, V reach) {
-      const V down = hn::Sub(first, last);
       const V above = hn::Sub(first, reach);
-      // A quotient with two rounded differences is off by 2^-50 of itself. A 0 / 0 is a NaN, and comparisons skip it.
-      const V t = hn::Div(above, down);
+      keep_until(hn::Div(above, hn::Sub(first, last)), above, hn::Sub(last, reach));
+    }
+    /// Does the same for a height that falls by the same amount for all triangles, where `inverse` is one over it.
+    HWY_INLINE void keep_below(V first, V last, V reach, V inverse) {
+      const V above = hn::Sub(first, reach);
+      keep_until(hn::Mul(above, inverse), above, hn::Sub(last, reach));
+    }
+
+   private:
+    /// Cuts the interval at t, where a height passes the reach. It is above the reach by `first` at t = 0 and by `last`
+    /// at t = 1.
+    HWY_INLINE void keep_until(V t, V first, V last) {
       const V zero = hn::Zero(d);
-      const Mask starts_above = hn::Gt(above, zero);
-      const Mask ends_above = hn::Gt(hn::Sub(last, reach), zero);
+      const Mask starts_above = hn::Gt(first, zero);
+      const Mask ends_above = hn::Gt(last, zero);
       beside = hn::Or(beside, hn::And(starts_above, ends_above));
-      const V in = hn::Mul(t, set(1 - 0x1p-49));
-      const V out = hn::Mul(t, set(1 + 0x1p-49));
+      // t has four roundings at most. A 0 / 0 is a NaN, and comparisons skip it.
+      const V in = hn::Mul(t, set(1 - 16 * Precision::u));
+      const V out = hn::Mul(t, set(1 + 16 * Precision::u));
       enters = hn::IfThenElse(hn::And(hn::AndNot(ends_above, starts_above), hn::Gt(in, enters)), in, enters);
       leaves = hn::IfThenElse(hn::And(hn::AndNot(starts_above, ends_above), hn::Lt(out, leaves)), out, leaves);
     }
@@ -142,39 +182,44 @@ class FilterLanes {
         reach_of_w = hn::Max(reach_of_w, hn::Max(hn::Abs(w[k][i]), hn::Abs(end[k][i])));
       }
       // On an axis of coordinates, the highest corner is below the centre by the lowest w.
-      const V slack = hn::Mul(reach_of_w, set(0x1p-50));
+      const V slack = hn::Mul(reach_of_w, set(8 * Precision::u));
       const V reach = hn::Add(set(shape.radius + std::fabs(shape.half[i])), slack);
       const auto lowest = [&](const Point* x) { return hn::Min(hn::Min(x[0][i], x[1][i]), x[2][i]); };
       const auto highest = [&](const Point* x) { return hn::Max(hn::Max(x[0][i], x[1][i]), x[2][i]); };
-      interval.keep_below(lowest(w), lowest(end), reach);
-      interval.keep_below(hn::Neg(highest(w)), hn::Neg(highest(end)), reach);
+      const V inverse = set(shape.inverse_step[i]);
+      interval.keep_below(lowest(w), lowest(end), reach, hn::Neg(inverse));
+      interval.keep_below(hn::Neg(highest(w)), hn::Neg(highest(end)), reach, inverse);
     }
+    // The limit may be rounded down, and this makes up for it.
+    const V last = set(limit * (1 + 4 * Precision::u));
+    if (interval.is_empty_before(last)) return 0;
     const V far = hn::Add(reach_of_w, set(shape.radius + shape.size_of_half));
     const V size_2 = hn::Mul(size, size);
     const V size_3 = hn::Mul(size_2, size);
-    const V error = hn::Mul(far, set(0x1p-45));
-    const V grown = set(shape.radius * (1 + 0x1p-45));
-    const V smallest = set(shape.is_usable ? 0x1p-150 : std::numeric_limits<double>::infinity());
-    const Mask is_usable = hn::And(hn::Gt(hn::Min(size, far), smallest), hn::Lt(hn::Max(size, far), set(0x1p200)));
+    const V error = hn::Mul(far, set(256 * Precision::u));
+    const V grown = set(shape.radius * (1 + 256 * Precision::u));
+    const V smallest = set(shape.is_usable ? Precision::smallest : std::numeric_limits<double>::infinity());
+    const Mask is_usable =
+        hn::And(hn::Gt(hn::Min(size, far), smallest), hn::Lt(hn::Max(size, far), set(Precision::largest)));
 
     Interval tilted = interval;
     Point n;
     cross(edge[0], edge[1], n);
-    const V nn = dot(n, n);
+    const V reach_of_n = hn::Mul(grown, hn::Sqrt(dot(n, n)));
     {
-      const V of_ball = hn::MulAdd(grown, hn::Sqrt(nn), hn::Mul(size_2, error));
+      const V of_ball = hn::MulAdd(size_2, error, reach_of_n);
       const V reach = hn::Add(of_ball, reach_of_core(n, half));
       const V first = dot(n, w[0]);
-      const V last = dot(n, end[0]);
-      tilted.keep_below(first, last, reach);
-      tilted.keep_below(hn::Neg(first), hn::Neg(last), reach);
+      const V at_end = dot(n, end[0]);
+      tilted.keep_below(first, at_end, reach);
+      tilted.keep_below(hn::Neg(first), hn::Neg(at_end), reach);
     }
     const V across = dot(n, step);
-    const V across_error = hn::Mul(hn::Mul(size_2, set(shape.size_of_step)), set(0x1p-45));
+    const V across_error = hn::Mul(hn::Mul(size_2, set(shape.size_of_step)), set(256 * Precision::u));
     for (std::size_t k = 0; k < 3; ++k) {
       Point outward;
       cross(edge[k], n, outward);
-      const V of_ball = hn::MulAdd(grown, hn::Sqrt(dot(outward, outward)), hn::Mul(size_3, error));
+      const V of_ball = hn::MulAdd(reach_of_n, hn::Sqrt(dot(edge[k], edge[k])), hn::Mul(size_3, error));
       const V reach = hn::Add(of_ball, reach_of_core(outward, half));
       tilted.keep_below(dot(outward, w[k]), dot(outward, end[k]), reach);
       // Along f = D × e, the corners of the edge are at 0, and the third corner is at D·n.
@@ -190,33 +235,35 @@ class FilterLanes {
     }
     interval.enters = hn::IfThenElse(is_usable, tilted.enters, interval.enters);
     interval.leaves = hn::IfThenElse(is_usable, tilted.leaves, interval.leaves);
-    const Mask beside = hn::Or(interval.beside, hn::And(is_usable, tilted.beside));
-    hn::StoreU(interval.enters, d, enters);
-    const Mask is_late = hn::Or(hn::Gt(interval.enters, interval.leaves), hn::Gt(interval.enters, set(limit)));
-    return ~bits_of(d, hn::Or(beside, is_late)) & ((std::uint64_t{1} << hn::Lanes(d)) - 1);
+    interval.beside = hn::Or(interval.beside, hn::And(is_usable, tilted.beside));
+    Number times[HWY_MAX_BYTES / sizeof(Number)];
+    hn::StoreU(interval.enters, d, times);
+    std::copy_n(times, hn::Lanes(d), enters);
+    return ~bits_of(d, interval.outside_before(last)) & ((std::uint64_t{1} << hn::Lanes(d)) - 1);
   }
 };
 
-template <typename Scalar>
+template <typename Scalar, typename Number>
 HWY_INLINE std::uint64_t find(const ShapeFilter<Scalar>& shape, const Scalar* corners, std::size_t count,
                               std::size_t from, double limit, double* enters) {
   switch (shape.core) {
     case Core::box:
-      return FilterLanes<Scalar, Core::box>::find(shape, corners, count, from, limit, enters);
+      return FilterLanes<Scalar, Number, Core::box>::find(shape, corners, count, from, limit, enters);
     case Core::segment:
-      return FilterLanes<Scalar, Core::segment>::find(shape, corners, count, from, limit, enters);
+      return FilterLanes<Scalar, Number, Core::segment>::find(shape, corners, count, from, limit, enters);
     case Core::point:
       break;
   }
-  return FilterLanes<Scalar, Core::point>::find(shape, corners, count, from, limit, enters);
+  return FilterLanes<Scalar, Number, Core::point>::find(shape, corners, count, from, limit, enters);
 }
 std::uint64_t find_floats(const ShapeFilter<float>& shape, const float* corners, std::size_t count, std::size_t from,
                           double limit, double* enters) {
-  return find(shape, corners, count, from, limit, enters);
+  if (shape.fits_float) return find<float, float>(shape, corners, count, from, limit, enters);
+  return find<float, double>(shape, corners, count, from, limit, enters);
 }
 std::uint64_t find_doubles(const ShapeFilter<double>& shape, const double* corners, std::size_t count, std::size_t from,
                            double limit, double* enters) {
-  return find(shape, corners, count, from, limit, enters);
+  return find<double, double>(shape, corners, count, from, limit, enters);
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE
@@ -241,11 +288,14 @@ void ShapeFilter<Scalar>::set(Core any_core, const Vector3<Scalar>& any_start, c
     end[i] = any_end[axis];
     half[i] = any_half[axis];
     step[i] = end[i] - start[i];
+    inverse_step[i] = 1 / step[i];
     size_of_half = std::max(size_of_half, std::fabs(half[i]));
     size_of_step = std::max(size_of_step, std::fabs(step[i]));
     largest = std::max({largest, std::fabs(start[i]), std::fabs(end[i]), std::fabs(half[i])});
   }
   is_usable = (size_of_step == 0 || size_of_step > 0x1p-200) && largest < 0x1p200;
+  fits_float = (size_of_step == 0 || size_of_step > smallest_float) &&
+               std::max({radius, size_of_half, size_of_step}) < largest_float;
 }
 
 template <typename Scalar>

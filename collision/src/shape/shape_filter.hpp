@@ -31,16 +31,21 @@ class ShapeFilter {
   [[nodiscard]] std::uint64_t find(const Scalar* corners, std::size_t count, std::size_t from, double limit,
                                    Times& enters) const;
 
+  static constexpr double smallest_float = 0x1p-20;  ///< Sizes above this can be tested in float,
+  static constexpr double largest_float = 0x1p20;    ///< if they are below this.
+
   // What the functions for each instruction set need.
-  Core core;                    ///< What the core is.
-  std::array<double, 3> start;  ///< The centre at t = 0.
-  std::array<double, 3> end;    ///< The centre at t = 1.
-  std::array<double, 3> step;   ///< The difference of the two, rounded.
-  std::array<double, 3> half;   ///< The half extents of a box, or half of a segment. A point has zeros.
-  double radius;                ///< The radius.
-  double size_of_half;          ///< The largest component of `half`.
-  double size_of_step;          ///< The largest component of the step.
-  bool is_usable;               ///< True if the sizes of these numbers are such that the bounds hold.
+  Core core;                           ///< What the core is.
+  std::array<double, 3> start;         ///< The centre at t = 0.
+  std::array<double, 3> end;           ///< The centre at t = 1.
+  std::array<double, 3> step;          ///< The difference of the two, rounded.
+  std::array<double, 3> inverse_step;  ///< One over each component of the step.
+  std::array<double, 3> half;          ///< The half extents of a box, or half of a segment. A point has zeros.
+  double radius;                       ///< The radius.
+  double size_of_half;                 ///< The largest component of `half`.
+  double size_of_step;                 ///< The largest component of the step.
+  bool is_usable;                      ///< True if the sizes of these numbers are such that the bounds hold.
+  bool fits_float;                     ///< The same for bounds in float.
 
  private:
   /// Sets all members.

@@ -178,7 +178,7 @@ template <typename Shape, typename Visitor>
 void walk(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape, Visitor& visitor) {
   ++query.statistics.paths;
   if (query.grid.is_empty() || !is_valid(shape) || !(query.options.max_t >= 0)) return;
-  if (!SweptWalk(query.grid, swept_extents(shape), visitor).walk()) visitor.visit_all();
+  if (!SweptWalk(query.grid, swept_extents(shape), visitor, query.mesh.slabs()).walk()) visitor.visit_all();
 }
 
 }  // namespace

@@ -32,11 +32,12 @@ class SphereTouch {
   /// Returns the part that is touched first, or nothing if the ball touches nothing. The bounds of t are not set.
   template <typename ComesBefore>
   [[nodiscard]] std::optional<SphereContact> find(const ComesBefore& comes_before) {
-    const Feature nearest = nearest_feature(terms_.from_corner);
-    if (reaches(nearest, terms_.from_corner)) return SphereContact{0, 0, nearest, nearest, true};
+    // A ball that comes to the plane from outside of its reach does not touch the triangle at the start.
     if (outline_.has_face) {
       if (const std::optional<Feature> feature = enters_face()) return SphereContact{0, 0, *feature, Feature::face};
     }
+    const Feature nearest = nearest_feature(terms_.from_corner);
+    if (reaches(nearest, terms_.from_corner)) return SphereContact{0, 0, nearest, nearest, true};
     std::optional<Feature> first;
     const auto take = [&](Feature feature) {
       if (!first || comes_before(feature, *first)) first = feature;
