@@ -4,8 +4,8 @@
 #include <cstddef>
 
 #include "exact/exact_scale.hpp"
-#include "exact/quadratic_root.hpp"
-#include "exact/root_rounding.hpp"
+#include "shape/exact_approach.hpp"
+#include "shape/outline.hpp"
 #include "shape/sphere_touch.hpp"
 #include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
@@ -40,7 +40,7 @@ class ExactSphere {
     }
     set_difference(terms_.step, sphere.end, sphere.start, unit);
     set_integer(terms_.radius, sphere.radius, unit);
-    if (is_zero(normal_of(terms_))) set_degenerate_outline(corners);
+    if (is_zero(normal_of(terms_))) outline_ = outline_without_area(triangle);
   }
   ExactSphere(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle)
       : ExactSphere(sphere, triangle, unit_of(sphere, triangle)) {}
@@ -73,30 +73,13 @@ class ExactSphere {
 
   /// Returns the equation of the t at which the ball comes to a part (S3).
   [[nodiscard]] SUREHIT_NOINLINE Root<Scalar> root(Feature part) const {
-    Root<Scalar> root;
+    constexpr int bits = Bits::quadratic;
     const auto rr = terms_.radius * terms_.radius;
     const auto& d = terms_.step;
-    if (is_corner(part)) {
-      const auto& w = terms_.from_corner[index_of(part)];
-      root.a = dot(d, d);
-      root.b = dot(d, w);
-      root.c = dot(w, w) - rr;
-    } else if (is_edge(part)) {
-      const auto& e = terms_.edge[index_of(part)];
-      const auto f = cross(d, e);
-      const auto moment = cross(terms_.from_corner[index_of(part)], e);
-      root.a = dot(f, f);
-      root.b = dot(f, moment);
-      root.c = dot(moment, moment) - rr * dot(e, e);
-    } else {
-      const auto n = normal_of(terms_);
-      const auto height = dot(n, terms_.from_corner[0]);
-      const auto rate = dot(n, d);
-      root.a = rate * rate;
-      root.b = height * rate;
-      root.c = height * height - rr * dot(n, n);
-    }
-    return root;
+    if (part == Feature::face) return root_of_plane<bits>(terms_.from_corner[0], d, rr, normal_of(terms_));
+    const auto& w = terms_.from_corner[index_of(part)];
+    if (is_corner(part)) return root_of_point<bits>(w, d, rr);
+    return root_of_line<bits>(w, d, rr, terms_.edge[index_of(part)]);
   }
 
   /// Sets the weights of b and c at the touched point (S7).
@@ -141,39 +124,10 @@ class ExactSphere {
   /// Returns (x + t y) / z, rounded once. It is in [0, 1], and z is positive.
   [[nodiscard]] SUREHIT_NOINLINE Scalar rounded_weight(const SphereContact& contact, const Volume& x, const Volume& y,
                                                        const Volume& z) const {
-    if (contact.at_start || y.is_zero()) return rounded_quotient<Scalar>(x, z);
-    // t is (-b - √d) / a, so this is (a x - b y - y √d) / (a z).
+    constexpr int bits = Bits::quadratic;
+    if (contact.at_start) return detail::rounded_weight<Scalar, bits>(nullptr, x, y, z);
     const Root<Scalar> t = root(contact.timed_by);
-    constexpr int bits = Bits::quadratic + Bits::volume + 2;
-    RootNumber<bits, Bits::volume + 1, 2 * Bits::quadratic + 1, bits> weight;
-    weight.p = t.a * x;
-    {
-      const auto product = t.b * y;
-      weight.p.add(product, true);
-    }
-    weight.q = negated(y);
-    weight.d = t.discriminant();
-    weight.r = t.a * z;
-    return weight.template rounded<Scalar>();
-  }
-
-  /// Keeps the edge between the extreme corners, in lexicographic order, or the first corner.
-  void set_degenerate_outline(const std::array<const Vector3<Scalar>*, 3>& corners) {
-    const auto before = [](const Vector3<Scalar>& x, const Vector3<Scalar>& y) {
-      return x[0] != y[0] ? x[0] < y[0] : x[1] != y[1] ? x[1] < y[1] : x[2] < y[2];
-    };
-    std::size_t min = 0;
-    std::size_t max = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-      if (before(*corners[k], *corners[min])) min = k;
-      if (before(*corners[max], *corners[k])) max = k;
-    }
-    outline_.has_face = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t end = k == 2 ? 0 : k + 1;
-      outline_.corners[k] = k == min || k == max;
-      outline_.edges[k] = min != max && ((k == min && end == max) || (k == max && end == min));
-    }
+    return detail::rounded_weight<Scalar>(&t, x, y, z);
   }
 
   IntTerms<Scalar> terms_;

@@ -302,6 +302,10 @@ template <typename Scalar>
 ShapeFilter<Scalar>::ShapeFilter(const SweptSphere<Scalar>& sphere) {
   set(Core::point, sphere.start, sphere.end, {0, 0, 0}, sphere.radius);
 }
+template <typename Scalar>
+ShapeFilter<Scalar>::ShapeFilter(const SweptCapsule<Scalar>& capsule) {
+  set(Core::segment, capsule.start, capsule.end, capsule.half_axis, capsule.radius);
+}
 
 template <>
 std::uint64_t ShapeFilter<float>::find(const float* corners, std::size_t count, std::size_t from, double limit,
@@ -316,6 +320,8 @@ std::uint64_t ShapeFilter<double>::find(const double* corners, std::size_t count
 
 template ShapeFilter<float>::ShapeFilter(const SweptSphere<float>&);
 template ShapeFilter<double>::ShapeFilter(const SweptSphere<double>&);
+template ShapeFilter<float>::ShapeFilter(const SweptCapsule<float>&);
+template ShapeFilter<double>::ShapeFilter(const SweptCapsule<double>&);
 
 }  // namespace surehit::detail
 #endif

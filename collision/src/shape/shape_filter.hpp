@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "surehit/swept_capsule.hpp"
 #include "surehit/swept_sphere.hpp"
 
 namespace surehit::detail {
@@ -21,6 +22,7 @@ template <typename Scalar>
 class ShapeFilter {
  public:
   explicit ShapeFilter(const SweptSphere<Scalar>& sphere);
+  explicit ShapeFilter(const SweptCapsule<Scalar>& capsule);
 
   static constexpr std::size_t max_count = 64;  ///< The maximum number of triangles in a call.
   /// The times of a call. The shape does not touch triangle i of the call before `enters[i]`.

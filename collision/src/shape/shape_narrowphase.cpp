@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "shape/bounded_capsule.hpp"
 #include "shape/bounded_sphere.hpp"
+#include "shape/exact_capsule.hpp"
 #include "shape/exact_sphere.hpp"
 #include "support/rounding_flags.hpp"
 
@@ -80,5 +82,7 @@ ShapeHit<ScalarOf<Shape>> ShapeNarrowphase<Shape>::hit(const ShapeCandidate<Shap
 
 template class ShapeNarrowphase<SweptSphere<float>>;
 template class ShapeNarrowphase<SweptSphere<double>>;
+template class ShapeNarrowphase<SweptCapsule<float>>;
+template class ShapeNarrowphase<SweptCapsule<double>>;
 
 }  // namespace surehit::detail

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "shape/capsule_contact.hpp"
 #include "shape/shape_filter.hpp"
 #include "shape/shape_narrowphase.hpp"
 #include "shape/sphere_contact.hpp"
@@ -219,6 +220,8 @@ void search_all(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape,
   template void search_all(const ShapeQuery<ScalarOf<Shape>>&, const Shape&, std::vector<ShapeHit<ScalarOf<Shape>>>&);
 SUREHIT_INSTANTIATE(SweptSphere<float>)
 SUREHIT_INSTANTIATE(SweptSphere<double>)
+SUREHIT_INSTANTIATE(SweptCapsule<float>)
+SUREHIT_INSTANTIATE(SweptCapsule<double>)
 #undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit::detail

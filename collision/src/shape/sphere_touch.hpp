@@ -1,21 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 
+#include "shape/outline.hpp"
 #include "shape/sphere_contact.hpp"
 #include "shape/sphere_terms.hpp"
 
 namespace surehit::detail {
-
-/// The corners and edges of a triangle that count. A triangle without area is a segment: the edge between its two
-/// extreme corners. If it has no length either, it is the first corner.
-struct Outline {
-  bool has_face = true;                              ///< True if the triangle has an area.
-  std::array<bool, 3> edges = {true, true, true};    ///< The edges that count.
-  std::array<bool, 3> corners = {true, true, true};  ///< The corners that count.
-};
 
 /// Decides whether a moving ball touches a triangle, and where first. Follows SHAPES.md, whose lemmas it cites. The
 /// numbers are either exact integers, or doubles with bounds. With the latter, an answer counts only if all signs were

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+
+#include "shape/shape_contact.hpp"
+#include "surehit/shape_hit.hpp"
+#include "surehit/swept_capsule.hpp"
+#include "surehit/triangle.hpp"
+#include "walk/swept_walk.hpp"
+
+namespace surehit::detail {
+
+/// A part of a capsule's core: the segment from centre - half_axis to centre + half_axis.
+enum class CorePart : std::uint8_t {
+  low_end,   ///< centre - half_axis
+  high_end,  ///< centre + half_axis
+  inside,    ///< What is between the ends.
+  centre,    ///< The centre alone. It counts where the core is parallel to the part of the triangle.
+};
+
+/// A contact of a moving capsule with a triangle. It holds what decides which of two hits is first. If they do not
+/// touch at the start, t is the root of the equation of the two parts.
+struct CapsuleContact {
+  double t_lower = 0;                 ///< The exact t is at least this.
+  double t_upper = 0;                 ///< The exact t is at most this.
+  Feature feature = Feature::face;    ///< The part of the triangle that has the touched point.
+  CorePart core = CorePart::low_end;  ///< The part of the core that is nearest to the touched point.
+  bool at_start = false;              ///< True if they touch at t = 0.
+};
+
+template <typename AnyScalar>
+struct ShapeTypes<SweptCapsule<AnyScalar>> {
+  using Scalar = AnyScalar;
+  using Contact = CapsuleContact;
+};
+
+/// Returns true if a capsule can touch something: all numbers are finite, and the radius is not negative.
+template <typename Scalar>
+[[nodiscard]] bool is_valid(const SweptCapsule<Scalar>& capsule);
+/// Returns the box around a capsule, and its way.
+template <typename Scalar>
+[[nodiscard]] SweptExtents swept_extents(const SweptCapsule<Scalar>& capsule);
+/// Returns true if two triangles share the corner or the edge whose equation has t as a root, with the same part of the
+/// core. Neighbours often do. Then the capsule comes to both at the same time.
+template <typename Scalar>
+[[nodiscard]] bool are_timed_alike(const Triangle<Scalar>& x_triangle, const CapsuleContact& x,
+                                   const Triangle<Scalar>& y_triangle, const CapsuleContact& y);
+
+}  // namespace surehit::detail

@@ -1,0 +1,224 @@
+#include "shape/exact_capsule.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "exact/exact_scale.hpp"
+#include "shape/capsule_touch.hpp"
+#include "shape/exact_approach.hpp"
+#include "shape/exact_sphere.hpp"
+#include "shape/outline.hpp"
+#include "support/rounding_flags.hpp"
+
+namespace surehit::detail {
+namespace {
+
+/// The numbers of bits of the exact terms. A sum of k terms adds k - 1 to the bits of its terms.
+template <typename Scalar>
+struct CapsuleBits {
+  static constexpr int coordinate = AnySize<Scalar>::coordinate;
+  static constexpr int difference = coordinate + 2;     ///< Of an end of the core less a corner.
+  static constexpr int quadratic = 6 * difference + 8;  ///< Of (n·w)² - r² n·n, the longest coefficient.
+  static constexpr int volume = 4 * difference + 5;     ///< Of n·(w × e) and of e·e.
+};
+
+template <typename Scalar>
+using IntTerms = CapsuleTerms<WideInt<CapsuleBits<Scalar>::coordinate + 1>, WideInt<CapsuleBits<Scalar>::coordinate>>;
+template <typename Scalar>
+using Root = QuadraticRoot<CapsuleBits<Scalar>::quadratic>;
+
+/// A capsule and a triangle in integers. `unit` is their unit, or that of a larger set of numbers.
+template <typename Scalar>
+class ExactCapsule {
+ public:
+  ExactCapsule(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const BinaryUnit& unit) {
+    const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
+    for (std::size_t k = 0; k < 3; ++k) {
+      set_difference(terms_.from_corner[k], capsule.start, *corners[k], unit);
+      set_difference(terms_.to_end[k], capsule.end, *corners[k], unit);
+      set_difference(terms_.edge[k], *corners[k == 2 ? 0 : k + 1], *corners[k], unit);
+    }
+    set_difference(terms_.step, capsule.end, capsule.start, unit);
+    const Vector3<Scalar> zero = {0, 0, 0};
+    set_difference(terms_.half_axis, capsule.half_axis, zero, unit);
+    set_integer(terms_.radius, capsule.radius, unit);
+    if (is_zero(normal_of(terms_))) outline_ = outline_without_area(triangle);
+  }
+  ExactCapsule(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle)
+      : ExactCapsule(capsule, triangle, unit_of(capsule, triangle)) {}
+
+  template <typename... Triangles>
+  static BinaryUnit unit_of(const SweptCapsule<Scalar>& capsule, const Triangles&... triangles) {
+    BinaryUnit unit;
+    unit.include(capsule.start);
+    unit.include(capsule.end);
+    unit.include(capsule.half_axis);
+    unit.include<Scalar>({capsule.radius, 0, 0});
+    (unit.include(triangles), ...);
+    if (unit.is_empty()) unit.exponent = 0;
+    return unit;
+  }
+
+  [[nodiscard]] std::optional<CapsuleContact> find() const {
+    const auto comes_before = [&](const CapsuleContact& x, const CapsuleContact& y) { return is_before(x, y); };
+    std::optional<CapsuleContact> contact = CapsuleTouch(terms_, outline_).find(comes_before);
+    if (contact && !contact->at_start) set_bounds(*contact);
+    return contact;
+  }
+
+  /// Returns the equation of the t at which two parts come within the radius (C3).
+  [[nodiscard]] SUREHIT_NOINLINE Root<Scalar> root(const CapsuleContact& contact) const {
+    const auto rr = terms_.radius * terms_.radius;
+    const auto& d = terms_.step;
+    constexpr int bits = Bits::quadratic;
+    const bool is_inside = contact.core == CorePart::inside;
+    if (is_corner(contact.feature)) {
+      const std::size_t corner = index_of(contact.feature);
+      if (is_inside) return root_of_line<bits>(terms_.from_corner[corner], d, rr, terms_.half_axis);
+      return root_of_point<bits>(from_corner(corner, contact.core), d, rr);
+    }
+    if (is_edge(contact.feature)) {
+      const std::size_t edge = index_of(contact.feature);
+      const auto& e = terms_.edge[edge];
+      if (is_inside) return root_of_plane<bits>(terms_.from_corner[edge], d, rr, cross(e, terms_.half_axis));
+      return root_of_line<bits>(from_corner(edge, contact.core), d, rr, e);
+    }
+    return root_of_plane<bits>(from_corner(0, contact.core), d, rr, normal_of(terms_));
+  }
+
+  /// Sets t, u and v of a hit.
+  void round(const CapsuleContact& contact, ShapeHit<Scalar>& hit) const {
+    hit.t = 0;
+    hit.u = contact.feature == Feature::corner_b ? Scalar{1} : Scalar{0};
+    hit.v = contact.feature == Feature::corner_c ? Scalar{1} : Scalar{0};
+    if (contact.at_start) return round_weights(contact, nullptr, hit);
+    const Root<Scalar> t = root(contact);
+    hit.t = t.template rounded<Scalar>();
+    round_weights(contact, &t, hit);
+  }
+
+ private:
+  using Bits = CapsuleBits<Scalar>;
+  using Volume = WideInt<Bits::volume>;
+
+  [[nodiscard]] auto from_corner(std::size_t corner, CorePart core) const {
+    return moved_to(core, terms_.from_corner[corner], terms_.half_axis);
+  }
+  [[nodiscard]] SUREHIT_NOINLINE bool is_before(const CapsuleContact& x, const CapsuleContact& y) const {
+    return RootOrder(root(x), root(y)).sign() < 0;
+  }
+  SUREHIT_NOINLINE void set_bounds(CapsuleContact& contact) const {
+    const DoubleRange t = root(contact).range();
+    contact.t_lower = t.lower;
+    contact.t_upper = std::min(t.upper, 1.0);
+  }
+
+  /// Sets the weights of b and c at the touched point, unless it is a corner (C5).
+  void round_weights(const CapsuleContact& contact, const Root<Scalar>* t, ShapeHit<Scalar>& hit) const {
+    if (is_edge(contact.feature)) return round_weights_of_edge(contact, t, hit);
+    if (contact.feature != Feature::face) return;
+    const auto n = normal_of(terms_);
+    const auto w = from_corner(0, contact.core);
+    const auto& d = terms_.step;
+    // Where the core crosses the triangle, A takes the place of n.
+    const bool crosses = contact.core == CorePart::inside;
+    const auto weight = [&](const auto& edge) {
+      if (!crosses) {
+        const Volume nn = dot(n, n);
+        return rounded_weight<Scalar, Bits::quadratic, Bits::volume>(t, dot(n, cross(edge, w)), dot(n, cross(edge, d)),
+                                                                     nn);
+      }
+      return rounded_quotient<Scalar>(dot(terms_.half_axis, cross(edge, w)), dot(terms_.half_axis, n));
+    };
+    hit.u = weight(terms_.edge[2]);
+    hit.v = weight(terms_.edge[0]);
+  }
+  SUREHIT_NOINLINE void round_weights_of_edge(const CapsuleContact& contact, const Root<Scalar>* t,
+                                              ShapeHit<Scalar>& hit) const {
+    const std::size_t edge = index_of(contact.feature);
+    const auto& e = terms_.edge[edge];
+    Volume at_start;
+    Volume rate;
+    Volume square;
+    if (contact.core == CorePart::inside) {
+      const auto m = cross(e, terms_.half_axis);
+      const auto across = cross(terms_.half_axis, m);
+      at_start = dot(across, terms_.from_corner[edge]);
+      rate = dot(across, terms_.step);
+      square = dot(m, m);
+    } else {
+      at_start = dot(e, from_corner(edge, contact.core));
+      rate = dot(e, terms_.step);
+      square = dot(e, e);
+    }
+    // An edge begins at one corner and ends at the next one. The weights of both are rounded by themselves.
+    const auto toward_end = [&] {
+      return rounded_weight<Scalar, Bits::quadratic, Bits::volume>(t, at_start, rate, square);
+    };
+    const auto toward_start = [&] {
+      Volume from_end = square;
+      from_end.add(at_start, true);
+      return rounded_weight<Scalar, Bits::quadratic, Bits::volume>(t, from_end, negated(rate), square);
+    };
+    if (edge == 0) hit.u = toward_end();
+    if (edge == 1) hit.u = toward_start();
+    if (edge == 1) hit.v = toward_end();
+    if (edge == 2) hit.v = toward_start();
+  }
+
+  IntTerms<Scalar> terms_;
+  Outline outline_;
+};
+
+}  // namespace
+
+template <typename Scalar>
+std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
+  return ExactCapsule<Scalar>(capsule, triangle).find();
+}
+
+template <typename Scalar>
+int compare_times(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& x_triangle, const CapsuleContact& x,
+                  const Triangle<Scalar>& y_triangle, const CapsuleContact& y) {
+  if (x.at_start || y.at_start) return static_cast<int>(y.at_start) - static_cast<int>(x.at_start);
+  const BinaryUnit unit = ExactCapsule<Scalar>::unit_of(capsule, x_triangle, y_triangle);
+  const Root<Scalar> x_root = ExactCapsule<Scalar>(capsule, x_triangle, unit).root(x);
+  const Root<Scalar> y_root = ExactCapsule<Scalar>(capsule, y_triangle, unit).root(y);
+  return RootOrder(x_root, y_root).sign();
+}
+
+template <typename Scalar>
+int compare_time(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const CapsuleContact& contact,
+                 Scalar limit) {
+  if (contact.at_start) return limit > 0 ? -1 : 0;
+  if (!(limit > 0)) return 1;
+  const Decomposed<Scalar> parts(limit);
+  const Root<Scalar> root = ExactCapsule<Scalar>(capsule, triangle).root(contact);
+  return root.template compare<Scalar>({parts.significand, parts.exponent});
+}
+
+template <typename Scalar>
+int sign_along(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
+  return sign_along(SweptSphere<Scalar>{capsule.start, capsule.end, capsule.radius}, triangle);
+}
+
+template <typename Scalar>
+void round_exactly(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const CapsuleContact& contact,
+                   ShapeHit<Scalar>& hit) {
+  ExactCapsule<Scalar>(capsule, triangle).round(contact, hit);
+}
+
+#define SUREHIT_INSTANTIATE(Scalar)                                                                               \
+  template std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>&, const Triangle<Scalar>&);     \
+  template int compare_times(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&,         \
+                             const Triangle<Scalar>&, const CapsuleContact&);                                     \
+  template int compare_time(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&, Scalar); \
+  template int sign_along(const SweptCapsule<Scalar>&, const Triangle<Scalar>&);                                  \
+  template void round_exactly(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&,        \
+                              ShapeHit<Scalar>&);
+SUREHIT_INSTANTIATE(float)
+SUREHIT_INSTANTIATE(double)
+#undef SUREHIT_INSTANTIATE
+
+}  // namespace surehit::detail

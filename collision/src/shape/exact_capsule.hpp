@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "shape/capsule_contact.hpp"
+#include "surehit/swept_capsule.hpp"
+#include "surehit/triangle.hpp"
+
+namespace surehit::detail {
+
+// Decides moving capsules and triangles with integers. The input must be finite, and radii must not be negative. Any
+// such input is allowed: triangles without area, capsules that rest or have no length, radius 0, and numbers of all
+// sizes.
+
+/// Returns the contact of a capsule with a triangle, or nothing if they do not touch.
+template <typename Scalar>
+[[nodiscard]] std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>& capsule,
+                                                          const Triangle<Scalar>& triangle);
+
+/// Returns the sign of t of x less t of y.
+template <typename Scalar>
+[[nodiscard]] int compare_times(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& x_triangle,
+                                const CapsuleContact& x, const Triangle<Scalar>& y_triangle, const CapsuleContact& y);
+
+/// Returns the sign of t less a Scalar in [0, 1].
+template <typename Scalar>
+[[nodiscard]] int compare_time(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
+                               const CapsuleContact& contact, Scalar limit);
+
+/// Returns the sign of the step times the triangle's normal. It is 0 for a triangle without area.
+template <typename Scalar>
+[[nodiscard]] int sign_along(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle);
+
+/// Sets t, u and v of a hit to those of a contact, each rounded once.
+template <typename Scalar>
+void round_exactly(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const CapsuleContact& contact,
+                   ShapeHit<Scalar>& hit);
+
+}  // namespace surehit::detail

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "surehit/shape_hit.hpp"
+#include "surehit/swept_capsule.hpp"
+#include "surehit/triangle.hpp"
+
+namespace surehit::test {
+
+/// Says what is wrong with an answer about a moving capsule and a triangle, or returns nothing if it is right in every
+/// field. All numbers must be finite, and the radius must not be negative.
+///
+/// The core of a moving capsule sweeps over a parallelogram. Yes or no, and the rounding of t, follow from the distance
+/// between parallelograms and the triangle, in integers. The weights and the feature come from floats of many thousand
+/// bits. It shares nothing with the library. Call it in the default floating-point environment.
+template <typename Scalar>
+[[nodiscard]] std::optional<std::string> find_error(const SweptCapsule<Scalar>& capsule,
+                                                    const Triangle<Scalar>& triangle,
+                                                    const std::optional<ShapeHit<Scalar>>& answer);
+
+/// Whether the capsule comes to x at a lower t than to y. It must touch both, and neither at its start.
+template <typename Scalar>
+[[nodiscard]] bool comes_before(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& x,
+                                const Triangle<Scalar>& y);
+
+}  // namespace surehit::test
