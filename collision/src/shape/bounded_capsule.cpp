@@ -1,17 +1,155 @@
 #include "shape/bounded_capsule.hpp"
 
+#include <algorithm>
+
+#include "shape/bounded_approach.hpp"
+#include "shape/capsule_touch.hpp"
+#include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
+namespace {
+
+template <typename Number>
+using TermsOf = CapsuleTerms<Number, Number>;
+
+template <typename Number, typename Scalar>
+TermsOf<Number> terms_of(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
+  TermsOf<Number> terms;
+  set_terms<Number>(terms, capsule, triangle);
+  for (std::size_t i = 0; i < 3; ++i) {
+    set_exact(terms.half_axis[i], double{capsule.half_axis[static_cast<Eigen::Index>(i)]});
+  }
+  return terms;
+}
+
+/// Returns whether the premise of Z2 holds.
+bool has_usual_sizes(const TermsOf<Sized>& terms) {
+  SizeRange range;
+  range.include(static_cast<const SphereTerms<Sized, Sized>&>(terms));
+  range.include(terms.half_axis);
+  return range.is_usual();
+}
+bool has_usual_sizes(const TermsOf<Bounded>&) { return true; }
+
+template <typename Number>
+Vector<Number> from_corner(const TermsOf<Number>& terms, std::size_t corner, CorePart core) {
+  return moved_to(core, terms.from_corner[corner], terms.half_axis);
+}
+
+/// Returns bounds of the t at which two parts come within the radius (C3).
+template <typename Number>
+DoubleRange time_of(const TermsOf<Number>& terms, const CapsuleContact& contact) {
+  const bool is_inside = contact.core == CorePart::inside;
+  if (contact.feature == Feature::face) {
+    return time_to_plane(from_corner(terms, 0, contact.core), terms.step, normal_of(terms), terms.radius);
+  }
+  const std::size_t index = index_of(contact.feature);
+  const Vector<Number> w = from_corner(terms, index, contact.core);
+  if (is_corner(contact.feature)) {
+    if (is_inside) return time_to_line(w, terms.step, terms.half_axis, terms.radius);
+    return time_to_point(w, terms.step, terms.radius);
+  }
+  const Vector<Number>& e = terms.edge[index];
+  if (is_inside) return time_to_plane(w, terms.step, cross(e, terms.half_axis), terms.radius);
+  return time_to_line(w, terms.step, e, terms.radius);
+}
+
+/// Rounds the weights of a contact at the inside of the triangle (C5).
+template <typename Number, typename Scalar>
+bool try_round_weights_of_face(const TermsOf<Number>& terms, const CapsuleContact& contact, ShapeHit<Scalar>& hit) {
+  const DoubleRange t = {contact.t_lower, contact.t_upper};
+  const Vector<Number> n = normal_of(terms);
+  const Vector<Number> w = from_corner(terms, 0, contact.core);
+  // Where the core crosses the triangle, A takes the place of n.
+  const Vector<Number>& along = contact.core == CorePart::inside ? terms.half_axis : n;
+  Number square = dot(along, n);
+  const bool is_negative = square.value < 0;
+  if (is_negative) square = -square;
+  const auto try_weight = [&](const Vector<Number>& edge, Scalar& weight) {
+    Number at_start = dot(along, cross(edge, w));
+    Number rate = dot(along, cross(edge, terms.step));
+    if (is_negative) {
+      at_start = -at_start;
+      rate = -rate;
+    }
+    return try_round(weight_of(at_start, rate, t, square), weight);
+  };
+  return try_weight(terms.edge[2], hit.u) && try_weight(terms.edge[0], hit.v);
+}
+
+/// Rounds the weights of a contact at an edge (C5).
+template <typename Number, typename Scalar>
+bool try_round_weights_of_edge(const TermsOf<Number>& terms, const CapsuleContact& contact, ShapeHit<Scalar>& hit) {
+  const DoubleRange t = {contact.t_lower, contact.t_upper};
+  const std::size_t edge = index_of(contact.feature);
+  const Vector<Number>& e = terms.edge[edge];
+  const bool is_inside = contact.core == CorePart::inside;
+  const Vector<Number> along = is_inside ? cross(terms.half_axis, cross(e, terms.half_axis)) : e;
+  const Number square = dot(along, e);
+  const Number at_start = dot(along, from_corner(terms, edge, contact.core));
+  const Number rate = dot(along, terms.step);
+  const auto try_toward_end = [&](Scalar& weight) { return try_round(weight_of(at_start, rate, t, square), weight); };
+  const auto try_toward_start = [&](Scalar& weight) {
+    return try_round(weight_of(square - at_start, -rate, t, square), weight);
+  };
+  if (edge == 0) return try_toward_end(hit.u);
+  if (edge == 1) return try_toward_start(hit.u) && try_toward_end(hit.v);
+  return try_toward_start(hit.v);
+}
+
+/// Rounds the weights of a contact that is not at a corner.
+template <typename Number, typename Scalar>
+SUREHIT_NOINLINE bool try_round_weights(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
+                                        const CapsuleContact& contact, ShapeHit<Scalar>& hit) {
+  const TermsOf<Number> terms = terms_of<Number>(capsule, triangle);
+  if (!has_usual_sizes(terms)) return false;
+  return is_edge(contact.feature) ? try_round_weights_of_edge(terms, contact, hit)
+                                  : try_round_weights_of_face(terms, contact, hit);
+}
+
+template <typename Number, typename Scalar>
+SUREHIT_NOINLINE Verdict find_contact(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
+                                      CapsuleContact& found) {
+  const TermsOf<Number> terms = terms_of<Number>(capsule, triangle);
+  if (!has_usual_sizes(terms)) return Verdict::undecided;
+  bool has_face = false;
+  for (const Number& x : normal_of(terms)) has_face |= x.sign().value_or(0) != 0;
+  if (!has_face) return Verdict::undecided;
+  constexpr Outline outline;
+  bool is_alone = true;
+  const auto comes_before = [&](const CapsuleContact&, const CapsuleContact&) { return is_alone = false; };
+  CapsuleTouch touch(terms, outline);
+  const std::optional<CapsuleContact> contact = touch.find(comes_before);
+  if (!touch.is_certain() || !(is_alone || touch.is_final())) return Verdict::undecided;
+  if (!contact) return Verdict::miss;
+  found = *contact;
+  if (!found.at_start) {
+    const DoubleRange t = settled(time_of(terms, found));
+    found.t_lower = t.lower;
+    found.t_upper = std::min(t.upper, 1.0);
+  }
+  return Verdict::hit;
+}
+
+}  // namespace
 
 template <typename Scalar>
-Verdict bounded_contact(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, CapsuleContact&) {
-  return Verdict::undecided;
+Verdict bounded_contact(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, CapsuleContact& found) {
+  const Verdict verdict = find_contact<Sized>(capsule, triangle, found);
+  return verdict != Verdict::undecided ? verdict : find_contact<Bounded>(capsule, triangle, found);
 }
 
 template <typename Scalar>
-bool try_round(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&, ShapeHit<Scalar>&) {
-  return false;
+bool try_round(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const CapsuleContact& contact,
+               ShapeHit<Scalar>& hit) {
+  hit.t = static_cast<Scalar>(contact.t_lower);
+  if (hit.t != static_cast<Scalar>(contact.t_upper)) return false;
+  hit.u = contact.feature == Feature::corner_b ? Scalar{1} : Scalar{0};
+  hit.v = contact.feature == Feature::corner_c ? Scalar{1} : Scalar{0};
+  if (is_corner(contact.feature)) return true;
+  return try_round_weights<Sized>(capsule, triangle, contact, hit) ||
+         try_round_weights<Bounded>(capsule, triangle, contact, hit);
 }
 
 template Verdict bounded_contact(const SweptCapsule<float>&, const Triangle<float>&, CapsuleContact&);

@@ -75,22 +75,23 @@ class CapsuleTouch {
     end();
     const bool has_certain_start = is_certain_;
     first.reset();
-    bool is_final = false;
     const auto take_first = [&](const CapsuleContact& contact) {
       begin();
       if (!enters(contact)) return false;
-      is_final = is_strict_ && signs_.is_certain();
-      if (is_final || !first || comes_before(contact, *first)) first = contact;
-      return is_final;
+      is_final_ = is_strict_ && signs_.is_certain();
+      if (is_final_ || !first || comes_before(contact, *first)) first = contact;
+      return is_final_;
     };
     for_each_part(false, take_first);
     end();
-    if (is_final) is_certain_ = has_certain_start;
+    if (is_final_) is_certain_ = has_certain_start;
     return first;
   }
 
   /// Returns true if all signs that the answer needs were certain.
   [[nodiscard]] bool is_certain() const { return is_certain_; }
+  /// Returns true if the contact was found without an order of roots.
+  [[nodiscard]] bool is_final() const { return is_final_; }
 
  private:
   /// t = 0 as a time.
@@ -346,6 +347,7 @@ class CapsuleTouch {
   Approach<typename decltype(Terms::step)::value_type, decltype(Terms::radius)> approach_;
   Signs signs_;             ///< The signs that were asked about the parts in question.
   bool is_certain_ = true;  ///< True if all signs before these were certain, as far as they count.
+  bool is_final_ = false;    ///< True if no sign about the parts of the first contact is zero.
   bool is_strict_ = true;   ///< True if no sign about the parts in question is zero.
   bool is_point_ = false;   ///< True if the half axis is zero.
   int tilt_ = 0;            ///< The sign of n·A. It is zero if the core is parallel to the plane, or without a plane.

@@ -1,0 +1,160 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "exact/scaled_double.hpp"
+#include "filter/bounded.hpp"
+#include "filter/sized.hpp"
+#include "shape/sphere_terms.hpp"
+#include "surehit/path.hpp"
+#include "surehit/triangle.hpp"
+
+namespace surehit::detail {
+
+// What the decisions of moving balls and capsules in double have in common. `Number` is `Sized` or `Bounded`.
+
+/// Returns x - y, which is rounded in `Sized` and exact in `Bounded`.
+inline void set_difference(Bounded& out, double x, double y) { out = exact(x) - exact(y); }
+inline void set_difference(Sized& out, double x, double y) { out = {x - y, std::fabs(x - y)}; }
+inline void set_exact(Bounded& out, double x) { out = exact(x); }
+inline void set_exact(Sized& out, double x) { out = {x, std::fabs(x)}; }
+
+/// Returns the vector from y to x.
+template <typename Number, typename Scalar>
+[[nodiscard]] Vector<Number> difference(const Vector3<Scalar>& x, const Vector3<Scalar>& y) {
+  Vector<Number> out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    set_difference(out[i], double{x[axis]}, double{y[axis]});
+  }
+  return out;
+}
+
+/// Sets the terms of a ball, or those of the ball in the middle of a capsule.
+template <typename Number, typename Shape, typename Scalar>
+void set_terms(SphereTerms<Number, Number>& terms, const Shape& shape, const Triangle<Scalar>& triangle) {
+  const auto& [a, b, c] = triangle;
+  const auto of = [](const auto& x, const auto& y) { return difference<Number>(x, y); };
+  terms.from_corner = {of(shape.start, a), of(shape.start, b), of(shape.start, c)};
+  terms.to_end = {of(shape.end, a), of(shape.end, b), of(shape.end, c)};
+  terms.edge = {of(b, a), of(c, b), of(a, c)};
+  terms.step = of(shape.end, shape.start);
+  set_exact(terms.radius, double{shape.radius});
+}
+
+/// The smallest and the largest size of some numbers.
+class SizeRange {
+ public:
+  void include(const Sized& x) {
+    low_ = std::min(low_, x.size == 0 ? max_sized : x.size);
+    high_ = std::max(high_, x.size);
+  }
+  void include(const Vector<Sized>& x) {
+    for (const Sized& component : x) include(component);
+  }
+  void include(const SphereTerms<Sized, Sized>& terms) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      include(terms.from_corner[k]);
+      include(terms.to_end[k]);
+      include(terms.edge[k]);
+    }
+    include(terms.step);
+    include(terms.radius);
+  }
+  /// Returns whether the premise of Z2 holds.
+  [[nodiscard]] bool is_usual() const { return low_ >= min_sized && high_ <= max_sized; }
+
+ private:
+  double low_ = max_sized;
+  double high_ = 0;
+};
+
+[[nodiscard]] inline double error_of(const Bounded& x) { return x.radius; }
+[[nodiscard]] inline double error_of(const Sized& x) { return x.error(); }
+
+/// Returns bounds of a sum, a product or a quotient that is known to be at least 0. Each of its numbers has an error of
+/// at most its radius, and 2^-48 covers the few roundings of the bounds themselves.
+inline constexpr double down = 1 - 0x1p-48;
+inline constexpr double up = 1 + 0x1p-48;
+
+template <typename Number>
+[[nodiscard]] double lower(const Number& x) {
+  return std::max(0.0, x.value - error_of(x)) * down;
+}
+template <typename Number>
+[[nodiscard]] double upper(const Number& x) {
+  return (x.value + error_of(x)) * up;
+}
+
+/// Returns bounds of c / (√d - b), where c > 0 > b and d ≥ 0.
+template <typename Number>
+[[nodiscard]] DoubleRange root(const Number& minus_b, const Number& c, const Number& d) {
+  return {lower(c) / (upper(minus_b) + std::sqrt(upper(d))) * down,
+          upper(c) / (lower(minus_b) + std::sqrt(lower(d))) * up};
+}
+
+/// Returns bounds of the t at which a point comes to another point (S3), like `Approach::to_point`.
+template <typename Number>
+[[nodiscard]] DoubleRange time_to_point(const Vector<Number>& w, const Vector<Number>& step, const Number& radius) {
+  const Number b = dot(step, w);
+  const Number c = dot(w, w) - radius * radius;
+  return root(-b, c, b * b - dot(step, step) * c);
+}
+
+/// Returns the same for a line with the direction `e`.
+template <typename Number>
+[[nodiscard]] DoubleRange time_to_line(const Vector<Number>& w, const Vector<Number>& step, const Vector<Number>& e,
+                                       const Number& radius) {
+  const Number rr = radius * radius;
+  const Vector<Number> f = cross(step, e);
+  const Vector<Number> moment = cross(w, e);
+  const Number ee = dot(e, e);
+  const Number wf = dot(w, f);
+  return root(-dot(f, moment), dot(moment, moment) - rr * ee, ee * (rr * dot(f, f) - wf * wf));
+}
+
+/// Returns the same for a plane with the normal `n`. It is t = (|h| - r √nn) / |n d| = (h² - r² nn) / (|n d| (|h| + r
+/// √nn)).
+template <typename Number>
+[[nodiscard]] DoubleRange time_to_plane(const Vector<Number>& w, const Vector<Number>& step, const Vector<Number>& n,
+                                        const Number& radius) {
+  Number height = dot(n, w);
+  Number rate = dot(n, step);
+  (height.value < 0 ? height : rate) = -(height.value < 0 ? height : rate);
+  const Number nn = dot(n, n);
+  const Number c = height * height - radius * radius * nn;
+  const double r = radius.value;
+  return {lower(c) / ((upper(height) + r * std::sqrt(upper(nn)) * up) * up * upper(rate)) * down,
+          upper(c) / ((lower(height) + r * std::sqrt(lower(nn)) * down) * down * lower(rate)) * up};
+}
+
+/// Returns bounds that hold in spite of underflow, or no bounds if they are not numbers.
+[[nodiscard]] inline DoubleRange settled(const DoubleRange& range) {
+  if (!(range.lower >= 0x1p-900 && range.upper <= 0x1p900)) return {0, std::numeric_limits<double>::infinity()};
+  return range;
+}
+
+/// Returns (x + t y) / z, where the result is at least 0 and z is positive.
+template <typename Number>
+[[nodiscard]] DoubleRange weight_of(const Number& x, const Number& y, const DoubleRange& t, const Number& z) {
+  // Each product with an end of t is off by what y is off, and the roundings here.
+  const double products[2] = {t.lower * y.value, t.upper * y.value};
+  const double error =
+      error_of(x) + t.upper * error_of(y) + (std::fabs(x.value) + t.upper * std::fabs(y.value)) * 0x1p-50;
+  const double low = std::max(0.0, x.value + std::min(products[0], products[1]) - error * up);
+  const double high = x.value + std::max(products[0], products[1]) + error * up;
+  return {low * down / upper(z) * down, high * up / lower(z) * up};
+}
+
+/// Rounds a number. Returns false if its bounds do not decide it.
+template <typename Scalar>
+[[nodiscard]] bool try_round(const DoubleRange& range, Scalar& rounded) {
+  if (!(range.lower >= 0x1p-900 && range.upper <= 0x1p900)) return false;
+  rounded = static_cast<Scalar>(range.lower);
+  return rounded == static_cast<Scalar>(range.upper);
+}
+
+}  // namespace surehit::detail
