@@ -347,7 +347,7 @@ class CapsuleTouch {
   Approach<typename decltype(Terms::step)::value_type, decltype(Terms::radius)> approach_;
   Signs signs_;             ///< The signs that were asked about the parts in question.
   bool is_certain_ = true;  ///< True if all signs before these were certain, as far as they count.
-  bool is_final_ = false;    ///< True if no sign about the parts of the first contact is zero.
+  bool is_final_ = false;   ///< True if no sign about the parts of the first contact is zero.
   bool is_strict_ = true;   ///< True if no sign about the parts in question is zero.
   bool is_point_ = false;   ///< True if the half axis is zero.
   int tilt_ = 0;            ///< The sign of n·A. It is zero if the core is parallel to the plane, or without a plane.

@@ -4,6 +4,7 @@
 
 #include "collider_state.hpp"
 #include "query/answer_batch.hpp"
+#include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
 #include "shape/shape_query.hpp"
 #include "shape/sphere_contact.hpp"

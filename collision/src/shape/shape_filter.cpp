@@ -299,6 +299,10 @@ void ShapeFilter<Scalar>::set(Core any_core, const Vector3<Scalar>& any_start, c
 }
 
 template <typename Scalar>
+ShapeFilter<Scalar>::ShapeFilter(const SweptBox<Scalar>& box) {
+  set(Core::box, box.start, box.end, box.half_extents, 0);
+}
+template <typename Scalar>
 ShapeFilter<Scalar>::ShapeFilter(const SweptSphere<Scalar>& sphere) {
   set(Core::point, sphere.start, sphere.end, {0, 0, 0}, sphere.radius);
 }
@@ -318,6 +322,8 @@ std::uint64_t ShapeFilter<double>::find(const double* corners, std::size_t count
   return HWY_DYNAMIC_DISPATCH(find_doubles)(*this, corners, count, from, limit, enters.data());
 }
 
+template ShapeFilter<float>::ShapeFilter(const SweptBox<float>&);
+template ShapeFilter<double>::ShapeFilter(const SweptBox<double>&);
 template ShapeFilter<float>::ShapeFilter(const SweptSphere<float>&);
 template ShapeFilter<double>::ShapeFilter(const SweptSphere<double>&);
 template ShapeFilter<float>::ShapeFilter(const SweptCapsule<float>&);

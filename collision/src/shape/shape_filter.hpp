@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "surehit/swept_box.hpp"
 #include "surehit/swept_capsule.hpp"
 #include "surehit/swept_sphere.hpp"
 
@@ -21,6 +22,7 @@ enum class Core : std::uint8_t {
 template <typename Scalar>
 class ShapeFilter {
  public:
+  explicit ShapeFilter(const SweptBox<Scalar>& box);
   explicit ShapeFilter(const SweptSphere<Scalar>& sphere);
   explicit ShapeFilter(const SweptCapsule<Scalar>& capsule);
 

@@ -1,6 +1,7 @@
 #include "surehit/shape_hit.hpp"
 
 #include "path_range.hpp"
+#include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
 #include "shape/shape_narrowphase.hpp"
 #include "shape/sphere_contact.hpp"

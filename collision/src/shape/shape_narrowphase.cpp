@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "shape/bounded_box.hpp"
 #include "shape/bounded_capsule.hpp"
 #include "shape/bounded_sphere.hpp"
+#include "shape/exact_box.hpp"
 #include "shape/exact_capsule.hpp"
 #include "shape/exact_sphere.hpp"
 #include "support/rounding_flags.hpp"
@@ -71,7 +73,7 @@ template <typename Shape>
 ShapeHit<ScalarOf<Shape>> ShapeNarrowphase<Shape>::hit(const ShapeCandidate<Shape>& candidate) const {
   ShapeHit<Scalar> hit;
   hit.triangle = candidate.id;
-  hit.feature = candidate.contact.feature;
+  if constexpr (requires { candidate.contact.feature; }) hit.feature = candidate.contact.feature;
   hit.started_touching = candidate.contact.at_start;
   if (!try_round(shape_, candidate.triangle, candidate.contact, hit)) {
     ++statistics_.exact_roundings;
@@ -80,6 +82,8 @@ ShapeHit<ScalarOf<Shape>> ShapeNarrowphase<Shape>::hit(const ShapeCandidate<Shap
   return hit;
 }
 
+template class ShapeNarrowphase<SweptBox<float>>;
+template class ShapeNarrowphase<SweptBox<double>>;
 template class ShapeNarrowphase<SweptSphere<float>>;
 template class ShapeNarrowphase<SweptSphere<double>>;
 template class ShapeNarrowphase<SweptCapsule<float>>;

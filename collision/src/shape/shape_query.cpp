@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
 #include "shape/shape_filter.hpp"
 #include "shape/shape_narrowphase.hpp"
@@ -218,6 +219,8 @@ void search_all(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape,
                                                                  const Shape&) noexcept;             \
   template bool search_any(const ShapeQuery<ScalarOf<Shape>>&, const Shape&) noexcept;               \
   template void search_all(const ShapeQuery<ScalarOf<Shape>>&, const Shape&, std::vector<ShapeHit<ScalarOf<Shape>>>&);
+SUREHIT_INSTANTIATE(SweptBox<float>)
+SUREHIT_INSTANTIATE(SweptBox<double>)
 SUREHIT_INSTANTIATE(SweptSphere<float>)
 SUREHIT_INSTANTIATE(SweptSphere<double>)
 SUREHIT_INSTANTIATE(SweptCapsule<float>)

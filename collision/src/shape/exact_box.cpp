@@ -1,0 +1,293 @@
+#include "shape/exact_box.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "exact/exact_scale.hpp"
+#include "shape/shape_contact.hpp"
+#include "shape/touched_point.hpp"
+#include "support/inlining.hpp"
+#include "support/rounding_flags.hpp"
+
+namespace surehit::detail {
+namespace {
+
+/// The numbers of bits of the exact terms. A sum of k terms adds k - 1 to the bits of its terms.
+template <typename Scalar>
+struct BoxBits {
+  static constexpr int coordinate = AnySize<Scalar>::coordinate;
+  static constexpr int difference = coordinate + 1;
+  static constexpr int cross = 2 * difference + 1;
+  static constexpr int volume = cross + difference + 2;  ///< Of n·w, of D·n and of the reach of a box.
+  static constexpr int time = volume + 1;                ///< Of both parts of a t.
+  static constexpr int moved = time + difference + 1;    ///< Of the centre at a t.
+};
+
+/// The integers that `TouchedPoint` computes with.
+template <typename Scalar>
+struct ExactNumbers {
+  using Bits = BoxBits<Scalar>;
+  static constexpr int square = 2 * Bits::difference + 2;
+  static constexpr int slope = Bits::cross + Bits::difference + 2;
+  using Difference = WideInt<Bits::difference>;
+  using Time = WideInt<Bits::time>;
+  using Moved = WideInt<Bits::moved>;
+  using Constant = WideInt<Bits::moved + 1>;
+  using Square = WideInt<square>;
+  using MovedSquare = WideInt<Bits::moved + Bits::difference + 2>;
+  using Direction = WideInt<Bits::cross>;
+  using Slope = WideInt<slope>;
+  using MovedSlope = WideInt<Bits::moved + Bits::cross + 2>;
+  using Weight = WideInt<Bits::moved + Bits::cross + Bits::difference + 4>;
+  using Divisor = WideInt<2 * square + 1>;
+};
+
+/// The centre is outside of one side of K at t if gap - t approach > 0 (B1).
+template <typename Scalar>
+struct Side {
+  WideInt<BoxBits<Scalar>::time> gap;
+  WideInt<BoxBits<Scalar>::volume> approach;
+  std::size_t axis;
+  bool is_above;
+};
+
+template <typename Scalar>
+class ExactBox {
+  using Bits = BoxBits<Scalar>;
+  using Int = WideInt<Bits::time>;
+
+ public:
+  using Time = Ratio<Int>;
+
+  ExactBox(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle)
+      : terms_{{}, {}, {}, {}, ExtremeCorners(triangle)} {
+    const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
+    BinaryUnit unit;
+    unit.include(box.start);
+    unit.include(box.end);
+    unit.include(box.half_extents);
+    unit.include(triangle);
+    if (unit.is_empty()) unit.exponent = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      set_difference(terms_.from_corner[k], box.start, *corners[k], unit);
+      set_difference(terms_.edge[k], *corners[next(k)], *corners[k], unit);
+      set_integer(terms_.half_extents[k], box.half_extents[static_cast<Eigen::Index>(k)], unit);
+    }
+    set_difference(terms_.step, box.end, box.start, unit);
+    normal_ = cross(terms_.edge[0], terms_.edge[1]);
+    if (is_zero(normal_)) set_extremes(corners);
+  }
+
+  [[nodiscard]] std::optional<BoxContact> find() const {
+    std::array<Side<Scalar>, 2 * axis_count> sides;
+    std::size_t count = 0;
+    const auto add = [&](std::size_t axis, bool is_above, const auto& gap, const auto& approach) {
+      sides[count].gap = gap;
+      sides[count].approach = approach;
+      sides[count].axis = axis;
+      sides[count++].is_above = is_above;
+    };
+    take_all(add);
+    BoxContact contact;
+    const Side<Scalar>* last = nullptr;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Side<Scalar>& side = sides[i];
+      if (side.gap.sign() <= 0) continue;
+      // The centre must pass this side, and not after the end.
+      if (side.approach.sign() <= 0 || side.gap.compare_magnitude(side.approach) > 0) return std::nullopt;
+      if (last == nullptr || compare(side.gap, side.approach, last->gap, last->approach) > 0) last = &side;
+    }
+    if (last == nullptr) {
+      contact.at_start = true;
+      return contact;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto passed = sides[i].approach * last->gap;
+      if ((sides[i].gap * last->approach - passed).sign() > 0) return std::nullopt;
+    }
+    contact.timed_by = last->axis;
+    contact.is_above = last->is_above;
+    // The nearest double is at most half an ulp from the exact t, so its neighbours enclose it.
+    const double nearest = rounded_quotient<double>(last->gap, last->approach);
+    contact.t_lower = nearest > 0 ? std::nextafter(nearest, 0.0) : 0;
+    contact.t_upper = std::min(std::nextafter(nearest, 2.0), 1.0);
+    return contact;
+  }
+
+  /// Returns the t of a contact that is not at the start.
+  [[nodiscard]] SUREHIT_NOINLINE Time time(const BoxContact& contact) const {
+    Time t;
+    const std::size_t axis = contact.timed_by != axis_count ? contact.timed_by : find()->timed_by;
+    const auto take = [&](std::size_t, bool, const auto& gap, const auto& approach) {
+      if (gap.sign() <= 0) return;
+      t.num = gap;
+      t.den = approach;
+    };
+    if (axis < normal_axis) {
+      take_coordinate(terms_, axis, take);
+    } else if (axis == normal_axis) {
+      take_normal(terms_, normal_, take);
+    } else {
+      take_edge(terms_, edge_of(axis), coordinate_of(axis), normal_[coordinate_of(axis)].sign(), take);
+    }
+    return t;
+  }
+
+  /// Returns the sign of the step times the normal.
+  [[nodiscard]] int sign_along() const { return dot(normal_, terms_.step).sign(); }
+
+  SUREHIT_NOINLINE void round(const BoxContact& contact, ShapeHit<Scalar>& hit) const {
+    Time t;
+    if (contact.at_start) {
+      t.den = Int::power_of_two(0);
+    } else {
+      t = time(contact);
+    }
+    hit.t = rounded_quotient<Scalar>(t.num, t.den);
+    if (is_zero(normal_)) {
+      round_on_segment(t, hit);
+    } else {
+      round_on_triangle(t, hit);
+    }
+  }
+
+ private:
+  using Numbers = ExactNumbers<Scalar>;
+  using Point = typename TouchedPoint<Numbers>::Point;
+  using Difference = typename Numbers::Difference;
+  using Moved = typename Numbers::Moved;
+  using Weight = typename Numbers::Weight;
+
+  /// Calls `take` for all sides of K.
+  template <typename Take>
+  void take_all(const Take& take) const {
+    for (std::size_t i = 0; i < 3; ++i) take_coordinate(terms_, i, take);
+    const int zeros = normal_[0].is_zero() + normal_[1].is_zero() + normal_[2].is_zero();
+    if (zeros < 2) take_normal(terms_, normal_, take);  // B3
+    for (std::size_t coordinate = 0; coordinate < 3; ++coordinate) {
+      const int below = normal_[coordinate].sign();
+      if (below == 0 && zeros < 3) continue;  // B3
+      for (std::size_t k = 0; k < 3; ++k) take_edge(terms_, k, coordinate, below, take);
+    }
+  }
+
+  /// Returns the way from a corner to the centre at t, times the divisor of t.
+  [[nodiscard]] Vector<Moved> to_centre(std::size_t corner, const Time& t) const {
+    Vector<Moved> way;
+    for (std::size_t i = 0; i < 3; ++i) way[i] = terms_.from_corner[corner][i] * t.den + terms_.step[i] * t.num;
+    return way;
+  }
+  [[nodiscard]] auto extents(const Time& t) const {
+    const auto& h = terms_.half_extents;
+    return Vector<decltype(h[0] * t.den)>{h[0] * t.den, h[1] * t.den, h[2] * t.den};
+  }
+
+  void round_on_triangle(const Time& t, ShapeHit<Scalar>& hit) const {
+    const Vector<Moved> way = to_centre(0, t);
+    const auto& ca = terms_.edge[2];
+    const Vector<Difference> ac = {negated(ca[0]), negated(ca[1]), negated(ca[2])};
+    Signs signs;
+    const Point point = TouchedPoint<Numbers>(way, terms_.edge[0], ac, extents(t), t.den, signs).find();
+    const Weight whole = t.den * point.z;
+    const auto rest = whole - point.u - point.v;
+    const bool no_a = rest.sign() == 0;
+    const bool no_b = point.u.is_zero();
+    const bool no_c = point.v.is_zero();
+    hit.feature = no_b && no_c   ? Feature::corner_a
+                  : no_a && no_c ? Feature::corner_b
+                  : no_a && no_b ? Feature::corner_c
+                  : no_c         ? Feature::edge_ab
+                  : no_a         ? Feature::edge_bc
+                  : no_b         ? Feature::edge_ca
+                                 : Feature::face;
+    hit.u = rounded_quotient<Scalar>(point.u, whole);
+    hit.v = rounded_quotient<Scalar>(point.v, whole);
+  }
+
+  void round_on_segment(const Time& t, ShapeHit<Scalar>& hit) const {
+    hit.feature = corner_feature(lowest_);
+    std::array<Scalar, 3> weights = {0, 0, 0};
+    weights[lowest_] = 1;
+    if (lowest_ != highest_) {
+      const bool is_forward = next(lowest_) == highest_;
+      const std::size_t edge = is_forward ? lowest_ : highest_;
+      Vector<Difference> along = terms_.edge[edge];
+      if (!is_forward) along = {negated(along[0]), negated(along[1]), negated(along[2])};
+      const Vector<Moved> way = to_centre(lowest_, t);
+      Signs signs;
+      const Point point =
+          TouchedPoint<Numbers>(way, along, {}, extents(t), t.den, signs).find_on(0, TouchedPoint<Numbers>::side_count);
+      const Weight whole = t.den * point.z;
+      const auto rest = whole - point.u;
+      weights[lowest_] = rounded_quotient<Scalar>(rest, whole);
+      weights[highest_] = rounded_quotient<Scalar>(point.u, whole);
+      if (!point.u.is_zero()) hit.feature = rest.is_zero() ? corner_feature(highest_) : edge_feature(edge);
+    }
+    hit.u = weights[1];
+    hit.v = weights[2];
+  }
+
+  /// Sets the extreme corners in lexicographic order. Of equal corners, the first one counts.
+  void set_extremes(const std::array<const Vector3<Scalar>*, 3>& corners) {
+    const auto before = [](const Vector3<Scalar>& x, const Vector3<Scalar>& y) {
+      return x[0] != y[0] ? x[0] < y[0] : x[1] != y[1] ? x[1] < y[1] : x[2] < y[2];
+    };
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (before(*corners[k], *corners[lowest_])) lowest_ = k;
+      if (before(*corners[highest_], *corners[k])) highest_ = k;
+    }
+  }
+
+  BoxTerms<Difference, WideInt<Bits::coordinate>> terms_;
+  IntVector<WideInt<Bits::cross>> normal_;
+  std::size_t lowest_ = 0;   ///< The first corner of a triangle without area.
+  std::size_t highest_ = 0;  ///< The last corner of a triangle without area.
+};
+
+}  // namespace
+
+template <typename Scalar>
+std::optional<BoxContact> exact_contact(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle) {
+  return ExactBox<Scalar>(box, triangle).find();
+}
+
+template <typename Scalar>
+int compare_times(const SweptBox<Scalar>& box, const Triangle<Scalar>& x_triangle, const BoxContact& x,
+                  const Triangle<Scalar>& y_triangle, const BoxContact& y) {
+  if (x.at_start || y.at_start) return static_cast<int>(y.at_start) - static_cast<int>(x.at_start);
+  const auto x_time = ExactBox<Scalar>(box, x_triangle).time(x);
+  return compare(x_time, ExactBox<Scalar>(box, y_triangle).time(y));
+}
+
+template <typename Scalar>
+int compare_time(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const BoxContact& contact,
+                 Scalar limit) {
+  if (contact.at_start) return limit > 0 ? -1 : 0;
+  return Limit<Scalar>(limit, 0).compare(ExactBox<Scalar>(box, triangle).time(contact));
+}
+
+template <typename Scalar>
+int sign_along(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle) {
+  return ExactBox<Scalar>(box, triangle).sign_along();
+}
+
+template <typename Scalar>
+void round_exactly(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const BoxContact& contact,
+                   ShapeHit<Scalar>& hit) {
+  ExactBox<Scalar>(box, triangle).round(contact, hit);
+}
+
+#define SUREHIT_INSTANTIATE(Scalar)                                                                       \
+  template std::optional<BoxContact> exact_contact(const SweptBox<Scalar>&, const Triangle<Scalar>&);     \
+  template int compare_times(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&,         \
+                             const Triangle<Scalar>&, const BoxContact&);                                 \
+  template int compare_time(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&, Scalar); \
+  template int sign_along(const SweptBox<Scalar>&, const Triangle<Scalar>&);                              \
+  template void round_exactly(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&, ShapeHit<Scalar>&);
+SUREHIT_INSTANTIATE(float)
+SUREHIT_INSTANTIATE(double)
+#undef SUREHIT_INSTANTIATE
+
+}  // namespace surehit::detail

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "shape/box_contact.hpp"
+#include "surehit/shape_hit.hpp"
+#include "surehit/swept_box.hpp"
+#include "surehit/triangle.hpp"
+
+namespace surehit::detail {
+
+// Decides moving boxes and triangles with integers. The input must be finite, and half extents must not be negative.
+// Any such input is allowed: triangles without area, boxes that rest, half extents of 0, and numbers of all sizes.
+
+/// Returns the contact of a box with a triangle, or nothing if they do not touch.
+template <typename Scalar>
+[[nodiscard]] std::optional<BoxContact> exact_contact(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle);
+
+/// Returns the sign of t of x less t of y.
+template <typename Scalar>
+[[nodiscard]] int compare_times(const SweptBox<Scalar>& box, const Triangle<Scalar>& x_triangle, const BoxContact& x,
+                                const Triangle<Scalar>& y_triangle, const BoxContact& y);
+
+/// Returns the sign of t less a Scalar in [0, 1].
+template <typename Scalar>
+[[nodiscard]] int compare_time(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const BoxContact& contact,
+                               Scalar limit);
+
+/// Returns the sign of the step times the triangle's normal. It is 0 for a triangle without area.
+template <typename Scalar>
+[[nodiscard]] int sign_along(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle);
+
+/// Sets t, u, v and the feature of a hit to those of a contact. The numbers are rounded once.
+template <typename Scalar>
+void round_exactly(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const BoxContact& contact,
+                   ShapeHit<Scalar>& hit);
+
+}  // namespace surehit::detail
