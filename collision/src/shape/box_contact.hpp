@@ -27,6 +27,13 @@ struct ShapeTypes<SweptBox<AnyScalar>> {
   using Contact = BoxContact;
 };
 
+/// Returns the part of a triangle on which these corners have a weight that is not zero.
+[[nodiscard]] constexpr Feature feature_with(bool has_a, bool has_b, bool has_c) {
+  if (has_a && has_b) return has_c ? Feature::face : Feature::edge_ab;
+  if (has_c && (has_a || has_b)) return has_b ? Feature::edge_bc : Feature::edge_ca;
+  return has_a ? Feature::corner_a : has_b ? Feature::corner_b : Feature::corner_c;
+}
+
 /// Returns true if a box can touch something: all numbers are finite, and no half extent is negative.
 template <typename Scalar>
 [[nodiscard]] bool is_valid(const SweptBox<Scalar>& box);

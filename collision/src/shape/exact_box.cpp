@@ -192,16 +192,7 @@ class ExactBox {
     const Point point = TouchedPoint<Numbers>(way, terms_.edge[0], ac, extents(t), t.den, signs).find();
     const Weight whole = t.den * point.z;
     const auto rest = whole - point.u - point.v;
-    const bool no_a = rest.sign() == 0;
-    const bool no_b = point.u.is_zero();
-    const bool no_c = point.v.is_zero();
-    hit.feature = no_b && no_c   ? Feature::corner_a
-                  : no_a && no_c ? Feature::corner_b
-                  : no_a && no_b ? Feature::corner_c
-                  : no_c         ? Feature::edge_ab
-                  : no_a         ? Feature::edge_bc
-                  : no_b         ? Feature::edge_ca
-                                 : Feature::face;
+    hit.feature = feature_with(!rest.is_zero(), !point.u.is_zero(), !point.v.is_zero());
     hit.u = rounded_quotient<Scalar>(point.u, whole);
     hit.v = rounded_quotient<Scalar>(point.v, whole);
   }
@@ -217,8 +208,7 @@ class ExactBox {
       if (!is_forward) along = {negated(along[0]), negated(along[1]), negated(along[2])};
       const Vector<Moved> way = to_centre(lowest_, t);
       Signs signs;
-      const Point point =
-          TouchedPoint<Numbers>(way, along, {}, extents(t), t.den, signs).find_on(0, TouchedPoint<Numbers>::side_count);
+      const Point point = TouchedPoint<Numbers>(way, along, {}, extents(t), t.den, signs).find_on(0);
       const Weight whole = t.den * point.z;
       const auto rest = whole - point.u;
       weights[lowest_] = rounded_quotient<Scalar>(rest, whole);
