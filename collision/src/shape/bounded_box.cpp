@@ -72,7 +72,7 @@ double quotient_above(double x, double y) {
   return quotient < min_quotient ? min_quotient : infinity;  // A NaN is no bound.
 }
 
-/// The times at which the centre enters K and leaves it, in bounds (B6).
+/// The times at which the centre enters K and leaves it, in bounds (B7).
 class Passage {
  public:
   /// Takes part of one side of K: the centre is outside if gap - t approach > 0. `last` is the gap at t = 1.
@@ -244,7 +244,7 @@ class BoundedPoint {
     }
   }
 
-  /// Returns the point on the part of the triangle and of the box that meet (B7).
+  /// Returns the point on the part of the triangle and of the box that meet (B8).
   [[nodiscard]] std::optional<Point> find(Search& search) {
     const std::size_t axis = contact_.timed_by;
     if (contact_.at_start) return search.find();

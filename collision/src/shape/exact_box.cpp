@@ -91,6 +91,7 @@ class ExactBox {
     };
     take_all(add);
     BoxContact contact;
+    // The side that is passed last, if the centre begins outside of any (B4).
     const Side<Scalar>* last = nullptr;
     for (std::size_t i = 0; i < count; ++i) {
       const Side<Scalar>& side = sides[i];

@@ -34,7 +34,7 @@ void set_one(WideInt<Bits>& x) {
 }
 
 /// Finds the point of a triangle that counts as touched: of all that a box touches, it is the nearest one to the box's
-/// centre (B4). The numbers are of the types in `Numbers`: either exact integers, or doubles with bounds.
+/// centre (B5). The numbers are of the types in `Numbers`: either exact integers, or doubles with bounds.
 template <typename Numbers>
 class TouchedPoint {
  public:
@@ -65,7 +65,7 @@ class TouchedPoint {
     }
   }
 
-  /// Returns the nearest point that is not beyond any of these sides (B5). The triangle must have an area.
+  /// Returns the nearest point that is not beyond any of these sides (B6). The triangle must have an area.
   [[nodiscard]] Point find(unsigned sides = all_sides) {
     Point point = below_centre();
     for (std::size_t k = 0; k < side_count; ++k) {
