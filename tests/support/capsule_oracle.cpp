@@ -381,12 +381,18 @@ bool rounds_to(const Float& exact, Scalar x, const Float& tiny) {
   return exact <= above + tiny * above && exact >= below - tiny;
 }
 
+/// The exact t of a hit.
+template <typename Scalar>
+std::optional<Float> first_time_of(const FloatPair& pair, const ShapeHit<Scalar>& hit) {
+  return first_time(pair, [&](const Float& root) { return rounds_to(root, hit.t, pair.tiny); });
+}
+
 /// The weights and the feature at the exact t, which rounds to that of the hit.
 template <typename Scalar>
 std::optional<std::string> find_error_of_point(const FloatPair& pair, const ShapeHit<Scalar>& hit) {
   Float t(0);
   if (!hit.started_touching) {
-    const auto first = first_time(pair, [&](const Float& root) { return rounds_to(root, hit.t, pair.tiny); });
+    const auto first = first_time_of(pair, hit);
     if (!first) return "the judge finds no t";
     t = *first;
   }
@@ -419,6 +425,19 @@ std::optional<std::string> find_error(const SweptCapsule<Scalar>& capsule, const
 }
 
 template <typename Scalar>
+std::optional<std::string> find_error_of_normal(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
+                                                const ShapeHit<Scalar>& hit, const Vector3<Scalar>& normal,
+                                                double allowed) {
+  const FloatPair pair = to_float(capsule, triangle);
+  const Float t = hit.started_touching ? Float(0) : first_time_of(pair, hit).value();
+  const auto centre = along(pair.start, t, pair.step);
+  const NearestPair nearest = nearest_to_core(pair, centre);
+  const auto point =
+      along(along(pair.a, nearest.u, Vec<Float>(pair.b - pair.a)), nearest.v, Vec<Float>(pair.c - pair.a));
+  return find_error_of_unit(point, along(centre, nearest.place, pair.axis), normal, allowed, pair.tiny);
+}
+
+template <typename Scalar>
 bool comes_before(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& x, const Triangle<Scalar>& y) {
   const auto time = [&](const Triangle<Scalar>& triangle) {
     return first_time(to_float(capsule, triangle), [](const Float&) { return true; }).value();
@@ -430,9 +449,11 @@ bool comes_before(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& x
   return of_x < of_y - tiny * of_y;
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                    \
-  template std::optional<std::string> find_error(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, \
-                                                 const std::optional<ShapeHit<Scalar>>&);              \
+#define SUREHIT_INSTANTIATE(Scalar)                                                                                  \
+  template std::optional<std::string> find_error(const SweptCapsule<Scalar>&, const Triangle<Scalar>&,               \
+                                                 const std::optional<ShapeHit<Scalar>>&);                            \
+  template std::optional<std::string> find_error_of_normal(const SweptCapsule<Scalar>&, const Triangle<Scalar>&,     \
+                                                           const ShapeHit<Scalar>&, const Vector3<Scalar>&, double); \
   template bool comes_before(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const Triangle<Scalar>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

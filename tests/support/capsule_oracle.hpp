@@ -20,6 +20,13 @@ template <typename Scalar>
                                                     const Triangle<Scalar>& triangle,
                                                     const std::optional<ShapeHit<Scalar>>& answer);
 
+/// Says what is wrong with the normal of a contact, or returns nothing. A component may be off by `allowed`.
+template <typename Scalar>
+[[nodiscard]] std::optional<std::string> find_error_of_normal(const SweptCapsule<Scalar>& capsule,
+                                                              const Triangle<Scalar>& triangle,
+                                                              const ShapeHit<Scalar>& hit,
+                                                              const Vector3<Scalar>& normal, double allowed);
+
 /// Whether the capsule comes to x at a lower t than to y. It must touch both, and neither at its start.
 template <typename Scalar>
 [[nodiscard]] bool comes_before(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& x,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "surehit/path.hpp"
@@ -137,6 +138,22 @@ bool rounds_to(const Float& exact, Scalar x, const Float& tiny) {
   const Float above = (value + double{std::nextafter(x, Scalar{2})}) / 2;
   const Float below = (value + double{std::nextafter(x, Scalar{-1})}) / 2;
   return exact <= above + tiny * above && exact >= below - tiny;
+}
+
+/// Says what is wrong with a unit vector that leads from one point to another, or returns nothing. Each component may
+/// be off by `allowed`. Nothing is known if the points are the same.
+template <typename Scalar>
+std::optional<std::string> find_error_of_unit(const Vec<Float>& from, const Vec<Float>& to, const Vector3<Scalar>& unit,
+                                              double allowed, const Float& tiny) {
+  const Vec<Float> gap = to - from;
+  const Float square = dot(gap, gap);
+  if (square <= tiny * Float(dot(from, from) + dot(to, to))) return std::nullopt;
+  const Float length = sqrt(square);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Float error = gap[i] / length - double{unit[static_cast<Eigen::Index>(i)]};
+    if (abs(error) > allowed) return "the normal is off by " + std::to_string(error.get_d() / allowed);
+  }
+  return std::nullopt;
 }
 
 }  // namespace surehit::test::oracle

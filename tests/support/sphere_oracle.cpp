@@ -204,15 +204,31 @@ std::optional<std::string> find_error(const SweptSphere<Scalar>& sphere, const T
 }
 
 template <typename Scalar>
+std::optional<std::string> find_error_of_normal(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                                const ShapeHit<Scalar>& hit, const Vector3<Scalar>& normal,
+                                                double allowed) {
+  const Float tiny = tiny_number<Scalar>();
+  const auto pair = convert<Float>(sphere, triangle);
+  const Float t = hit.started_touching ? Float(0) : first_time(pair, tiny).value();
+  const auto centre = along(pair.start, t, pair.step);
+  const auto nearest = nearest_on_triangle(centre, pair);
+  const auto point =
+      along(along(pair.a, nearest.u, Vec<Float>(pair.b - pair.a)), nearest.v, Vec<Float>(pair.c - pair.a));
+  return find_error_of_unit(point, centre, normal, allowed, tiny);
+}
+
+template <typename Scalar>
 bool comes_before(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x, const Triangle<Scalar>& y) {
   const Float tiny = tiny_number<Scalar>();
   const Float of_x = first_time(convert<Float>(sphere, x), tiny).value();
   return of_x < first_time(convert<Float>(sphere, y), tiny).value() - tiny * of_x;
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                   \
-  template std::optional<std::string> find_error(const SweptSphere<Scalar>&, const Triangle<Scalar>&, \
-                                                 const std::optional<ShapeHit<Scalar>>&);             \
+#define SUREHIT_INSTANTIATE(Scalar)                                                                                  \
+  template std::optional<std::string> find_error(const SweptSphere<Scalar>&, const Triangle<Scalar>&,                \
+                                                 const std::optional<ShapeHit<Scalar>>&);                            \
+  template std::optional<std::string> find_error_of_normal(const SweptSphere<Scalar>&, const Triangle<Scalar>&,      \
+                                                           const ShapeHit<Scalar>&, const Vector3<Scalar>&, double); \
   template bool comes_before(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const Triangle<Scalar>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

@@ -19,6 +19,13 @@ template <typename Scalar>
 [[nodiscard]] std::optional<std::string> find_error(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
                                                     const std::optional<ShapeHit<Scalar>>& answer);
 
+/// Says what is wrong with the normal of a contact, or returns nothing. A component may be off by `allowed`.
+template <typename Scalar>
+[[nodiscard]] std::optional<std::string> find_error_of_normal(const SweptSphere<Scalar>& sphere,
+                                                              const Triangle<Scalar>& triangle,
+                                                              const ShapeHit<Scalar>& hit,
+                                                              const Vector3<Scalar>& normal, double allowed);
+
 /// Whether the ball comes to x at a lower t than to y. It must touch both, and neither at its start.
 template <typename Scalar>
 [[nodiscard]] bool comes_before(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x,

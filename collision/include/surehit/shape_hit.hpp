@@ -5,6 +5,7 @@
 
 #include "surehit/attributes.hpp"
 #include "surehit/scalar.hpp"
+#include "surehit/swept_shape.hpp"
 #include "surehit/triangle.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 
@@ -42,6 +43,42 @@ struct ShapeHit {
   /// Returns true if all members are equal.
   friend bool operator==(const ShapeHit&, const ShapeHit&) = default;
 };
+
+/// Returns the touched point of a triangle, a + u (b - a) + v (c - a).
+///
+/// u and v are rounded once, and each of them adds at most half an ulp of 1 times its edge. The sum adds at most 4 ulp
+/// of the largest coordinate of the triangle. The corners must be finite. Allocates nothing.
+template <FloatOrDouble Scalar>
+[[nodiscard]] SUREHIT_API Vector3<Scalar> contact_point(const Triangle<Scalar>& triangle,
+                                                        const ShapeHit<Scalar>& hit) noexcept;
+
+/// Returns the unit normal of the contact of a moving shape with a triangle. It leads from the triangle toward the
+/// shape at the exact t.
+///
+/// - For a ball, it leads from the touched point to the centre.
+/// - For a capsule, it leads from the touched point to the nearest point of the core.
+/// - For a box, it is across the plane that separates the two at t. Where several planes do, those along the faces of
+/// the
+///   box come first, and then that of the triangle. If they touch at the start, the shortest way out of the triangle
+///   leads along it.
+///
+/// Where the centre or the core is on the triangle, it is the triangle's normal, or its opposite if the shape moves
+/// along the normal. It is zero if they do not touch, or if nothing tells a direction.
+///
+/// Each component is within 8 ulp(1) of the true one in double, and within 1 in float. Decides the pair again, with
+/// integers, which takes some ten microseconds. Allocates nothing. Uses as much stack as a query of a moving shape.
+template <FloatOrDouble Scalar>
+[[nodiscard]] SUREHIT_API Vector3<Scalar> contact_normal(const std::type_identity_t<SweptShape<Scalar>>& shape,
+                                                         const Triangle<Scalar>& triangle) noexcept;
+
+#define SUREHIT_EXTERN(Scalar)                                                                 \
+  extern template SUREHIT_API Vector3<Scalar> contact_point(const Triangle<Scalar>&,           \
+                                                            const ShapeHit<Scalar>&) noexcept; \
+  extern template SUREHIT_API Vector3<Scalar> contact_normal(const SweptShape<Scalar>&,        \
+                                                             const Triangle<Scalar>&) noexcept;
+SUREHIT_EXTERN(float)
+SUREHIT_EXTERN(double)
+#undef SUREHIT_EXTERN
 
 using ShapeHitf = ShapeHit<float>;   ///< A hit of a moving shape in float.
 using ShapeHitd = ShapeHit<double>;  ///< A hit of a moving shape in double.

@@ -88,13 +88,15 @@ struct RootNumber {
     return sign_with_root(left, factor, d);
   }
 
-  /// Returns bounds of the number, which must not be negative. If p and q √d have opposite signs, they cancel. The
-  /// conjugate number then gives the same value without a cancellation: (p² - q² d) / (r (p - q √d)).
-  [[nodiscard]] SUREHIT_NOINLINE DoubleRange range() const {
+  /// Returns bounds of the number, which must not be negative.
+  [[nodiscard]] DoubleRange range() const { return range_of(size() / ScaledDouble::of_magnitude(r)); }
+
+  /// Returns |p + q √d|. If p and q √d have opposite signs, they cancel. The conjugate number then gives the same value
+  /// without a cancellation: (p² - q² d) / (p - q √d).
+  [[nodiscard]] SUREHIT_NOINLINE ScaledDouble size() const {
     const ScaledDouble root = ScaledDouble::of_magnitude(q) * sqrt(ScaledDouble::of_magnitude(d));
     const ScaledDouble sum = ScaledDouble::of_magnitude(p) + root;
-    const ScaledDouble denominator = ScaledDouble::of_magnitude(r);
-    if (p.sign() * q.sign() * d.sign() >= 0) return range_of(sum / denominator);
+    if (p.sign() * q.sign() * d.sign() >= 0) return sum;
     WideInt<std::max(2 * P, 2 * Q + D) + 1> difference = p * p;
     {
       WideInt<2 * Q + D> product;
@@ -104,7 +106,7 @@ struct RootNumber {
       }
       difference.add(product, true);
     }
-    return range_of(ScaledDouble::of_magnitude(difference) / (denominator * sum));
+    return ScaledDouble::of_magnitude(difference) / sum;
   }
 
   /// Returns the number, which must be in [0, 1], rounded once to nearest.

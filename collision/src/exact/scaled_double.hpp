@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "exact/wide_int.hpp"
+#include "support/inlining.hpp"
 
 namespace surehit::detail {
 
@@ -16,7 +17,7 @@ struct ScaledDouble {
 
   /// Returns |x|.
   template <int Bits>
-  static ScaledDouble of_magnitude(const WideInt<Bits>& x) {
+  SUREHIT_NOINLINE static ScaledDouble of_magnitude(const WideInt<Bits>& x) {
     if (x.is_zero()) return {};
     const int below = x.bit_length() - 64;
     // Two roundings: bits below the leading 64 are cut, and the conversion rounds to 53 of these.

@@ -139,6 +139,32 @@ class ExactBox {
   /// Returns the sign of the step times the normal.
   [[nodiscard]] int sign_along() const { return dot(normal_, terms_.step).sign(); }
 
+  /// Returns the direction of the side that the centre passes, or that of the side that it is nearest to at the start.
+  [[nodiscard]] SUREHIT_NOINLINE Direction direction(const BoxContact& contact) const {
+    std::size_t axis = contact.timed_by;
+    bool is_above = contact.is_above;
+    if (contact.at_start) {
+      bool is_first = true;
+      WideInt<2 * Bits::time> least_depth;  // The square of the depth, times the square of the axis.
+      WideInt<2 * Bits::cross + 2> square_of_least;
+      take_all([&](std::size_t any_axis, bool any_is_above, const auto& gap, const auto&) {
+        const Int depth = gap;
+        const auto square = depth * depth;
+        const auto m = axis_vector(any_axis);
+        const auto square_of_axis = dot(m, m);
+        if (!is_first && (square * square_of_least - least_depth * square_of_axis).sign() >= 0) return;
+        is_first = false;
+        least_depth = square;
+        square_of_least = square_of_axis;
+        axis = any_axis;
+        is_above = any_is_above;
+      });
+    }
+    auto m = axis_vector(axis);
+    if (!is_above) m = {negated(m[0]), negated(m[1]), negated(m[2])};
+    return direction_of(m);
+  }
+
   SUREHIT_NOINLINE void round(const BoxContact& contact, ShapeHit<Scalar>& hit) const {
     Time t;
     if (contact.at_start) {
@@ -172,6 +198,22 @@ class ExactBox {
       if (below == 0 && zeros < 3) continue;  // B3
       for (std::size_t k = 0; k < 3; ++k) take_edge(terms_, k, coordinate, below, take);
     }
+  }
+
+  /// Returns the vector of an axis (B1).
+  [[nodiscard]] Vector<WideInt<Bits::cross>> axis_vector(std::size_t axis) const {
+    if (axis == normal_axis) return normal_;
+    Vector<WideInt<Bits::cross>> m;
+    if (axis < normal_axis) {
+      m[axis] = WideInt<Bits::cross>::power_of_two(0);
+      return m;
+    }
+    const std::size_t i = next(coordinate_of(axis));
+    const std::size_t j = next(i);
+    const auto& e = terms_.edge[edge_of(axis)];
+    m[i] = e[j];
+    m[j] = negated(e[i]);
+    return m;
   }
 
   /// Returns the way from a corner to the centre at t, times the divisor of t.
@@ -270,13 +312,19 @@ void round_exactly(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle
   ExactBox<Scalar>(box, triangle).round(contact, hit);
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                       \
-  template std::optional<BoxContact> exact_contact(const SweptBox<Scalar>&, const Triangle<Scalar>&);     \
-  template int compare_times(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&,         \
-                             const Triangle<Scalar>&, const BoxContact&);                                 \
-  template int compare_time(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&, Scalar); \
-  template int sign_along(const SweptBox<Scalar>&, const Triangle<Scalar>&);                              \
-  template void round_exactly(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&, ShapeHit<Scalar>&);
+template <typename Scalar>
+Direction exact_direction(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const BoxContact& contact) {
+  return ExactBox<Scalar>(box, triangle).direction(contact);
+}
+
+#define SUREHIT_INSTANTIATE(Scalar)                                                                                    \
+  template std::optional<BoxContact> exact_contact(const SweptBox<Scalar>&, const Triangle<Scalar>&);                  \
+  template int compare_times(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&,                      \
+                             const Triangle<Scalar>&, const BoxContact&);                                              \
+  template int compare_time(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&, Scalar);              \
+  template int sign_along(const SweptBox<Scalar>&, const Triangle<Scalar>&);                                           \
+  template void round_exactly(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&, ShapeHit<Scalar>&); \
+  template Direction exact_direction(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)
 #undef SUREHIT_INSTANTIATE

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "shape/box_contact.hpp"
+#include "shape/exact_direction.hpp"
 #include "surehit/shape_hit.hpp"
 #include "surehit/swept_box.hpp"
 #include "surehit/triangle.hpp"
@@ -34,5 +35,12 @@ template <typename Scalar>
 template <typename Scalar>
 void round_exactly(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const BoxContact& contact,
                    ShapeHit<Scalar>& hit);
+
+/// Returns the direction of a contact's normal, from the triangle toward the box. It is that of the side of K that the
+/// centre passes at t (B1), and of several, that of the first axis. `contact` must be an exact one. If they touch at
+/// the start, it is the direction in which the shortest way leads out of K.
+template <typename Scalar>
+[[nodiscard]] Direction exact_direction(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle,
+                                        const BoxContact& contact);
 
 }  // namespace surehit::detail

@@ -87,6 +87,29 @@ class ExactCapsule {
     return root_of_plane<bits>(from_corner(0, contact.core), d, rr, normal_of(terms_));
   }
 
+  /// Returns the way from the touched point to the nearest point of the core, times some number.
+  [[nodiscard]] Direction direction(const CapsuleContact& contact) const {
+    const bool is_inside = contact.core == CorePart::inside;
+    const auto& d = terms_.step;
+    const auto to_line = [&](const auto& w, const auto& e) {
+      return contact.at_start ? direction_of(across(w, e)) : direction_at(root(contact), across(w, e), across(d, e));
+    };
+    if (is_corner(contact.feature)) {
+      const std::size_t corner = index_of(contact.feature);
+      if (is_inside) return to_line(terms_.from_corner[corner], terms_.half_axis);
+      const auto w = from_corner(corner, contact.core);
+      return contact.at_start ? direction_of(w) : direction_at(root(contact), w, d);
+    }
+    if (is_edge(contact.feature)) {
+      const std::size_t edge = index_of(contact.feature);
+      const auto& e = terms_.edge[edge];
+      if (!is_inside) return to_line(from_corner(edge, contact.core), e);
+      return direction_of_plane(cross(e, terms_.half_axis), terms_.from_corner[edge]);
+    }
+    if (is_inside) return {};
+    return direction_of_plane(normal_of(terms_), from_corner(0, contact.core));
+  }
+
   /// Sets t, u and v of a hit.
   void round(const CapsuleContact& contact, ShapeHit<Scalar>& hit) const {
     hit.t = 0;
@@ -209,6 +232,12 @@ void round_exactly(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& 
   ExactCapsule<Scalar>(capsule, triangle).round(contact, hit);
 }
 
+template <typename Scalar>
+Direction exact_direction(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
+                          const CapsuleContact& contact) {
+  return ExactCapsule<Scalar>(capsule, triangle).direction(contact);
+}
+
 #define SUREHIT_INSTANTIATE(Scalar)                                                                               \
   template std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>&, const Triangle<Scalar>&);     \
   template int compare_times(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&,         \
@@ -216,7 +245,8 @@ void round_exactly(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& 
   template int compare_time(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&, Scalar); \
   template int sign_along(const SweptCapsule<Scalar>&, const Triangle<Scalar>&);                                  \
   template void round_exactly(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&,        \
-                              ShapeHit<Scalar>&);
+                              ShapeHit<Scalar>&);                                                                 \
+  template Direction exact_direction(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)
 #undef SUREHIT_INSTANTIATE

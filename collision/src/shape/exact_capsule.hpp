@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "shape/capsule_contact.hpp"
+#include "shape/exact_direction.hpp"
 #include "surehit/swept_capsule.hpp"
 #include "surehit/triangle.hpp"
 
@@ -35,5 +36,11 @@ template <typename Scalar>
 template <typename Scalar>
 void round_exactly(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const CapsuleContact& contact,
                    ShapeHit<Scalar>& hit);
+
+/// Returns the direction of a contact's normal, from the triangle toward the core. It has no length if the core
+/// meets the triangle.
+template <typename Scalar>
+[[nodiscard]] Direction exact_direction(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
+                                        const CapsuleContact& contact);
 
 }  // namespace surehit::detail

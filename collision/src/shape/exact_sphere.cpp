@@ -82,6 +82,17 @@ class ExactSphere {
     return root_of_line<bits>(w, d, rr, terms_.edge[index_of(part)]);
   }
 
+  /// Returns the way from the touched point to the centre, times some number.
+  [[nodiscard]] Direction direction(const SphereContact& contact) const {
+    const Feature part = contact.at_start ? contact.feature : contact.timed_by;
+    const auto& d = terms_.step;
+    if (part == Feature::face) return direction_of_plane(normal_of(terms_), terms_.from_corner[0]);
+    const auto& w = terms_.from_corner[index_of(part)];
+    if (is_corner(part)) return contact.at_start ? direction_of(w) : direction_at(root(part), w, d);
+    const auto& e = terms_.edge[index_of(part)];
+    return contact.at_start ? direction_of(across(w, e)) : direction_at(root(part), across(w, e), across(d, e));
+  }
+
   /// Sets the weights of b and c at the touched point (S7).
   SUREHIT_NOINLINE void round_weights(const SphereContact& contact, Scalar& u, Scalar& v) const {
     u = v = 0;
@@ -174,6 +185,12 @@ void round_exactly(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& tr
   exact.round_weights(contact, hit.u, hit.v);
 }
 
+template <typename Scalar>
+Direction exact_direction(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                          const SphereContact& contact) {
+  return ExactSphere<Scalar>(sphere, triangle).direction(contact);
+}
+
 #define SUREHIT_INSTANTIATE(Scalar)                                                                             \
   template std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>&, const Triangle<Scalar>&);     \
   template int compare_times(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&,         \
@@ -181,7 +198,8 @@ void round_exactly(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& tr
   template int compare_time(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&, Scalar); \
   template int sign_along(const SweptSphere<Scalar>&, const Triangle<Scalar>&);                                 \
   template void round_exactly(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&,        \
-                              ShapeHit<Scalar>&);
+                              ShapeHit<Scalar>&);                                                               \
+  template Direction exact_direction(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)
 #undef SUREHIT_INSTANTIATE

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "shape/exact_direction.hpp"
 #include "shape/sphere_contact.hpp"
 #include "surehit/swept_sphere.hpp"
 #include "surehit/triangle.hpp"
@@ -34,5 +35,11 @@ template <typename Scalar>
 template <typename Scalar>
 void round_exactly(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, const SphereContact& contact,
                    ShapeHit<Scalar>& hit);
+
+/// Returns the direction of a contact's normal, from the triangle toward the centre. It has no length if the centre
+/// meets the triangle.
+template <typename Scalar>
+[[nodiscard]] Direction exact_direction(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                        const SphereContact& contact);
 
 }  // namespace surehit::detail

@@ -3,10 +3,14 @@
 #include "path_range.hpp"
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
+#include "shape/exact_box.hpp"
+#include "shape/exact_capsule.hpp"
+#include "shape/exact_sphere.hpp"
 #include "shape/shape_narrowphase.hpp"
 #include "shape/sphere_contact.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"
+#include "surehit/hit.hpp"
 #include "surehit/intersect.hpp"
 
 namespace surehit {
@@ -23,7 +27,60 @@ std::optional<ShapeHit<Scalar>> intersect_shape(const Shape& shape, const Triang
   return narrowphase.hit(candidate);
 }
 
+/// Returns the contact of a valid shape, for its direction.
+template <typename Shape, typename Scalar>
+std::optional<detail::ContactOf<Shape>> find_contact(const Shape& shape, const Triangle<Scalar>& triangle) {
+  // A box may pass several sides at once, and integers tell which one is the first.
+  if constexpr (std::is_same_v<Shape, SweptBox<Scalar>>) return detail::exact_contact(shape, triangle);
+  QueryStatistics statistics;
+  const ShapeQueryOptions<Scalar> options;
+  detail::ContactOf<Shape> contact;
+  if (!detail::ShapeNarrowphase<Shape>(shape, options, statistics).find_contact(triangle, 1, contact)) {
+    return std::nullopt;
+  }
+  return contact;
+}
+
+template <typename Shape, typename Scalar>
+Vector3<Scalar> normal_of_contact(const Shape& shape, const Triangle<Scalar>& triangle) {
+  const Vector3<Scalar> zero = Vector3<Scalar>::Zero();
+  if (!detail::is_valid(shape) || !detail::is_finite(triangle)) return zero;
+  const auto contact = find_contact(shape, triangle);
+  if (!contact) return zero;
+  const Vector3<Scalar> along = detail::unit_of<Scalar>(detail::exact_direction(shape, triangle, *contact));
+  if (along != zero) return along;
+  const Vector3<Scalar> n = normal(triangle);
+  return detail::sign_along(shape, triangle) > 0 ? Vector3<Scalar>(-n) : n;
+}
+
+/// Returns a + u (b - a) + v (c - a) on one axis. In double, a float has no roundings that count.
+template <typename Scalar>
+Scalar weighted(Scalar a, Scalar b, Scalar c, const ShapeHit<Scalar>& hit) {
+  if constexpr (std::is_same_v<Scalar, float>) {
+    const double first = a;
+    return static_cast<float>(first + (hit.u * (b - first) + hit.v * (c - first)));
+  } else {
+    // A half of each number keeps differences from overflowing.
+    const Scalar half = a / 2;
+    return 2 * (half + (hit.u * (b / 2 - half) + hit.v * (c / 2 - half)));
+  }
+}
+
 }  // namespace
+
+template <FloatOrDouble Scalar>
+Vector3<Scalar> contact_point(const Triangle<Scalar>& triangle, const ShapeHit<Scalar>& hit) noexcept {
+  const FloatingPointEnvironment environment;
+  const auto& [a, b, c] = triangle;
+  return {weighted(a[0], b[0], c[0], hit), weighted(a[1], b[1], c[1], hit), weighted(a[2], b[2], c[2], hit)};
+}
+
+template <FloatOrDouble Scalar>
+Vector3<Scalar> contact_normal(const std::type_identity_t<SweptShape<Scalar>>& shape,
+                               const Triangle<Scalar>& triangle) noexcept {
+  const FloatingPointEnvironment environment;
+  return std::visit([&](const auto& any) { return normal_of_contact(any, triangle); }, shape);
+}
 
 template <FloatOrDouble Scalar>
 std::optional<ShapeHit<Scalar>> intersect(const std::type_identity_t<SweptShape<Scalar>>& shape,
@@ -33,9 +90,13 @@ std::optional<ShapeHit<Scalar>> intersect(const std::type_identity_t<SweptShape<
   return std::visit([&](const auto& any) { return intersect_shape(any, triangle, options); }, shape);
 }
 
-template SUREHIT_API std::optional<ShapeHit<float>> intersect(const SweptShape<float>&, const Triangle<float>&,
-                                                              const ShapeQueryOptions<float>&) noexcept;
-template SUREHIT_API std::optional<ShapeHit<double>> intersect(const SweptShape<double>&, const Triangle<double>&,
-                                                               const ShapeQueryOptions<double>&) noexcept;
+#define SUREHIT_INSTANTIATE(Scalar)                                                                                  \
+  template SUREHIT_API Vector3<Scalar> contact_point(const Triangle<Scalar>&, const ShapeHit<Scalar>&) noexcept;     \
+  template SUREHIT_API Vector3<Scalar> contact_normal(const SweptShape<Scalar>&, const Triangle<Scalar>&) noexcept;  \
+  template SUREHIT_API std::optional<ShapeHit<Scalar>> intersect(const SweptShape<Scalar>&, const Triangle<Scalar>&, \
+                                                                 const ShapeQueryOptions<Scalar>&) noexcept;
+SUREHIT_INSTANTIATE(float)
+SUREHIT_INSTANTIATE(double)
+#undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit

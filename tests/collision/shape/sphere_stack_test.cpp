@@ -45,6 +45,7 @@ TYPED_TEST(SphereStack, of_all_queries_in_all_families) {
       };
       measure(
           [&] { static_cast<void>(intersect(sphere, triangle, {.max_t = Scalar(0.5), .culling = Culling::back})); });
+      measure([&] { static_cast<void>(contact_normal(sphere, triangle)); });
       measure([&] { static_cast<void>(collider.first_hit(sphere)); });
       measure([&] { static_cast<void>(collider.any_hit(sphere, {.max_t = Scalar(0.5)})); });
       measure([&] { collider.first_hits(std::span{&sphere, 1}, hits); });
