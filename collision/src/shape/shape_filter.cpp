@@ -190,8 +190,9 @@ class FilterLanes {
       interval.keep_below(lowest(w), lowest(end), reach, hn::Neg(inverse));
       interval.keep_below(hn::Neg(highest(w)), hn::Neg(highest(end)), reach, inverse);
     }
-    // The limit may be rounded down, and this makes up for it.
-    const V last = set(limit * (1 + 4 * Precision::u));
+    // A rounded limit is above the times that count, since these have a share of 16 u taken off. The smallest ones may
+    // be rounded up, so they always count.
+    const V last = set(std::max(limit, 0x1p-100));
     if (interval.is_empty_before(last)) return 0;
     const V far = hn::Add(reach_of_w, set(shape.radius + shape.size_of_half));
     const V size_2 = hn::Mul(size, size);

@@ -162,6 +162,29 @@ TYPED_TEST(ColliderSpheres, FindAllThatIsThereFromAfarAndWithAnySize) {
   ASSERT_NO_FATAL_FAILURE(this->compare(mesh.view(), spheres, "ground"));
 }
 
+// The lists of a smooth mesh have slabs, far thinner than these balls, whose centres stay outside of them.
+TYPED_TEST(ColliderSpheres, TouchASmoothMeshFromOutsideOfItsSlabs) {
+  using Scalar = TypeParam;
+  const GeneratedMesh<Scalar> mesh = smooth_bowl<Scalar>(60);
+  const TriangleMeshView<Scalar> view = mesh.view();
+  const Collider<Scalar> collider(view);
+  Random random(23);
+  for (std::size_t i = 0; i < case_count(400); ++i) {
+    const auto id = static_cast<std::uint32_t>(random.below(view.triangle_count()));
+    const Triangle<Scalar> triangle = view.triangle(id);
+    const Vector3<Scalar> inside = (triangle.a + triangle.b + triangle.c) / 3;
+    const Vector3<Scalar> normal = surehit::normal(triangle) * (random.one_in(2) ? 1 : -1);
+    const Scalar radius = (triangle.b - triangle.a).norm() * (1 + 4 * random.unit<Scalar>());
+    const SweptSphere<Scalar> sphere = {inside + 2 * radius * normal, inside + radius * normal * Scalar(0.9), radius};
+    ASSERT_TRUE(intersect(sphere, triangle).has_value());
+    ASSERT_TRUE(collider.any_hit(sphere)) << "ball " << i;
+    std::vector<ShapeHit<Scalar>> hits;
+    collider.all_hits(sphere, hits);
+    const bool has_it = std::any_of(hits.begin(), hits.end(), [&](const auto& hit) { return hit.triangle == id; });
+    ASSERT_TRUE(has_it) << "ball " << i;
+  }
+}
+
 TYPED_TEST(ColliderSpheres, FindTrianglesThatAreMuchSmallerThanTheBall) {
   using Scalar = TypeParam;
   // Squares of such sizes underflow one after the other.
@@ -261,6 +284,7 @@ TYPED_TEST(ColliderSpheres, OverlapAtTheStartWhateverTheRestOfTheStepIs) {
   const Collider<Scalar> collider(mesh.view());
   const Vector3<Scalar> beyond = {1, 1, std::numeric_limits<Scalar>::infinity()};
   EXPECT_TRUE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 2}, beyond, 2}, {.ignore_start_contact = true}));
+  EXPECT_TRUE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 2}, beyond, 2}, {.max_t = -1}));
   EXPECT_FALSE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 3}, {1, 1, 9}, 2}, {.max_t = 1}));
   EXPECT_FALSE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 2}, {1, 1, 2}, 2}, {.ignored_triangle = 0}));
 }
