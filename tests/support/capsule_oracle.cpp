@@ -439,14 +439,12 @@ std::optional<std::string> find_error_of_normal(const SweptCapsule<Scalar>& caps
 
 template <typename Scalar>
 bool comes_before(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& x, const Triangle<Scalar>& y) {
-  const auto time = [&](const Triangle<Scalar>& triangle) {
-    return first_time(to_float(capsule, triangle), [](const Float&) { return true; }).value();
-  };
-  const Float of_x = time(x);
-  const Float of_y = time(y);
-  Float tiny(1);
-  mpf_div_2exp(tiny.get_mpf_t(), tiny.get_mpf_t(), 300);
-  return of_x < of_y - tiny * of_y;
+  const FloatPair of_x = to_float(capsule, x);
+  const FloatPair of_y = to_float(capsule, y);
+  const auto is_any = [](const Float&) { return true; };
+  const Float x_time = first_time(of_x, is_any).value();
+  const Float y_time = first_time(of_y, is_any).value();
+  return x_time < y_time - std::max(of_x.tiny, of_y.tiny) * y_time;
 }
 
 #define SUREHIT_INSTANTIATE(Scalar)                                                                                  \
