@@ -37,7 +37,7 @@ Vector<Number> from_corner(const TermsOf<Number>& terms, std::size_t corner, Cor
   return moved_to(core, terms.from_corner[corner], terms.half_axis);
 }
 
-/// Returns bounds of the t at which two parts come within the radius (C3).
+/// Returns bounds of the t at which two parts come within the radius (C5).
 template <typename Number>
 DoubleRange time_of(const TermsOf<Number>& terms, const CapsuleContact& contact) {
   const bool is_inside = contact.core == CorePart::inside;
@@ -55,7 +55,7 @@ DoubleRange time_of(const TermsOf<Number>& terms, const CapsuleContact& contact)
   return time_to_line(w, terms.step, e, terms.radius);
 }
 
-/// Rounds the weights of a contact at the inside of the triangle (C5).
+/// Rounds the weights of a contact at the inside of the triangle (C7).
 template <typename Number, typename Scalar>
 bool try_round_weights_of_face(const TermsOf<Number>& terms, const CapsuleContact& contact, ShapeHit<Scalar>& hit) {
   const DoubleRange t = {contact.t_lower, contact.t_upper};
@@ -78,7 +78,7 @@ bool try_round_weights_of_face(const TermsOf<Number>& terms, const CapsuleContac
   return try_weight(terms.edge[2], hit.u) && try_weight(terms.edge[0], hit.v);
 }
 
-/// Rounds the weights of a contact at an edge (C5).
+/// Rounds the weights of a contact at an edge (C7).
 template <typename Number, typename Scalar>
 bool try_round_weights_of_edge(const TermsOf<Number>& terms, const CapsuleContact& contact, ShapeHit<Scalar>& hit) {
   const DoubleRange t = {contact.t_lower, contact.t_upper};

@@ -36,7 +36,7 @@ template <typename X, typename A>
 /// numbers are either exact integers, or doubles with bounds. With the latter, an answer counts only if it is certain.
 ///
 /// Two parts, one of the triangle and one of the core, have an equation: its root is the t at which they come within
-/// the radius (C3). If they are the nearest parts then, they touch. Usually no other parts can be as near, and the
+/// the radius (C5). If they are the nearest parts then, they touch. Usually no other parts can be as near, and the
 /// contact is found. Otherwise `comes_before(x, y)` says whether the root of contact x is before that of y.
 template <typename Terms>
 class CapsuleTouch {
@@ -306,7 +306,7 @@ class CapsuleTouch {
     return is_inside || is_near_plane(from_corner(0, parts.core), normal());
   }
 
-  /// Returns true if two parts come within the radius, and are nearest to each other then (C3).
+  /// Returns true if two parts come within the radius, and are nearest to each other then (C5).
   [[nodiscard]] bool enters(const CapsuleContact& parts) {
     const bool is_inside = parts.core == CorePart::inside;
     if (is_corner(parts.feature)) {

@@ -67,7 +67,7 @@ class ExactCapsule {
     return contact;
   }
 
-  /// Returns the equation of the t at which two parts come within the radius (C3).
+  /// Returns the equation of the t at which two parts come within the radius (C5).
   [[nodiscard]] SUREHIT_NOINLINE Root<Scalar> root(const CapsuleContact& contact) const {
     const auto rr = terms_.radius * terms_.radius;
     const auto& d = terms_.step;
@@ -137,7 +137,7 @@ class ExactCapsule {
     contact.t_upper = std::min(t.upper, 1.0);
   }
 
-  /// Sets the weights of b and c at the touched point, unless it is a corner (C5).
+  /// Sets the weights of b and c at the touched point, unless it is a corner (C7).
   void round_weights(const CapsuleContact& contact, const Root<Scalar>* t, ShapeHit<Scalar>& hit) const {
     if (is_edge(contact.feature)) return round_weights_of_edge(contact, t, hit);
     if (contact.feature != Feature::face) return;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "shape/approach.hpp"
 #include "shape/outline.hpp"
 #include "shape/sphere_contact.hpp"
 #include "shape/sphere_terms.hpp"
@@ -19,7 +20,7 @@ template <typename Terms>
 class SphereTouch {
  public:
   SphereTouch(const Terms& terms, const Outline& outline, Signs& signs)
-      : terms_(terms), outline_(outline), signs_(signs) {}
+      : terms_(terms), outline_(outline), signs_(signs), approach_(terms.step, terms.radius) {}
 
   /// Returns the part that is touched first, or nothing if the ball touches nothing. The bounds of t are not set.
   template <typename ComesBefore>
@@ -102,16 +103,8 @@ class SphereTouch {
   /// then (S4).
   [[nodiscard]] std::optional<Feature> enters_face() {
     const auto n = normal();
-    const auto rate = dot(n, terms_.step);
-    const auto height = dot(n, terms_.from_corner[0]);
-    const int side = signs_.of(height);
-    if (side == 0 || side * signs_.of(rate) >= 0) return std::nullopt;
-    const auto nn = dot(n, n);
-    const auto limit = radius_squared() * nn;
-    if (signs_.of(height * height - limit) <= 0) return std::nullopt;
-    // The height at the end, on the side of the start, must be at most the radius.
-    const auto last = dot(n, terms_.to_end[0]);
-    if (signs_.of(last) == side && signs_.of(last * last - limit) > 0) return std::nullopt;
+    const auto time = approach_.to_plane(terms_.from_corner[0], terms_.to_end[0], n, signs_);
+    if (!time) return std::nullopt;
     int touched_edges = 0;
     std::size_t touched = 0;
     for (std::size_t edge = 0; edge < 3; ++edge) {
@@ -119,7 +112,7 @@ class SphereTouch {
       // The distance from the edge, inward: -(side g √nn + β r), up to a positive factor.
       const auto beta = dot(n, cross(e, terms_.step)) * terms_.radius;
       const auto g = dot(e, cross(terms_.from_corner[edge], terms_.step));
-      const int inward = -signs_.with_root(beta, side > 0 ? g : negated(g), nn);
+      const int inward = -signs_.with_root(beta, time->side > 0 ? g : negated(g), time->square);
       if (inward < 0) return std::nullopt;
       if (inward > 0) continue;
       // Edges k and k + 1 meet in corner k + 1.
@@ -132,20 +125,12 @@ class SphereTouch {
   /// Returns true if the ball comes to a corner, and the corner is the nearest part then (S5).
   [[nodiscard]] bool enters_corner(std::size_t corner) {
     const auto& w = terms_.from_corner[corner];
-    const auto& d = terms_.step;
-    const auto b = dot(d, w);
-    if (signs_.of(b) >= 0) return false;
-    const auto a = dot(d, d);
-    const auto c = dot(w, w) - radius_squared();
-    const auto discriminant = b * b - a * c;
-    if (signs_.of(discriminant) < 0) return false;
-    const auto& last = terms_.to_end[corner];
-    if (signs_.of(dot(d, last)) <= 0 && signs_.of(dot(last, last) - radius_squared()) > 0) return false;
+    const auto time = approach_.to_point(w, terms_.to_end[corner], signs_);
+    if (!time) return false;
     const auto leads_nearer = [&](std::size_t edge, bool is_outgoing) {
       if (!outline_.edges[edge]) return false;
       const auto& e = terms_.edge[edge];
-      const auto de = dot(d, e);
-      const int sign = signs_.with_root(a * dot(w, e) - b * de, negated(de), discriminant);
+      const int sign = time->sign_of(signs_, dot(w, e), dot(terms_.step, e));
       return is_outgoing ? sign > 0 : sign < 0;
     };
     return !leads_nearer(corner, true) && !leads_nearer(before(corner), false);
@@ -156,37 +141,24 @@ class SphereTouch {
     const auto& e = terms_.edge[edge];
     const auto& d = terms_.step;
     const auto& w = terms_.from_corner[edge];
-    const auto f = cross(d, e);
-    const auto moment = cross(w, e);
-    const auto b = dot(f, moment);
-    if (signs_.of(b) >= 0) return false;
-    const auto a = dot(f, f);
-    const auto ee = dot(e, e);
-    const auto limit = radius_squared() * ee;
-    const auto c = dot(moment, moment) - limit;
-    if (signs_.of(c) <= 0) return false;
-    const auto wf = dot(w, f);
-    const auto reduced = radius_squared() * a - wf * wf;
-    if (signs_.of(reduced) < 0) return false;
-    const auto last = cross(terms_.to_end[edge], e);
-    if (signs_.of(dot(f, last)) <= 0 && signs_.of(dot(last, last) - limit) > 0) return false;
+    const auto time = approach_.to_line(w, terms_.to_end[edge], e, signs_);
+    if (!time) return false;
     const auto dd = dot(d, d);
     const auto de = dot(d, e);
     const auto from_start = dd * dot(w, e) - dot(d, w) * de;
-    if (signs_.of_roots(from_start, ee, de, reduced) <= 0) return false;
+    if (signs_.of_roots(from_start, time->square, de, time->reduced) <= 0) return false;
     const auto& w_end = terms_.from_corner[next(edge)];
     const auto from_end = dd * dot(w_end, e) - dot(d, w_end) * de;
-    if (signs_.of_roots(from_end, ee, de, reduced) >= 0) return false;
+    if (signs_.of_roots(from_end, time->square, de, time->reduced) >= 0) return false;
     if (!outline_.has_face) return true;
     const auto outward = cross(e, normal());
-    const auto rate = dot(outward, d);
-    const auto discriminant = ee * reduced;
-    return signs_.with_root(a * dot(outward, w) - b * rate, negated(rate), discriminant) >= 0;
+    return time->sign_of(signs_, dot(outward, w), dot(outward, d)) >= 0;
   }
 
   const Terms& terms_;
   const Outline& outline_;
   Signs& signs_;
+  Approach<typename decltype(Terms::step)::value_type, decltype(Terms::radius)> approach_;
 };
 
 }  // namespace surehit::detail
