@@ -7,6 +7,8 @@
 
 #include "exact/scaled_double.hpp"
 #include "shape/bounded_terms.hpp"
+#include "shape/capsule_terms.hpp"
+#include "surehit/swept_capsule.hpp"
 #include "surehit/triangle.hpp"
 
 namespace surehit::detail {
@@ -23,6 +25,16 @@ void set_terms(SphereTerms<Number, Number>& terms, const Shape& shape, const Tri
   terms.edge = {of(b, a), of(c, b), of(a, c)};
   terms.step = of(shape.end, shape.start);
   set_exact(terms.radius, double{shape.radius});
+}
+
+/// Sets the terms of a capsule.
+template <typename Number, typename Scalar>
+void set_terms(CapsuleTerms<Number, Number>& terms, const SweptCapsule<Scalar>& capsule,
+               const Triangle<Scalar>& triangle) {
+  set_terms(static_cast<SphereTerms<Number, Number>&>(terms), capsule, triangle);
+  for (std::size_t i = 0; i < 3; ++i) {
+    set_exact(terms.half_axis[i], double{capsule.half_axis[static_cast<Eigen::Index>(i)]});
+  }
 }
 
 /// The smallest and the largest size of some numbers.

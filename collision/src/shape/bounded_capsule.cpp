@@ -1,9 +1,11 @@
 #include "shape/bounded_capsule.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "shape/bounded_approach.hpp"
 #include "shape/capsule_touch.hpp"
+#include "shape/exact_capsule.hpp"
 #include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
 
@@ -12,16 +14,6 @@ namespace {
 
 template <typename Number>
 using TermsOf = CapsuleTerms<Number, Number>;
-
-template <typename Number, typename Scalar>
-TermsOf<Number> terms_of(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
-  TermsOf<Number> terms;
-  set_terms<Number>(terms, capsule, triangle);
-  for (std::size_t i = 0; i < 3; ++i) {
-    set_exact(terms.half_axis[i], double{capsule.half_axis[static_cast<Eigen::Index>(i)]});
-  }
-  return terms;
-}
 
 /// Returns whether the premise of Z2 holds.
 bool has_usual_sizes(const TermsOf<Sized>& terms) {
@@ -102,7 +94,8 @@ bool try_round_weights_of_edge(const TermsOf<Number>& terms, const CapsuleContac
 template <typename Number, typename Scalar>
 SUREHIT_NOINLINE bool try_round_weights(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
                                         const CapsuleContact& contact, ShapeHit<Scalar>& hit) {
-  const TermsOf<Number> terms = terms_of<Number>(capsule, triangle);
+  TermsOf<Number> terms;
+  set_terms(terms, capsule, triangle);
   if (!has_usual_sizes(terms)) return false;
   return is_edge(contact.feature) ? try_round_weights_of_edge(terms, contact, hit)
                                   : try_round_weights_of_face(terms, contact, hit);
@@ -111,16 +104,24 @@ SUREHIT_NOINLINE bool try_round_weights(const SweptCapsule<Scalar>& capsule, con
 template <typename Number, typename Scalar>
 SUREHIT_NOINLINE Verdict find_contact(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
                                       CapsuleContact& found) {
-  const TermsOf<Number> terms = terms_of<Number>(capsule, triangle);
+  TermsOf<Number> terms;
+  set_terms(terms, capsule, triangle);
   if (!has_usual_sizes(terms)) return Verdict::undecided;
   bool has_face = false;
   for (const Number& x : normal_of(terms)) has_face |= x.sign().value_or(0) != 0;
   if (!has_face) return Verdict::undecided;
+  Signs signs;
+  CoreTilt tilt = tilt_of(terms, signs);
+  if (!signs.is_certain()) {
+    if (std::is_same_v<Number, Sized>) return Verdict::undecided;
+    tilt = exact_tilt(capsule, triangle);
+  }
   constexpr Outline outline;
   bool is_alone = true;
   const auto comes_before = [&](const CapsuleContact&, const CapsuleContact&) { return is_alone = false; };
-  CapsuleTouch touch(terms, outline);
-  const std::optional<CapsuleContact> contact = touch.find(comes_before);
+  CapsuleTouch touch(terms, outline, tilt);
+  NoGuide guide;
+  const std::optional<CapsuleContact> contact = touch.find(comes_before, guide);
   if (!touch.is_certain() || !(is_alone || touch.is_final())) return Verdict::undecided;
   if (!contact) return Verdict::miss;
   found = *contact;

@@ -6,31 +6,11 @@
 
 #include "shape/approach.hpp"
 #include "shape/capsule_contact.hpp"
-#include "shape/sphere_contact.hpp"
-#include "shape/sphere_terms.hpp"
-#include "shape/sphere_touch.hpp"
+#include "shape/capsule_terms.hpp"
+#include "shape/outline.hpp"
 #include "support/inlining.hpp"
 
 namespace surehit::detail {
-
-/// A moving capsule and a triangle, in differences: those of its centre, and the half axis.
-template <typename Difference, typename Radius>
-struct CapsuleTerms : SphereTerms<Difference, Radius> {
-  Vector<Difference> half_axis;  ///< The way from the centre to an end of the core.
-};
-
-/// Returns x, or x moved to an end of the core: x - A or x + A.
-template <typename X, typename A>
-[[nodiscard]] auto moved_to(CorePart core, const Vector<X>& x, const Vector<A>& half_axis) {
-  using Sum = decltype(x[0] + half_axis[0]);
-  if (core == CorePart::low_end) {
-    return Vector<Sum>{x[0] - half_axis[0], x[1] - half_axis[1], x[2] - half_axis[2]};
-  }
-  if (core == CorePart::high_end) {
-    return Vector<Sum>{x[0] + half_axis[0], x[1] + half_axis[1], x[2] + half_axis[2]};
-  }
-  return Vector<Sum>{x[0], x[1], x[2]};
-}
 
 /// Decides whether a moving capsule touches a triangle, and where first. Follows SHAPES.md, whose lemmas it cites. The
 /// numbers are either exact integers, or doubles with bounds. With the latter, an answer counts only if it is certain.
@@ -41,22 +21,17 @@ template <typename X, typename A>
 template <typename Terms>
 class CapsuleTouch {
  public:
-  CapsuleTouch(const Terms& terms, const Outline& outline)
-      : terms_(terms), outline_(outline), approach_(terms.step, terms.radius) {
-    is_point_ = is_zero(terms_.half_axis);
-    for (std::size_t edge = 0; edge < 3; ++edge) is_along_[edge] = is_zero(wall_normal(edge));
-    tilt_ = signs_.of(dot(normal(), terms_.half_axis));
-    is_certain_ = signs_.is_certain();
-  }
+  CapsuleTouch(const Terms& terms, const Outline& outline, const CoreTilt& tilt)
+      : terms_(terms), outline_(outline), tilt_(tilt), approach_(terms.step, terms.radius) {}
 
-  /// Returns the first contact, or nothing if they do not touch. The bounds of t are not set.
-  template <typename ComesBefore>
-  [[nodiscard]] std::optional<CapsuleContact> find(const ComesBefore& comes_before) {
-    const bool has_certain_terms = is_certain_;
+  /// Returns the first contact, or nothing if they do not touch. The bounds of t are not set. Parts are not asked about
+  /// if `guide` knows better.
+  template <typename ComesBefore, typename Guide>
+  [[nodiscard]] std::optional<CapsuleContact> find(const ComesBefore& comes_before, Guide& guide) {
     std::optional<CapsuleContact> first;
     const auto take_nearest = [&](const CapsuleContact& contact) {
       begin();
-      if (!is_nearest_at_start(contact)) return false;
+      if (!guide.may_be_nearest(contact) || !is_nearest_at_start(contact)) return false;
       first = contact;
       return true;
     };
@@ -65,7 +40,7 @@ class CapsuleTouch {
       return std::nullopt;
     }
     // If no sign is zero, no other parts are as near. So the signs that were asked before do not matter.
-    if (is_strict_ && signs_.is_certain()) is_certain_ = has_certain_terms;
+    if (is_strict_ && signs_.is_certain()) is_certain_ = true;
     begin();
     if (reaches(*first)) {
       first->at_start = true;
@@ -77,7 +52,7 @@ class CapsuleTouch {
     first.reset();
     const auto take_first = [&](const CapsuleContact& contact) {
       begin();
-      if (!enters(contact)) return false;
+      if (!guide.may_enter(contact) || !enters(contact)) return false;
       is_final_ = is_strict_ && signs_.is_certain();
       if (is_final_ || !first || comes_before(contact, *first)) first = contact;
       return is_final_;
@@ -86,6 +61,17 @@ class CapsuleTouch {
     end();
     if (is_final_) is_certain_ = has_certain_start;
     return first;
+  }
+
+  /// Returns false if two parts are certainly not nearest to each other at the start.
+  [[nodiscard]] bool may_be_nearest(const CapsuleContact& parts) {
+    signs_ = Signs();
+    return is_nearest_at_start(parts) || !signs_.is_certain();
+  }
+  /// Returns false if two parts certainly do not come within the radius, or are not nearest to each other then.
+  [[nodiscard]] bool may_enter(const CapsuleContact& parts) {
+    signs_ = Signs();
+    return enters(parts) || !signs_.is_certain();
   }
 
   /// Returns true if all signs that the answer needs were certain.
@@ -120,19 +106,9 @@ class CapsuleTouch {
     is_strict_ &= sign != 0;
     return sign >= 0;
   }
-  template <typename Number>
-  [[nodiscard]] bool is_zero(const Vector<Number>& x) {
-    Signs unheard;
-    for (const Number& component : x) {
-      if (unheard.of(component) != 0) return false;
-    }
-    for (const Number& component : x) static_cast<void>(signs_.of(component));
-    return true;
-  }
 
   [[nodiscard]] auto normal() const { return normal_of(terms_); }
-  /// Returns e × A, the normal of the parallelogram between an edge and the axis.
-  [[nodiscard]] auto wall_normal(std::size_t edge) const { return cross(terms_.edge[edge], terms_.half_axis); }
+  [[nodiscard]] auto wall_normal(std::size_t edge) const { return detail::wall_normal(terms_, edge); }
   /// Returns A × (e × A): the direction of an edge, across the axis.
   [[nodiscard]] auto edge_across_axis(std::size_t edge) const { return cross(terms_.half_axis, wall_normal(edge)); }
   /// Returns e × (e × A): the direction of -A, across the edge.
@@ -167,12 +143,12 @@ class CapsuleTouch {
       return false;
     };
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      if (outline_.corners[corner] && take_all(corner_feature(corner), is_point_)) return true;
+      if (outline_.corners[corner] && take_all(corner_feature(corner), tilt_.is_point)) return true;
     }
     for (std::size_t edge = 0; edge < 3; ++edge) {
-      if (outline_.edges[edge] && take_all(edge_feature(edge), is_along_[edge])) return true;
+      if (outline_.edges[edge] && take_all(edge_feature(edge), tilt_.is_along[edge])) return true;
     }
-    return outline_.has_face && take_all(Feature::face, tilt_ == 0);
+    return outline_.has_face && take_all(Feature::face, tilt_.of_plane == 0);
   }
 
   /// Returns true if a way out of an edge's inside leaves the triangle, if it has the direction -s A (C4).
@@ -185,7 +161,7 @@ class CapsuleTouch {
     // The triangle is a segment or a point.
     const auto leads_off = [&](std::size_t edge, int sign) {
       if (!outline_.edges[edge]) return true;
-      return !is_along_[edge] || sign * s * signs_.of(dot(terms_.edge[edge], terms_.half_axis)) > 0;
+      return !tilt_.is_along[edge] || sign * s * signs_.of(dot(terms_.edge[edge], terms_.half_axis)) > 0;
     };
     return leads_off(corner, 1) && leads_off(before(corner), -1);
   }
@@ -200,10 +176,10 @@ class CapsuleTouch {
       if (!holds(along(axis, from_corner(corner, CorePart::high_end), time))) return false;
       const auto& w = terms_.from_corner[corner];
       const auto leads_off = [&](std::size_t edge, int sign) {
-        return !outline_.edges[edge] || is_along_[edge] || holds(sign * along(edge_across_axis(edge), w, time));
+        return !outline_.edges[edge] || tilt_.is_along[edge] || holds(sign * along(edge_across_axis(edge), w, time));
       };
       if (!leads_off(corner, -1) || !leads_off(incoming, 1)) return false;
-      if (tilt_ != 0) return true;
+      if (tilt_.of_plane != 0) return true;
       const int s = -along(axis, w, time);
       return s == 0 || leaves_corner(corner, s);
     }
@@ -215,7 +191,7 @@ class CapsuleTouch {
     if (!leads_off(corner, -1) || !leads_off(incoming, 1)) return false;
     if (s == 0) return true;
     const int beyond = -s * along(axis, w, time);
-    return holds(beyond) && (beyond > 0 || tilt_ != 0 || leaves_corner(corner, s));
+    return holds(beyond) && (beyond > 0 || tilt_.of_plane != 0 || leaves_corner(corner, s));
   }
 
   /// Returns true if the inside of an edge and a part of the core are nearest to each other at a time (C2, C4).
@@ -228,21 +204,21 @@ class CapsuleTouch {
     if (outline_.has_face && !holds(along(outward(edge), w, time))) return false;
     if (s == 0) return true;
     const int beyond = s * along(axis_across_edge(edge), w, time);
-    return holds(beyond) && (beyond > 0 || tilt_ != 0 || leaves_edge(edge, s));
+    return holds(beyond) && (beyond > 0 || tilt_.of_plane != 0 || leaves_edge(edge, s));
   }
   /// Returns the same for the inside of the core.
   template <typename Time>
   [[nodiscard]] SUREHIT_NOINLINE bool is_nearest_wall(std::size_t edge, const Time& time) {
     const auto& w = terms_.from_corner[edge];
     // The side of the wall is that of the start, since they have not touched before.
-    if (tilt_ != 0 && !holds(tilt_ * signs_.of(dot(wall_normal(edge), w)))) return false;
+    if (tilt_.of_plane != 0 && !holds(tilt_.of_plane * signs_.of(dot(wall_normal(edge), w)))) return false;
     const auto along_edge = edge_across_axis(edge);
     if (!holds(along(along_edge, w, time))) return false;
     if (!holds(-along(along_edge, terms_.from_corner[next(edge)], time))) return false;
     const auto along_axis = axis_across_edge(edge);
     if (!holds(along(along_axis, from_corner(edge, CorePart::low_end), time))) return false;
     if (!holds(-along(along_axis, from_corner(edge, CorePart::high_end), time))) return false;
-    if (tilt_ != 0) return true;
+    if (tilt_.of_plane != 0) return true;
     const int s = along(along_axis, w, time);
     return s == 0 || leaves_edge(edge, s);
   }
@@ -252,7 +228,7 @@ class CapsuleTouch {
   template <typename Time>
   [[nodiscard]] SUREHIT_NOINLINE bool is_nearest_face(CorePart core, const Time& time) {
     const auto w = from_corner(0, core);
-    if (tilt_ != 0 && !holds(-sign_of(core) * tilt_ * signs_.of(dot(normal(), w)))) return false;
+    if (tilt_.of_plane != 0 && !holds(-sign_of(core) * tilt_.of_plane * signs_.of(dot(normal(), w)))) return false;
     for (std::size_t edge = 0; edge < 3; ++edge) {
       if (!holds(-along(outward(edge), from_corner(edge, core), time))) return false;
     }
@@ -261,10 +237,10 @@ class CapsuleTouch {
   /// Returns true if the core crosses the triangle at the start, but not in its plane (C2).
   [[nodiscard]] SUREHIT_NOINLINE bool crosses_at_start() {
     const auto n = normal();
-    if (!holds(tilt_ * signs_.of(dot(n, from_corner(0, CorePart::high_end))))) return false;
-    if (!holds(-tilt_ * signs_.of(dot(n, from_corner(0, CorePart::low_end))))) return false;
+    if (!holds(tilt_.of_plane * signs_.of(dot(n, from_corner(0, CorePart::high_end))))) return false;
+    if (!holds(-tilt_.of_plane * signs_.of(dot(n, from_corner(0, CorePart::low_end))))) return false;
     for (std::size_t edge = 0; edge < 3; ++edge) {
-      if (!holds(-tilt_ * signs_.of(dot(wall_normal(edge), terms_.from_corner[edge])))) return false;
+      if (!holds(-tilt_.of_plane * signs_.of(dot(wall_normal(edge), terms_.from_corner[edge])))) return false;
     }
     return true;
   }
@@ -344,14 +320,12 @@ class CapsuleTouch {
 
   const Terms& terms_;
   const Outline& outline_;
+  const CoreTilt& tilt_;
   Approach<typename decltype(Terms::step)::value_type, decltype(Terms::radius)> approach_;
   Signs signs_;             ///< The signs that were asked about the parts in question.
   bool is_certain_ = true;  ///< True if all signs before these were certain, as far as they count.
   bool is_final_ = false;   ///< True if no sign about the parts of the first contact is zero.
   bool is_strict_ = true;   ///< True if no sign about the parts in question is zero.
-  bool is_point_ = false;   ///< True if the half axis is zero.
-  int tilt_ = 0;            ///< The sign of n·A. It is zero if the core is parallel to the plane, or without a plane.
-  std::array<bool, 3> is_along_ = {};  ///< True for each edge that is parallel to the core.
 };
 
 }  // namespace surehit::detail

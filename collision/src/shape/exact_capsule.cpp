@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "exact/exact_scale.hpp"
+#include "shape/bounded_approach.hpp"
 #include "shape/capsule_touch.hpp"
 #include "shape/exact_approach.hpp"
 #include "shape/exact_sphere.hpp"
@@ -32,7 +33,8 @@ using Root = QuadraticRoot<CapsuleBits<Scalar>::quadratic>;
 template <typename Scalar>
 class ExactCapsule {
  public:
-  ExactCapsule(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const BinaryUnit& unit) {
+  ExactCapsule(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const BinaryUnit& unit)
+      : capsule_(capsule), triangle_(triangle) {
     const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
     for (std::size_t k = 0; k < 3; ++k) {
       set_difference(terms_.from_corner[k], capsule.start, *corners[k], unit);
@@ -60,9 +62,19 @@ class ExactCapsule {
     return unit;
   }
 
+  [[nodiscard]] SUREHIT_NOINLINE CoreTilt tilt() const {
+    Signs signs;
+    return tilt_of(terms_, signs);
+  }
+
   [[nodiscard]] std::optional<CapsuleContact> find() const {
     const auto comes_before = [&](const CapsuleContact& x, const CapsuleContact& y) { return is_before(x, y); };
-    std::optional<CapsuleContact> contact = CapsuleTouch(terms_, outline_).find(comes_before);
+    // Doubles with bounds rule out most parts.
+    CapsuleTerms<Bounded, Bounded> bounded;
+    set_terms(bounded, capsule_, triangle_);
+    const CoreTilt tilt = this->tilt();
+    CapsuleTouch guide(bounded, outline_, tilt);
+    std::optional<CapsuleContact> contact = CapsuleTouch(terms_, outline_, tilt).find(comes_before, guide);
     if (contact && !contact->at_start) set_bounds(*contact);
     return contact;
   }
@@ -190,6 +202,8 @@ class ExactCapsule {
     if (edge == 2) hit.v = toward_start();
   }
 
+  const SweptCapsule<Scalar>& capsule_;
+  const Triangle<Scalar>& triangle_;
   IntTerms<Scalar> terms_;
   Outline outline_;
 };
@@ -199,6 +213,11 @@ class ExactCapsule {
 template <typename Scalar>
 std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
   return ExactCapsule<Scalar>(capsule, triangle).find();
+}
+
+template <typename Scalar>
+CoreTilt exact_tilt(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
+  return ExactCapsule<Scalar>(capsule, triangle).tilt();
 }
 
 template <typename Scalar>
@@ -240,6 +259,7 @@ Direction exact_direction(const SweptCapsule<Scalar>& capsule, const Triangle<Sc
 
 #define SUREHIT_INSTANTIATE(Scalar)                                                                               \
   template std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>&, const Triangle<Scalar>&);     \
+  template CoreTilt exact_tilt(const SweptCapsule<Scalar>&, const Triangle<Scalar>&);                             \
   template int compare_times(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&,         \
                              const Triangle<Scalar>&, const CapsuleContact&);                                     \
   template int compare_time(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&, Scalar); \

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "shape/capsule_contact.hpp"
+#include "shape/capsule_terms.hpp"
 #include "shape/exact_direction.hpp"
 #include "surehit/swept_capsule.hpp"
 #include "surehit/triangle.hpp"
@@ -17,6 +18,10 @@ namespace surehit::detail {
 template <typename Scalar>
 [[nodiscard]] std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>& capsule,
                                                           const Triangle<Scalar>& triangle);
+
+/// Returns how the core lies to the parts of a triangle.
+template <typename Scalar>
+[[nodiscard]] CoreTilt exact_tilt(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle);
 
 /// Returns the sign of t of x less t of y.
 template <typename Scalar>
