@@ -20,6 +20,7 @@
 #include "surehit/shape_hit.hpp"
 #include "surehit/shape_options.hpp"
 #include "surehit/swept_box.hpp"
+#include "surehit/swept_capsule.hpp"
 #include "surehit/swept_shape.hpp"
 #include "surehit/swept_sphere.hpp"
 #include "surehit/triangle.hpp"
