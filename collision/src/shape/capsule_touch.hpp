@@ -153,7 +153,8 @@ class CapsuleTouch {
 
   /// Returns true if a way out of an edge's inside leaves the triangle, if it has the direction -s A (C4).
   [[nodiscard]] bool leaves_edge(std::size_t edge, int s) {
-    return !outline_.has_face || s * signs_.of(dot(outward(edge), terms_.half_axis)) < 0;
+    if (!outline_.has_face) return true;
+    return !tilt_.is_along[edge] && s * signs_.of(dot(outward(edge), terms_.half_axis)) < 0;
   }
   /// Returns the same for a corner.
   [[nodiscard]] bool leaves_corner(std::size_t corner, int s) {
