@@ -15,7 +15,25 @@ namespace surehit::detail {
 namespace {
 
 template <typename Number>
-using TermsOf = BoxTerms<Number, Number>;
+struct TermsOf : BoxTerms<Number, Number> {
+  Vector<Number> normal;
+};
+
+/// Sets a component of the normal to a certain zero if exact differences and products show it. A wall has such
+/// components, and `Sized` alone never knows.
+template <typename Scalar>
+void set_certain_zeros(Vector<Sized>& normal, const Triangle<Scalar>& triangle) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (certain_sign(normal[i])) continue;
+    const Vector<Bounded> ab = difference<Bounded>(triangle.b, triangle.a);
+    const Vector<Bounded> bc = difference<Bounded>(triangle.c, triangle.b);
+    const std::size_t j = next(i);
+    const std::size_t k = next(j);
+    if (certain_sign(ab[j] * bc[k] - ab[k] * bc[j]) == 0) normal[i] = {};
+  }
+}
+template <typename Scalar>
+void set_certain_zeros(Vector<Bounded>&, const Triangle<Scalar>&) {}
 
 template <typename Number, typename Scalar>
 TermsOf<Number> terms_of(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle) {
@@ -24,11 +42,15 @@ TermsOf<Number> terms_of(const SweptBox<Scalar>& box, const Triangle<Scalar>& tr
   Vector<Number> half_extents;
   for (std::size_t i = 0; i < 3; ++i)
     set_exact(half_extents[i], double{box.half_extents[static_cast<Eigen::Index>(i)]});
-  return {{of(box.start, a), of(box.start, b), of(box.start, c)},
-          {of(b, a), of(c, b), of(a, c)},
-          of(box.end, box.start),
-          half_extents,
-          ExtremeCorners(triangle)};
+  TermsOf<Number> terms{{{of(box.start, a), of(box.start, b), of(box.start, c)},
+                         {of(b, a), of(c, b), of(a, c)},
+                         of(box.end, box.start),
+                         half_extents,
+                         ExtremeCorners(triangle)},
+                        {}};
+  terms.normal = normal_of(terms);
+  set_certain_zeros(terms.normal, triangle);
+  return terms;
 }
 
 /// Returns whether the premise of Z2 holds.
@@ -155,7 +177,7 @@ SUREHIT_NOINLINE Verdict find_contact(const SweptBox<Scalar>& box, const Triangl
   };
   for (std::size_t i = 0; i < 3; ++i) take_coordinate(terms, i, take);
   if (passage.misses()) return Verdict::miss;
-  const Vector<Number> n = normal_of(terms);
+  const Vector<Number>& n = terms.normal;
   int zeros = 0;
   bool has_area = false;
   for (const Number& x : n) {
@@ -202,9 +224,8 @@ class BoundedPoint {
 
   template <typename Scalar>
   [[nodiscard]] bool try_round(ShapeHit<Scalar>& hit) {
-    normal_ = normal_of(terms_);
     bool has_area = false;
-    for (const Number& x : normal_) has_area |= certain_sign(x).value_or(0) != 0;
+    for (const Number& x : terms_.normal) has_area |= certain_sign(x).value_or(0) != 0;
     if (!has_area) return false;
     Number m;
     Number moved;
@@ -238,7 +259,7 @@ class BoundedPoint {
     if (axis < normal_axis) {
       take_coordinate(terms_, axis, take);
     } else if (axis == normal_axis) {
-      take_normal(terms_, normal_, take);
+      take_normal(terms_, terms_.normal, take);
     } else {
       take_edge(terms_, edge_of(axis), coordinate_of(axis), 0, take);
     }
@@ -278,7 +299,7 @@ class BoundedPoint {
   /// A corner of the box meets the plane, or an edge that is parallel to the plane.
   [[nodiscard]] std::optional<Point> find_on_edge_of_box(Search& search) {
     std::array<int, 3> sign;
-    for (std::size_t i = 0; i < 3; ++i) sign[i] = signs_.of(normal_[i]);
+    for (std::size_t i = 0; i < 3; ++i) sign[i] = signs_.of(terms_.normal[i]);
     if (!signs_.is_certain()) return std::nullopt;
     for (std::size_t i = 0; i < 3; ++i) {
       if (sign[i] != 0) continue;
@@ -288,7 +309,7 @@ class BoundedPoint {
     // The lines of two faces meet at the steepest angle without the largest component.
     std::size_t largest = 0;
     for (std::size_t i = 1; i < 3; ++i) {
-      if (std::fabs(normal_[i].value) > std::fabs(normal_[largest].value)) largest = i;
+      if (std::fabs(terms_.normal[i].value) > std::fabs(terms_.normal[largest].value)) largest = i;
     }
     const std::size_t i = next(largest);
     const std::size_t j = next(i);
@@ -319,7 +340,6 @@ class BoundedPoint {
 
   const TermsOf<Number>& terms_;
   const BoxContact& contact_;
-  Vector<Number> normal_;
   Signs signs_;
 };
 
