@@ -46,7 +46,7 @@ TermsOf<Number> terms_of(const SweptBox<Scalar>& box, const Triangle<Scalar>& tr
                          {of(b, a), of(c, b), of(a, c)},
                          of(box.end, box.start),
                          half_extents,
-                         ExtremeCorners(triangle)},
+                         AxisExtremes(triangle)},
                         {}};
   terms.normal = normal_of(terms);
   set_certain_zeros(terms.normal, triangle);

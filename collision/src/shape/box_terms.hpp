@@ -11,9 +11,9 @@
 namespace surehit::detail {
 
 /// The corners of a triangle that come first and last on each axis of coordinates.
-struct ExtremeCorners {
+struct AxisExtremes {
   template <typename Scalar>
-  explicit ExtremeCorners(const Triangle<Scalar>& triangle) {
+  explicit AxisExtremes(const Triangle<Scalar>& triangle) {
     const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto axis = static_cast<Eigen::Index>(i);
@@ -35,7 +35,7 @@ struct BoxTerms {
   std::array<Vector<Difference>, 3> edge;         ///< The edges.
   Vector<Difference> step;                        ///< The end less the start.
   Vector<Extent> half_extents;                    ///< The half extents. None is negative.
-  ExtremeCorners extremes;                        ///< The extreme corners on each axis of coordinates.
+  AxisExtremes extremes;                          ///< The extreme corners on each axis of coordinates.
 };
 
 /// The axes of the faces of K (B1). The first three are those of coordinates. The fourth is the triangle's normal. Then

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "exact/exact_scale.hpp"
+#include "shape/outline.hpp"
 #include "shape/shape_contact.hpp"
 #include "shape/touched_point.hpp"
 #include "support/inlining.hpp"
@@ -62,7 +63,7 @@ class ExactBox {
   using Time = Ratio<Int>;
 
   ExactBox(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle)
-      : terms_{{}, {}, {}, {}, ExtremeCorners(triangle)} {
+      : terms_{{}, {}, {}, {}, AxisExtremes(triangle)}, extremes_(triangle) {
     const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
     BinaryUnit unit;
     unit.include(box.start);
@@ -77,7 +78,6 @@ class ExactBox {
     }
     set_difference(terms_.step, box.end, box.start, unit);
     normal_ = cross(terms_.edge[0], terms_.edge[1]);
-    if (is_zero(normal_)) set_extremes(corners);
   }
 
   [[nodiscard]] std::optional<BoxContact> find() const {
@@ -241,42 +241,31 @@ class ExactBox {
   }
 
   void round_on_segment(const Time& t, ShapeHit<Scalar>& hit) const {
-    hit.feature = corner_feature(lowest_);
+    const auto [first, last] = extremes_;
+    hit.feature = corner_feature(first);
     std::array<Scalar, 3> weights = {0, 0, 0};
-    weights[lowest_] = 1;
-    if (lowest_ != highest_) {
-      const bool is_forward = next(lowest_) == highest_;
-      const std::size_t edge = is_forward ? lowest_ : highest_;
+    weights[first] = 1;
+    if (first != last) {
+      const bool is_forward = next(first) == last;
+      const std::size_t edge = is_forward ? first : last;
       Vector<Difference> along = terms_.edge[edge];
       if (!is_forward) along = {negated(along[0]), negated(along[1]), negated(along[2])};
-      const Vector<Moved> way = to_centre(lowest_, t);
+      const Vector<Moved> way = to_centre(first, t);
       Signs signs;
       const Point point = TouchedPoint<Numbers>(way, along, {}, extents(t), t.den, signs).find_on(0);
       const Weight whole = t.den * point.z;
       const auto rest = whole - point.u;
-      weights[lowest_] = rounded_quotient<Scalar>(rest, whole);
-      weights[highest_] = rounded_quotient<Scalar>(point.u, whole);
-      if (!point.u.is_zero()) hit.feature = rest.is_zero() ? corner_feature(highest_) : edge_feature(edge);
+      weights[first] = rounded_quotient<Scalar>(rest, whole);
+      weights[last] = rounded_quotient<Scalar>(point.u, whole);
+      if (!point.u.is_zero()) hit.feature = rest.is_zero() ? corner_feature(last) : edge_feature(edge);
     }
     hit.u = weights[1];
     hit.v = weights[2];
   }
 
-  /// Sets the extreme corners in lexicographic order. Of equal corners, the first one counts.
-  void set_extremes(const std::array<const Vector3<Scalar>*, 3>& corners) {
-    const auto before = [](const Vector3<Scalar>& x, const Vector3<Scalar>& y) {
-      return x[0] != y[0] ? x[0] < y[0] : x[1] != y[1] ? x[1] < y[1] : x[2] < y[2];
-    };
-    for (std::size_t k = 1; k < 3; ++k) {
-      if (before(*corners[k], *corners[lowest_])) lowest_ = k;
-      if (before(*corners[highest_], *corners[k])) highest_ = k;
-    }
-  }
-
   BoxTerms<Difference, WideInt<Bits::coordinate>> terms_;
   IntVector<WideInt<Bits::cross>> normal_;
-  std::size_t lowest_ = 0;   ///< The first corner of a triangle without area.
-  std::size_t highest_ = 0;  ///< The last corner of a triangle without area.
+  ExtremeCorners extremes_;
 };
 
 }  // namespace

@@ -15,20 +15,30 @@ struct Outline {
   std::array<bool, 3> corners = {true, true, true};  ///< The corners that count.
 };
 
-/// Returns the outline of a triangle without area: the edge between its extreme corners, in lexicographic order, or the
-/// first corner.
+/// The corners that come first and last in lexicographic order. Of equal corners, the first one counts.
+struct ExtremeCorners {
+  template <typename Scalar>
+  explicit ExtremeCorners(const Triangle<Scalar>& triangle) {
+    const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
+    const auto before = [](const Vector3<Scalar>& x, const Vector3<Scalar>& y) {
+      return x[0] != y[0] ? x[0] < y[0] : x[1] != y[1] ? x[1] < y[1] : x[2] < y[2];
+    };
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (before(*corners[k], *corners[first])) first = k;
+      if (before(*corners[last], *corners[k])) last = k;
+    }
+  }
+
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+/// Returns the outline of a triangle without area: the edge between its extreme corners, or the first corner.
 template <typename Scalar>
 [[nodiscard]] Outline outline_without_area(const Triangle<Scalar>& triangle) {
-  const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
-  const auto before = [](const Vector3<Scalar>& x, const Vector3<Scalar>& y) {
-    return x[0] != y[0] ? x[0] < y[0] : x[1] != y[1] ? x[1] < y[1] : x[2] < y[2];
-  };
-  std::size_t min = 0;
-  std::size_t max = 0;
-  for (std::size_t k = 1; k < 3; ++k) {
-    if (before(*corners[k], *corners[min])) min = k;
-    if (before(*corners[max], *corners[k])) max = k;
-  }
+  const ExtremeCorners extremes(triangle);
+  const std::size_t min = extremes.first;
+  const std::size_t max = extremes.last;
   Outline outline;
   outline.has_face = false;
   for (std::size_t k = 0; k < 3; ++k) {

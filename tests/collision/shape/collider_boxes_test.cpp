@@ -294,6 +294,19 @@ TYPED_TEST(ColliderBoxes, LandOnTheLowestIdOfAFlatFloorWithoutIntegers) {
   ASSERT_NO_FATAL_FAILURE(this->compare(mesh.view(), boxes, "floor"));
 }
 
+TYPED_TEST(ColliderBoxes, LandOnTheHigherOfTwoFloorsThatAreAlmostOne) {
+  using Scalar = TypeParam;
+  GeneratedMesh<Scalar> mesh;
+  for (const Scalar height : {Scalar{0}, Scalar(0x1p-70), Scalar(0x1p-80)}) {
+    mesh.add({{-9, -9, height}, {9, -9, height}, {0, 9, height}});
+    mesh.add({{-9, 9, height / 2}, {9, 9, height / 2}, {0, -9, height}});
+  }
+  const Collider<Scalar> collider(mesh.view());
+  const SweptBox<Scalar> box{{0, 0, 3}, {0, 0, -3}, {1, 1, 1}};
+  EXPECT_EQ(collider.first_hit(box)->triangle, 2U);
+  ASSERT_NO_FATAL_FAILURE(this->compare(mesh.view(), {box}, "floors"));
+}
+
 TYPED_TEST(ColliderBoxes, SlideOverAFlatFloorAtItsHeight) {
   using Scalar = TypeParam;
   const auto mesh = flat_floor<Scalar>(3);
