@@ -7,7 +7,7 @@ set(tree "${FOLDER}/tree")
 set(package "${tree}/collision/bindings/python")
 file(REMOVE_RECURSE "${tree}" "${TO}")
 file(COPY "${PACKAGE}/" DESTINATION "${package}" PATTERN build EXCLUDE PATTERN "*.egg-info" EXCLUDE)
-file(COPY "${SOURCE_FOLDER}/collision/include/surehit/version.hpp" DESTINATION "${tree}/collision/include/surehit")
+file(COPY "${SOURCE_FOLDER}/collision/include/surehit/c/version.h" DESTINATION "${tree}/collision/include/surehit/c")
 file(CONFIGURE OUTPUT "${tree}/CMakeLists.txt" @ONLY CONTENT [[
 cmake_minimum_required(VERSION 3.25)
 project(stand_in LANGUAGES NONE)

@@ -23,7 +23,7 @@ except ImportError:  # before setuptools 70
 
 HERE = Path(__file__).resolve().parent
 SOURCES = HERE.parents[2]
-VERSION_HEADER = SOURCES / "collision/include/surehit/version.hpp"
+VERSION_HEADER = SOURCES / "collision/include/surehit/c/version.h"
 C_ABI = 1
 
 

@@ -30,5 +30,6 @@
 #include "surehit/c/status.h"          // IWYU pragma: export
 #include "surehit/c/values_d.h"        // IWYU pragma: export
 #include "surehit/c/values_f.h"        // IWYU pragma: export
+#include "surehit/c/version.h"         // IWYU pragma: export
 
 #endif

@@ -1,8 +1,6 @@
 #pragma once
 
-/// The major version of these headers. While it is 0, a minor version may change what users compile against.
-#define SUREHIT_VERSION_MAJOR 0
-/// The minor version of these headers.
-#define SUREHIT_VERSION_MINOR 2
-/// The patch version of these headers.
-#define SUREHIT_VERSION_PATCH 0
+/// @file
+/// The version of these headers: `SUREHIT_VERSION_MAJOR`, `SUREHIT_VERSION_MINOR` and `SUREHIT_VERSION_PATCH`.
+
+#include "surehit/c/version.h"  // IWYU pragma: export

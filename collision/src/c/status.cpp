@@ -4,7 +4,7 @@
 
 #include "c/arguments.hpp"
 #include "c/last_error.hpp"
-#include "surehit/version.hpp"  // The compiler would say so if its numbers were not those of status.h.
+#include "surehit/c/version.h"
 
 namespace surehit::c {
 

@@ -7,12 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// The major version of this header. While it is 0, a minor version may change the interface.
-#define SUREHIT_VERSION_MAJOR 0
-/// The minor version of this header.
-#define SUREHIT_VERSION_MINOR 2
-/// The patch version of this header.
-#define SUREHIT_VERSION_PATCH 0
+#include "surehit/c/version.h"  // IWYU pragma: export
+
 /// The version of the layouts and functions of the C interface. It grows with each change that an old program could
 /// notice.
 #define SUREHIT_C_ABI 1

@@ -27,7 +27,7 @@ class SurehitConan(ConanFile):
         return os.path.join(self.recipe_folder, "..", "..", "..", "..")
 
     def set_version(self):
-        header = load(self, os.path.join(self._sources_here, "collision/include/surehit/version.hpp"))
+        header = load(self, os.path.join(self._sources_here, "collision/include/surehit/c/version.h"))
         self.version = ".".join(re.findall(r"#define SUREHIT_VERSION_\w+ (\d+)", header))
 
     def export_sources(self):
