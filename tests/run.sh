@@ -86,7 +86,8 @@ step .ci/install_packages.sh library examples tests benchmarks || finish
 .ci/install_packages.sh mpi || left_out+=("visibility_bake with MPI: its package cannot be installed")
 if ! $quick; then
   .ci/install_packages.sh languages || left_out+=("the guide's programs in Rust and C#: their compilers cannot be installed")
-  .ci/install_packages.sh python || left_out+=("the package for Python: NumPy, Matplotlib or pip cannot be installed")
+  .ci/install_packages.sh python || left_out+=("the package for Python: NumPy or pip cannot be installed")
+  .ci/install_packages.sh python_tests || left_out+=("the pictures and types of the package for Python: Matplotlib or mypy cannot be installed")
   .ci/install_packages.sh web || left_out+=("WebAssembly: its packages cannot be installed")
   command -v npm >/dev/null || .ci/install_packages.sh npm || left_out+=("the comparison with three.js: npm cannot be installed")
   { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null ||
