@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "c/arguments.hpp"
+#include "c/asked_paths.hpp"
 #include "c/values.hpp"
 #include "surehit/batch_options.hpp"
 #include "surehit/collider.hpp"
@@ -15,32 +16,62 @@
 
 namespace surehit::c {
 
-/// The types of queries of what is asked: a collider or a scene.
-template <typename Object>
+/// The types of queries of what is asked: of a collider or of a scene about paths, or of one of them about shapes.
+template <typename Subject>
 struct Asked;
 
-template <typename ScalarOfMesh>
-struct Asked<Collider<ScalarOfMesh>> {
-  using Scalar = ScalarOfMesh;
-  using Answer = Hit<Scalar>;
-  using Options = QueryOptions<Scalar>;
-  using AnyBatchOptions = BatchOptions<Scalar>;
-  using CHit = typename Structs<Scalar>::Hit;
-  using CFilter = typename Structs<Scalar>::Filter;
-  using COptions = typename Structs<Scalar>::QueryOptions;
-  using CBatchOptions = typename Structs<Scalar>::BatchOptions;
+/// The types of queries by their names, of which some are in C.
+template <typename ObjectOfQuery, typename ScalarOfAll, typename AnswerOfQuery, typename OptionsOfQuery,
+          typename OptionsOfBatch, typename CStructs>
+struct AskedTypes {
+  using Object = ObjectOfQuery;
+  using Scalar = ScalarOfAll;
+  using Answer = AnswerOfQuery;
+  using Options = OptionsOfQuery;
+  using AnyBatchOptions = OptionsOfBatch;
+  using CHit = typename CStructs::Hit;
+  using CFilter = typename CStructs::Filter;
+  using COptions = typename CStructs::QueryOptions;
+  using CBatchOptions = typename CStructs::BatchOptions;
+};
+
+/// The same for queries about paths.
+template <typename Object, typename Scalar, typename Answer, typename Options, typename AnyBatchOptions,
+          typename CStructs>
+struct AskedAboutPaths : AskedTypes<Object, Scalar, Answer, Options, AnyBatchOptions, CStructs> {
+  using CPath = typename Structs<Scalar>::Path;
+  using Paths = AskedPaths<Scalar>;
+
+  /// Fails unless the path can be read.
+  static void check(Arguments& arguments, const CPath* path) { check_path(arguments, path, "path"); }
+};
+
+/// Sets the options that queries of colliders and of scenes share. They have been checked.
+template <typename Options, typename COptions>
+void set_options(Options& options, const COptions& given) {
+  options.min_t = given.min_t;
+  options.max_t = given.max_t;
+  options.culling = static_cast<Culling>(given.culling);
+  options.mask = given.mask;
+  options.ignored_triangle = given.ignored_triangle;
+  options.ignore_start_contact = given.ignore_start_contact != 0;
+  options.ignore_end_contact = given.ignore_end_contact != 0;
+}
+
+template <typename Scalar>
+struct Asked<Collider<Scalar>> : AskedAboutPaths<Collider<Scalar>, Scalar, Hit<Scalar>, QueryOptions<Scalar>,
+                                                 BatchOptions<Scalar>, Structs<Scalar>> {
+  using typename Asked::AskedTypes::Answer;
+  using typename Asked::AskedTypes::CHit;
+  using typename Asked::AskedTypes::COptions;
+  using typename Asked::AskedTypes::Options;
   static constexpr const char* name = "collider";
 
   /// Returns options that have been checked. Null means the defaults.
   [[nodiscard]] static Options options_of(const COptions* given) {
-    if (given == nullptr) return {};
-    return {given->min_t,
-            given->max_t,
-            static_cast<Culling>(given->culling),
-            given->mask,
-            given->ignored_triangle,
-            given->ignore_start_contact != 0,
-            given->ignore_end_contact != 0};
+    Options options;
+    if (given != nullptr) set_options(options, *given);
+    return options;
   }
 
   /// Returns a hit, which may have any numbers.
@@ -57,21 +88,23 @@ struct Asked<Collider<ScalarOfMesh>> {
 #define SUREHIT_SAME_MEMBER(Struct, CStruct, member)                    \
   static_assert(offsetof(Struct, member) == offsetof(CStruct, member)); \
   static_assert(sizeof(Struct::member) == sizeof(CStruct::member))
-#define SUREHIT_SAME_LAYOUT(Scalar, s)                                                       \
-  static_assert(sizeof(Hit<Scalar>) == sizeof(surehit_hit##s));                              \
-  SUREHIT_SAME_MEMBER(Hit<Scalar>, surehit_hit##s, t);                                       \
-  SUREHIT_SAME_MEMBER(Hit<Scalar>, surehit_hit##s, u);                                       \
-  SUREHIT_SAME_MEMBER(Hit<Scalar>, surehit_hit##s, v);                                       \
-  SUREHIT_SAME_MEMBER(Hit<Scalar>, surehit_hit##s, triangle);                                \
-  SUREHIT_SAME_MEMBER(Hit<Scalar>, surehit_hit##s, side);                                    \
-  static_assert(sizeof(QueryOptions<Scalar>) == sizeof(surehit_query_options##s));           \
-  SUREHIT_SAME_MEMBER(QueryOptions<Scalar>, surehit_query_options##s, min_t);                \
-  SUREHIT_SAME_MEMBER(QueryOptions<Scalar>, surehit_query_options##s, max_t);                \
-  SUREHIT_SAME_MEMBER(QueryOptions<Scalar>, surehit_query_options##s, culling);              \
-  SUREHIT_SAME_MEMBER(QueryOptions<Scalar>, surehit_query_options##s, mask);                 \
-  SUREHIT_SAME_MEMBER(QueryOptions<Scalar>, surehit_query_options##s, ignored_triangle);     \
-  SUREHIT_SAME_MEMBER(QueryOptions<Scalar>, surehit_query_options##s, ignore_start_contact); \
-  SUREHIT_SAME_MEMBER(QueryOptions<Scalar>, surehit_query_options##s, ignore_end_contact)
+#define SUREHIT_SAME_OPTIONS(Options, COptions)                 \
+  static_assert(sizeof(Options) == sizeof(COptions));           \
+  SUREHIT_SAME_MEMBER(Options, COptions, min_t);                \
+  SUREHIT_SAME_MEMBER(Options, COptions, max_t);                \
+  SUREHIT_SAME_MEMBER(Options, COptions, culling);              \
+  SUREHIT_SAME_MEMBER(Options, COptions, mask);                 \
+  SUREHIT_SAME_MEMBER(Options, COptions, ignored_triangle);     \
+  SUREHIT_SAME_MEMBER(Options, COptions, ignore_start_contact); \
+  SUREHIT_SAME_MEMBER(Options, COptions, ignore_end_contact)
+#define SUREHIT_SAME_LAYOUT(Scalar, s)                          \
+  static_assert(sizeof(Hit<Scalar>) == sizeof(surehit_hit##s)); \
+  SUREHIT_SAME_MEMBER(Hit<Scalar>, surehit_hit##s, t);          \
+  SUREHIT_SAME_MEMBER(Hit<Scalar>, surehit_hit##s, u);          \
+  SUREHIT_SAME_MEMBER(Hit<Scalar>, surehit_hit##s, v);          \
+  SUREHIT_SAME_MEMBER(Hit<Scalar>, surehit_hit##s, triangle);   \
+  SUREHIT_SAME_MEMBER(Hit<Scalar>, surehit_hit##s, side);       \
+  SUREHIT_SAME_OPTIONS(QueryOptions<Scalar>, surehit_query_options##s)
 SUREHIT_SAME_LAYOUT(float, f);
 SUREHIT_SAME_LAYOUT(double, d);
 
@@ -80,7 +113,9 @@ template <typename COptions>
 void check_options(Arguments& arguments, const COptions& options, std::size_t element) {
   arguments.check_value(options.culling, 3, element, "options.culling");
   arguments.check_value(options.ignore_start_contact, 2, element, "options.ignore_start_contact");
-  arguments.check_value(options.ignore_end_contact, 2, element, "options.ignore_end_contact");
+  if constexpr (requires { options.ignore_end_contact; }) {
+    arguments.check_value(options.ignore_end_contact, 2, element, "options.ignore_end_contact");
+  }
 }
 
 /// Fails unless the options can be read. Null is allowed.
@@ -99,11 +134,11 @@ void check_filter(Arguments& arguments, const CFilter* filter) {
   }
 }
 
-/// A filter of C for a query of an `Object`. Once it has said stop, it is not asked again.
-template <typename Object>
+/// A filter of C for a query of a `Subject`. Once it has said stop, it is not asked again.
+template <typename Subject>
 class AskedFilter {
  public:
-  using Types = Asked<Object>;
+  using Types = Asked<Subject>;
 
   /// After a stop, all hits count if `accepts_after_stop`, so that a search for the first hit ends soon.
   AskedFilter(const typename Types::CFilter* filter, bool accepts_after_stop)

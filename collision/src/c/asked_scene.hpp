@@ -30,30 +30,23 @@ SUREHIT_SCENE_STRUCTS(double, d)
 inline InstanceId from_c(surehit_instance_id id) { return {id.index, id.generation}; }
 inline surehit_instance_id to_c(InstanceId id) { return {id.index, id.generation}; }
 
-template <typename ScalarOfScene>
-struct Asked<Scene<ScalarOfScene>> {
-  using Scalar = ScalarOfScene;
-  using Answer = SceneHit<Scalar>;
-  using Options = SceneQueryOptions<Scalar>;
-  using AnyBatchOptions = SceneBatchOptions<Scalar>;
-  using CHit = typename SceneStructs<Scalar>::Hit;
-  using CFilter = typename SceneStructs<Scalar>::Filter;
-  using COptions = typename SceneStructs<Scalar>::QueryOptions;
-  using CBatchOptions = typename SceneStructs<Scalar>::BatchOptions;
+template <typename Scalar>
+struct Asked<Scene<Scalar>> : AskedAboutPaths<Scene<Scalar>, Scalar, SceneHit<Scalar>, SceneQueryOptions<Scalar>,
+                                              SceneBatchOptions<Scalar>, SceneStructs<Scalar>> {
+  using typename Asked::AskedTypes::Answer;
+  using typename Asked::AskedTypes::CHit;
+  using typename Asked::AskedTypes::COptions;
+  using typename Asked::AskedTypes::Options;
   static constexpr const char* name = "scene";
 
   /// Returns options that have been checked. Null means the defaults.
   [[nodiscard]] static Options options_of(const COptions* given) {
-    if (given == nullptr) return {};
-    return {given->min_t,
-            given->max_t,
-            static_cast<Culling>(given->culling),
-            given->mask,
-            given->instance_mask,
-            c::from_c(given->ignored_instance),
-            given->ignored_triangle,
-            given->ignore_start_contact != 0,
-            given->ignore_end_contact != 0};
+    Options options;
+    if (given == nullptr) return options;
+    set_options(options, *given);
+    options.instance_mask = given->instance_mask;
+    options.ignored_instance = c::from_c(given->ignored_instance);
+    return options;
   }
   /// Returns a hit, which may have any numbers.
   [[nodiscard]] static Answer from_c(const CHit& hit) {
@@ -66,18 +59,11 @@ struct Asked<Scene<ScalarOfScene>> {
 };
 
 // As for colliders. `SceneHit` has a base, so the compiler need not tell where its members are. A test looks at them.
-#define SUREHIT_SAME_SCENE_LAYOUT(Scalar, s)                                                            \
-  static_assert(sizeof(SceneHit<Scalar>) == sizeof(surehit_scene_hit##s));                              \
-  static_assert(sizeof(SceneQueryOptions<Scalar>) == sizeof(surehit_scene_query_options##s));           \
-  SUREHIT_SAME_MEMBER(SceneQueryOptions<Scalar>, surehit_scene_query_options##s, min_t);                \
-  SUREHIT_SAME_MEMBER(SceneQueryOptions<Scalar>, surehit_scene_query_options##s, max_t);                \
-  SUREHIT_SAME_MEMBER(SceneQueryOptions<Scalar>, surehit_scene_query_options##s, culling);              \
-  SUREHIT_SAME_MEMBER(SceneQueryOptions<Scalar>, surehit_scene_query_options##s, mask);                 \
-  SUREHIT_SAME_MEMBER(SceneQueryOptions<Scalar>, surehit_scene_query_options##s, instance_mask);        \
-  SUREHIT_SAME_MEMBER(SceneQueryOptions<Scalar>, surehit_scene_query_options##s, ignored_instance);     \
-  SUREHIT_SAME_MEMBER(SceneQueryOptions<Scalar>, surehit_scene_query_options##s, ignored_triangle);     \
-  SUREHIT_SAME_MEMBER(SceneQueryOptions<Scalar>, surehit_scene_query_options##s, ignore_start_contact); \
-  SUREHIT_SAME_MEMBER(SceneQueryOptions<Scalar>, surehit_scene_query_options##s, ignore_end_contact)
+#define SUREHIT_SAME_SCENE_LAYOUT(Scalar, s)                                                     \
+  static_assert(sizeof(SceneHit<Scalar>) == sizeof(surehit_scene_hit##s));                       \
+  SUREHIT_SAME_OPTIONS(SceneQueryOptions<Scalar>, surehit_scene_query_options##s);               \
+  SUREHIT_SAME_MEMBER(SceneQueryOptions<Scalar>, surehit_scene_query_options##s, instance_mask); \
+  SUREHIT_SAME_MEMBER(SceneQueryOptions<Scalar>, surehit_scene_query_options##s, ignored_instance)
 SUREHIT_SAME_SCENE_LAYOUT(float, f);
 SUREHIT_SAME_SCENE_LAYOUT(double, d);
 

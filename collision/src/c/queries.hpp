@@ -9,7 +9,6 @@
 
 #include "c/arguments.hpp"
 #include "c/asked.hpp"
-#include "c/asked_paths.hpp"
 #include "c/task_run.hpp"
 #include "c/values.hpp"
 #include "surehit/path_span.hpp"
@@ -17,23 +16,23 @@
 
 namespace surehit::c {
 
-/// A query of one path. `Object` is a collider or a scene.
-template <typename Object>
+/// A query about one path or one shape. `Subject` is as in `Asked`.
+template <typename Subject>
 class SingleQuery {
  public:
-  using Types = Asked<Object>;
-  using CPath = typename Structs<typename Types::Scalar>::Path;
+  using Types = Asked<Subject>;
+  using CPath = typename Types::CPath;
 
   /// Checks all arguments.
   SingleQuery(Arguments& arguments, const void* object, const CPath* path, const typename Types::COptions* options,
               const typename Types::CFilter* filter, surehit_statistics* statistics)
       : arguments_(arguments),
-        object_(arguments.object_of<Object>(object, Types::name)),
+        object_(arguments.object_of<typename Types::Object>(object, Types::name)),
         path_(path),
         options_(options),
         filter_(filter),
         statistics_(statistics) {
-    check_path(arguments, path, "path");
+    Types::check(arguments, path);
     check_options(arguments, options);
     check_filter(arguments, filter);
     if (statistics != nullptr) arguments.check_sized_result(statistics, "statistics");
@@ -50,7 +49,7 @@ class SingleQuery {
   template <typename Ask>
   [[nodiscard]] surehit_status answer(bool accepts_after_stop, const Ask& ask) const {
     return arguments_.then([&] {
-      const AskedFilter<Object> filter(filter_, accepts_after_stop);
+      const AskedFilter<Subject> filter(filter_, accepts_after_stop);
       QueryStatistics work;
       QueryStatistics* const counted = statistics_ != nullptr ? &work : nullptr;
       const auto options = Types::options_of(options_);
@@ -62,19 +61,19 @@ class SingleQuery {
 
  private:
   Arguments& arguments_;
-  const Object* object_;
+  const typename Types::Object* object_;
   const CPath* path_;
   const typename Types::COptions* options_;
   const typename Types::CFilter* filter_;
   surehit_statistics* statistics_;
 };
 
-template <typename Object>
-[[nodiscard]] surehit_status first_hit(const SingleQuery<Object>& query, typename Asked<Object>::CHit* hit) {
+template <typename Subject>
+[[nodiscard]] surehit_status first_hit(const SingleQuery<Subject>& query, typename Asked<Subject>::CHit* hit) {
   query.arguments().check_pointer(hit, "hit");
   return query.answer(
       true, [&](const auto& object, const auto& path, const auto& options, const auto* filter, QueryStatistics* work) {
-        using Types = Asked<Object>;
+        using Types = Asked<Subject>;
         const auto found =
             filter != nullptr ? object.first_hit(path, *filter, options, work) : object.first_hit(path, options, work);
         const bool is_answer = filter == nullptr || !filter->has_stopped();
@@ -82,8 +81,8 @@ template <typename Object>
       });
 }
 
-template <typename Object>
-[[nodiscard]] surehit_status any_hit(const SingleQuery<Object>& query, std::uint8_t* blocked) {
+template <typename Subject>
+[[nodiscard]] surehit_status any_hit(const SingleQuery<Subject>& query, std::uint8_t* blocked) {
   query.arguments().check_pointer(blocked, "blocked");
   return query.answer(
       true, [&](const auto& object, const auto& path, const auto& options, const auto* filter, QueryStatistics* work) {
@@ -93,14 +92,14 @@ template <typename Object>
       });
 }
 
-template <typename Object>
-[[nodiscard]] surehit_status all_hits(const SingleQuery<Object>& query, typename Asked<Object>::CHit* hits,
+template <typename Subject>
+[[nodiscard]] surehit_status all_hits(const SingleQuery<Subject>& query, typename Asked<Subject>::CHit* hits,
                                       std::size_t capacity, std::size_t* hit_count) {
   query.arguments().check_array(hits, capacity, sizeof *hits, "hits");
   query.arguments().check_pointer(hit_count, "hit_count");
   return query.answer(
       false, [&](const auto& object, const auto& path, const auto& options, const auto* filter, QueryStatistics* work) {
-        std::vector<typename Asked<Object>::Answer> found;
+        std::vector<typename Asked<Subject>::Answer> found;
         if (filter != nullptr) {
           object.all_hits(path, found, *filter, options, work);
           if (filter->has_stopped()) found.clear();
@@ -108,38 +107,38 @@ template <typename Object>
           object.all_hits(path, found, options, work);
         }
         *hit_count = found.size();
-        for (std::size_t i = 0; i < std::min(found.size(), capacity); ++i) hits[i] = Asked<Object>::to_c(found[i]);
+        for (std::size_t i = 0; i < std::min(found.size(), capacity); ++i) hits[i] = Asked<Subject>::to_c(found[i]);
       });
 }
 
-template <typename Object>
-[[nodiscard]] surehit_status last_free_point(const SingleQuery<Object>& query, const typename Asked<Object>::CHit* hit,
-                                             typename Structs<typename Asked<Object>::Scalar>::Vector3* point) {
+template <typename Subject>
+[[nodiscard]] surehit_status last_free_point(const SingleQuery<Subject>& query,
+                                             const typename Asked<Subject>::CHit* hit,
+                                             typename Structs<typename Asked<Subject>::Scalar>::Vector3* point) {
   query.check_segment();
   query.arguments().check_pointer(hit, "hit");
   query.arguments().check_pointer(point, "point");
   return query.answer(true, [&](const auto& object, const auto& path, const auto& options, const auto* filter,
                                 QueryStatistics* /*work*/) {
-    const Segment<typename Asked<Object>::Scalar> segment{path.start, path.toward};
+    const Segment<typename Asked<Subject>::Scalar> segment{path.start, path.toward};
     const auto found = filter != nullptr
-                           ? object.last_free_point(segment, Asked<Object>::from_c(*hit), *filter, options)
-                           : object.last_free_point(segment, Asked<Object>::from_c(*hit), options);
+                           ? object.last_free_point(segment, Asked<Subject>::from_c(*hit), *filter, options)
+                           : object.last_free_point(segment, Asked<Subject>::from_c(*hit), options);
     *point = to_c(filter == nullptr || !filter->has_stopped() ? found : segment.start);
   });
 }
 
-/// A batch of paths. `Object` is a collider or a scene.
-template <typename Object>
+/// A batch of paths or shapes.
+template <typename Subject>
 class Batch {
  public:
-  using Types = Asked<Object>;
-  using Scalar = typename Types::Scalar;
-  using CPaths = typename Structs<Scalar>::Paths;
+  using Types = Asked<Subject>;
+  using CPaths = typename Types::Paths::CPaths;
 
   /// Checks all arguments but the room for the answers.
   Batch(Arguments& arguments, const void* object, const CPaths* paths, const typename Types::CBatchOptions* options)
       : arguments_(arguments),
-        object_(arguments.object_of<Object>(object, Types::name)),
+        object_(arguments.object_of<typename Types::Object>(object, Types::name)),
         paths_(arguments, paths),
         options_(arguments.read_sized(options, "options")) {
     if (!arguments.are_valid()) return;
@@ -160,7 +159,7 @@ class Batch {
     static_assert(sizeof(Answer) == sizeof(CAnswer));
     arguments_.check_array(answers, paths_.size(), sizeof *answers, name);
     return arguments_.then([&] {
-      const AskedFilter<Object> filter(options_.filter, true);
+      const AskedFilter<Subject> filter(options_.filter, true);
       QueryStatistics work;
       typename Types::AnyBatchOptions options;
       options.options = Types::options_of(options_.options);
@@ -178,21 +177,21 @@ class Batch {
 
  private:
   Arguments& arguments_;
-  const Object* object_;
-  AskedPaths<Scalar> paths_;
+  const typename Types::Object* object_;
+  typename Types::Paths paths_;
   typename Types::CBatchOptions options_;
 };
 
-template <typename Object>
-[[nodiscard]] surehit_status first_hits(const Batch<Object>& batch, typename Asked<Object>::CHit* hits) {
-  return batch.template answer<typename Asked<Object>::Answer>(
+template <typename Subject>
+[[nodiscard]] surehit_status first_hits(const Batch<Subject>& batch, typename Asked<Subject>::CHit* hits) {
+  return batch.template answer<typename Asked<Subject>::Answer>(
       hits, "hits", [](const auto& object, const auto& paths, auto answers, const auto& options) {
         object.first_hits(paths, answers, options);
       });
 }
 
-template <typename Object>
-[[nodiscard]] surehit_status any_hits(const Batch<Object>& batch, std::uint8_t* blocked) {
+template <typename Subject>
+[[nodiscard]] surehit_status any_hits(const Batch<Subject>& batch, std::uint8_t* blocked) {
   return batch.template answer<std::uint8_t>(
       blocked, "blocked", [](const auto& object, const auto& paths, auto answers, const auto& options) {
         object.any_hits(paths, answers, options);
