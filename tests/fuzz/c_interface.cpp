@@ -46,7 +46,7 @@ class CInterfaceCase {
   CInterfaceCase& operator=(const CInterfaceCase&) = delete;
 
   void call() {
-    switch (bytes_.below(12)) {
+    switch (bytes_.below(14)) {
       case 0:
         return build();
       case 1:
@@ -69,6 +69,10 @@ class CInterfaceCase {
         return tell_of_scene();
       case 10:
         return move_vertices();
+      case 11:
+        return ask_about_shape();
+      case 12:
+        return ask_about_shapes_in_batch();
       default:
         return destroy();
     }
@@ -80,6 +84,7 @@ class CInterfaceCase {
   static constexpr std::size_t vertex_count = 6;
   static constexpr std::size_t triangle_count = 5;
   static constexpr std::size_t path_count = 9;
+  static constexpr std::uint32_t shape_kinds = 1;
 
   static void expect_status(surehit_status status, surehit_status expected) {
     if (status != expected) stop_at(std::to_string(status) + ": " + surehit_last_error());
@@ -156,13 +161,17 @@ class CInterfaceCase {
   }
   template <typename Options>
   void set_options(Options& options) {
-    if (bytes_.one_in(4)) options.min_t = number();
+    if constexpr (requires { options.min_t; }) {
+      if (bytes_.one_in(4)) options.min_t = number();
+    }
     if (bytes_.one_in(4)) options.max_t = number();
     if (bytes_.one_in(4)) options.culling = small_value(3);
     if (bytes_.one_in(4)) options.mask = bytes_.take<std::uint8_t>();
     if (bytes_.one_in(4)) options.ignored_triangle = value(triangle_count);
     if (bytes_.one_in(4)) options.ignore_start_contact = small_value(2);
-    if (bytes_.one_in(4)) options.ignore_end_contact = small_value(2);
+    if constexpr (requires { options.ignore_end_contact; }) {
+      if (bytes_.one_in(4)) options.ignore_end_contact = small_value(2);
+    }
   }
   template <typename Hit>
   static std::int32_t accept(void* user, std::size_t path, const Hit* hit) {
@@ -271,9 +280,10 @@ class CInterfaceCase {
     return result;
   }
 
-  template <typename Filter, typename Batch, typename Options, typename Hit, typename FirstHits, typename AnyHits>
-  void ask_in_batch(const void* asked, const Options& defaults, FirstHits first_hits, AnyHits any_hits) {
-    const auto ways = paths();
+  template <typename Filter, typename Batch, typename Options, typename Hit, typename Ways, typename FirstHits,
+            typename AnyHits>
+  void ask_in_batch(const void* asked, const Ways& ways, const Options& defaults, FirstHits first_hits,
+                    AnyHits any_hits) {
     std::vector<Options> own(path_count, defaults);
     for (auto& one : own) set_options(one);
     const Filter filter = {accept<Hit>, &choice_};
@@ -297,7 +307,7 @@ class CInterfaceCase {
   }
   void ask_collider_in_batch() {
     ask_in_batch<typename C::Filter, typename C::BatchOptions, typename C::Options, typename C::Hit>(
-        collider(), C::default_options(),
+        collider(), paths(), C::default_options(),
         [](const void* asked, auto... rest) { return C::first_hits(static_cast<const Collider*>(asked), rest...); },
         [](const void* asked, auto... rest) { return C::any_hits(static_cast<const Collider*>(asked), rest...); });
   }
@@ -306,9 +316,70 @@ class CInterfaceCase {
     using Scene = typename C::SceneHandle;
     ask_in_batch<typename C::SceneFilter, typename C::SceneBatchOptions, typename C::SceneOptions,
                  typename C::SceneHit>(
-        scene(), C::default_scene_options(),
+        scene(), paths(), C::default_scene_options(),
         [](const void* asked, auto... rest) { return C::scene_first_hits(static_cast<const Scene*>(asked), rest...); },
         [](const void* asked, auto... rest) { return C::scene_any_hits(static_cast<const Scene*>(asked), rest...); });
+  }
+
+  typename C::Shape shape() {
+    typename C::Shape result = {};
+    result.start = vector();
+    result.end = bytes_.one_in(8) ? result.start : vector();
+    result.half = vector();
+    result.radius = number();
+    result.kind = value(shape_kinds);
+    return result;
+  }
+  void ask_about_shape() {
+    const auto* const asked = collider();
+    const auto moving = shape();
+    auto options = C::default_shape_options();
+    set_options(options);
+    const typename C::ShapeFilter filter = {accept<typename C::ShapeHit>, &choice_};
+    choice_ = bytes_.take<std::uint8_t>();
+    surehit_statistics statistics = {};
+    set_size(statistics);
+    const auto* const given = or_none(&options);
+    const auto* const given_filter = or_none(&filter);
+    typename C::ShapeHit hit;
+    std::memset(&hit, 7, sizeof hit);
+    const auto before = hit;
+    if (checked(C::shape_first_hit(asked, or_null(&moving), given, given_filter, or_none(&statistics), or_null(&hit)),
+                hit, before) != SUREHIT_OK) {
+      return;
+    }
+    const bool is_hit = hit.triangle != SUREHIT_NO_TRIANGLE;
+    std::uint8_t answer = 2;
+    std::array<typename C::ShapeHit, triangle_count> hits;
+    std::size_t count = 0;
+    const surehit_status any = C::shape_any_hit(asked, &moving, given, given_filter, nullptr, &answer);
+    if (any == SUREHIT_OK && answer != (is_hit ? 1 : 0)) stop_at("shape_any_hit differs from shape_first_hit");
+    const surehit_status all = C::shape_all_hits(asked, &moving, given, given_filter, nullptr, hits.data(),
+                                                 bytes_.below(triangle_count + 1), &count);
+    if (all == SUREHIT_OK && (count > 0) != is_hit) stop_at("shape_all_hits differs from shape_first_hit");
+    checked(C::shape_overlaps(asked, &moving, given, or_none(&statistics), or_null(&answer)));
+    const typename C::Triangle triangle = {vector(), vector(), vector()};
+    checked(C::shape_intersect(or_null(&triangle), &moving, given, &hits[0]));
+    if (!is_hit) return;
+    if (bytes_.one_in(4)) hit.triangle = value(triangle_count);
+    Scalar t = 0;
+    checked(C::shape_last_free_t(asked, &moving, &hit, or_null(&t)));
+  }
+  void ask_about_shapes_in_batch() {
+    numbers_.clear();
+    for (std::size_t i = 0; i < sizeof(typename C::Sphere) / sizeof(Scalar) * path_count; ++i) {
+      numbers_.push_back(number());
+    }
+    const typename C::Shapes shapes = {or_null(numbers_.data()), size(path_count), value(shape_kinds)};
+    ask_in_batch<typename C::ShapeFilter, typename C::ShapeBatchOptions, typename C::ShapeOptions,
+                 typename C::ShapeHit>(
+        collider(), shapes, C::default_shape_options(),
+        [](const void* asked, auto... rest) {
+          return C::shape_first_hits(static_cast<const Collider*>(asked), rest...);
+        },
+        [](const void* asked, auto... rest) {
+          return C::shape_any_hits(static_cast<const Collider*>(asked), rest...);
+        });
   }
 
   void ask_pair() {

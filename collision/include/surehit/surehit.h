@@ -27,6 +27,10 @@
 #include "surehit/c/scene_f.h"         // IWYU pragma: export
 #include "surehit/c/scene_values_d.h"  // IWYU pragma: export
 #include "surehit/c/scene_values_f.h"  // IWYU pragma: export
+#include "surehit/c/shape_values_d.h"  // IWYU pragma: export
+#include "surehit/c/shape_values_f.h"  // IWYU pragma: export
+#include "surehit/c/shapes_d.h"        // IWYU pragma: export
+#include "surehit/c/shapes_f.h"        // IWYU pragma: export
 #include "surehit/c/status.h"          // IWYU pragma: export
 #include "surehit/c/values_d.h"        // IWYU pragma: export
 #include "surehit/c/values_f.h"        // IWYU pragma: export

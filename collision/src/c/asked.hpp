@@ -44,6 +44,8 @@ struct AskedAboutPaths : AskedTypes<Object, Scalar, Answer, Options, AnyBatchOpt
 
   /// Fails unless the path can be read.
   static void check(Arguments& arguments, const CPath* path) { check_path(arguments, path, "path"); }
+  /// Returns the path, which must have been checked.
+  [[nodiscard]] static Path<Scalar> path_of(const CPath& path) { return from_c(path); }
 };
 
 /// Sets the options that queries of colliders and of scenes share. They have been checked.

@@ -53,7 +53,7 @@ class SingleQuery {
       QueryStatistics work;
       QueryStatistics* const counted = statistics_ != nullptr ? &work : nullptr;
       const auto options = Types::options_of(options_);
-      ask(*object_, from_c(*path_), options, filter.is_there() ? &filter : nullptr, counted);
+      ask(*object_, Types::path_of(*path_), options, filter.is_there() ? &filter : nullptr, counted);
       add_work(work, statistics_);
       filter.tell_stop(arguments_);
     });

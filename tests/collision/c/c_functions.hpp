@@ -25,6 +25,13 @@ struct CFunctions;
     using Options = surehit_query_options##s;                                               \
     using BatchOptions = surehit_batch_options##s;                                          \
     using Filter = surehit_filter##s;                                                       \
+    using Shape = surehit_swept_shape##s;                                                   \
+    using Sphere = surehit_swept_sphere##s;                                                 \
+    using Shapes = surehit_swept_shapes##s;                                                 \
+    using ShapeHit = surehit_shape_hit##s;                                                  \
+    using ShapeOptions = surehit_shape_query_options##s;                                    \
+    using ShapeBatchOptions = surehit_shape_batch_options##s;                               \
+    using ShapeFilter = surehit_shape_filter##s;                                            \
     using Pose = surehit_pose##s;                                                           \
     using SceneHit = surehit_scene_hit##s;                                                  \
     using SceneOptions = surehit_scene_query_options##s;                                    \
@@ -33,6 +40,7 @@ struct CFunctions;
                                                                                             \
     static constexpr auto default_options = surehit_query_options##s##_default;             \
     static constexpr auto default_scene_options = surehit_scene_query_options##s##_default; \
+    static constexpr auto default_shape_options = surehit_shape_query_options##s##_default; \
     static constexpr auto intersect = surehit_triangle##s##_intersect;                      \
     static constexpr auto max_t_keeping_of_triangle = surehit_triangle##s##_max_t_keeping;  \
     static constexpr auto normal_of_triangle = surehit_triangle##s##_normal;                \
@@ -66,6 +74,16 @@ struct CFunctions;
     static constexpr auto box = surehit_collider##s##_box;                                  \
     static constexpr auto grid_summary = surehit_collider##s##_grid_summary;                \
     static constexpr auto memory_bytes = surehit_collider##s##_memory_bytes;                \
+                                                                                            \
+    /* Moving shapes. */                                                                    \
+    static constexpr auto shape_first_hit = surehit_collider##s##_shape_first_hit;          \
+    static constexpr auto shape_any_hit = surehit_collider##s##_shape_any_hit;              \
+    static constexpr auto shape_all_hits = surehit_collider##s##_shape_all_hits;            \
+    static constexpr auto shape_first_hits = surehit_collider##s##_shape_first_hits;        \
+    static constexpr auto shape_any_hits = surehit_collider##s##_shape_any_hits;            \
+    static constexpr auto shape_overlaps = surehit_collider##s##_shape_overlaps;            \
+    static constexpr auto shape_last_free_t = surehit_collider##s##_shape_last_free_t;      \
+    static constexpr auto shape_intersect = surehit_triangle##s##_shape_intersect;          \
                                                                                             \
     /* Scenes. */                                                                           \
     static constexpr auto create_scene = surehit_scene##s##_create;                         \

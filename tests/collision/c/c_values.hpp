@@ -8,6 +8,9 @@
 #include "surehit/query_options.hpp"
 #include "surehit/scene_hit.hpp"
 #include "surehit/scene_query_options.hpp"
+#include "surehit/shape_hit.hpp"
+#include "surehit/shape_options.hpp"
+#include "surehit/swept_sphere.hpp"
 #include "surehit/triangle.hpp"
 
 namespace surehit::test {
@@ -40,6 +43,22 @@ typename CFunctions<Scalar>::SceneHit in_c(const SceneHit<Scalar>& hit) {
           hit.triangle,
           static_cast<std::uint8_t>(hit.side),
           {hit.instance.index, hit.instance.generation}};
+}
+
+template <typename Scalar>
+typename CFunctions<Scalar>::Shape in_c(const SweptSphere<Scalar>& sphere) {
+  return {in_c(sphere.start), in_c(sphere.end), {}, sphere.radius, SUREHIT_SWEPT_SPHERE};
+}
+
+template <typename Scalar>
+typename CFunctions<Scalar>::ShapeOptions in_c(const ShapeQueryOptions<Scalar>& options) {
+  auto given = CFunctions<Scalar>::default_shape_options();
+  given.max_t = options.max_t;
+  given.culling = static_cast<std::uint8_t>(options.culling);
+  given.mask = options.mask;
+  given.ignored_triangle = options.ignored_triangle;
+  given.ignore_start_contact = options.ignore_start_contact ? 1 : 0;
+  return given;
 }
 
 template <typename Scalar>
@@ -77,6 +96,12 @@ inline Hit<float> in_cpp(const surehit_hitf& hit) {
 }
 inline Hit<double> in_cpp(const surehit_hitd& hit) {
   return {hit.t, hit.u, hit.v, hit.triangle, static_cast<Side>(hit.side)};
+}
+inline ShapeHit<float> in_cpp(const surehit_shape_hitf& hit) {
+  return {hit.t, hit.u, hit.v, hit.triangle, static_cast<Feature>(hit.feature), hit.started_touching != 0};
+}
+inline ShapeHit<double> in_cpp(const surehit_shape_hitd& hit) {
+  return {hit.t, hit.u, hit.v, hit.triangle, static_cast<Feature>(hit.feature), hit.started_touching != 0};
 }
 inline SceneHit<float> in_cpp(const surehit_scene_hitf& hit) {
   return {{hit.t, hit.u, hit.v, hit.triangle, static_cast<Side>(hit.side)},

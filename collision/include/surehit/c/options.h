@@ -24,6 +24,22 @@ typedef enum surehit_path_kind {
   SUREHIT_LINE = 2      ///< The points through the start along a direction, both ways.
 } surehit_path_kind;
 
+/// The kinds of moving shapes.
+typedef enum surehit_shape_kind {
+  SUREHIT_SWEPT_SPHERE = 0  ///< A ball whose centre moves from its start to its end. A batch has 7 numbers for each.
+} surehit_shape_kind;
+
+/// The parts of a triangle with corners a, b and c.
+typedef enum surehit_feature {
+  SUREHIT_FACE = 0,      ///< The inside of the triangle.
+  SUREHIT_EDGE_AB = 1,   ///< The inside of the edge from a to b.
+  SUREHIT_EDGE_BC = 2,   ///< The inside of the edge from b to c.
+  SUREHIT_EDGE_CA = 3,   ///< The inside of the edge from c to a.
+  SUREHIT_CORNER_A = 4,  ///< Corner a.
+  SUREHIT_CORNER_B = 5,  ///< Corner b.
+  SUREHIT_CORNER_C = 6   ///< Corner c.
+} surehit_feature;
+
 /// The sides of a triangle with corners a, b and c. Its normal is (b - a) × (c - a).
 typedef enum surehit_side {
   SUREHIT_EDGE_ON = 0,  ///< The path is in the triangle's plane, or has length zero, or the triangle is degenerate.

@@ -1,0 +1,121 @@
+#include <cstddef>
+#include <cstdint>
+
+#include "c/arguments.hpp"
+#include "c/asked_shapes.hpp"
+#include "c/handle_call.hpp"
+#include "c/queries.hpp"
+#include "c/values.hpp"
+#include "surehit/c/shapes_d.h"
+#include "surehit/c/shapes_f.h"
+#include "surehit/intersect.hpp"
+
+namespace surehit::c {
+namespace {
+
+template <typename Scalar>
+using Shapes = ShapesIn<Collider<Scalar>>;
+
+template <typename Scalar>
+surehit_status overlaps(const SingleQuery<Shapes<Scalar>>& query, std::uint8_t* touches) {
+  query.arguments().check_pointer(touches, "touches");
+  return query.answer(true, [&](const auto& collider, const auto& shape, const auto& options, const auto* /*filter*/,
+                                QueryStatistics* work) { *touches = collider.overlaps(shape, options, work) ? 1 : 0; });
+}
+
+template <typename Scalar>
+surehit_status last_free_t(const char* function, const void* handle, const typename ShapeStructs<Scalar>::Shape* shape,
+                           const typename ShapeStructs<Scalar>::Hit* hit, Scalar* t) {
+  HandleCall<Collider<Scalar>> call(function, handle);
+  check_shape(call.arguments, shape);
+  call.arguments.check_pointer(hit, "hit");
+  if (call.arguments.are_valid()) call.arguments.check_triangle(hit->triangle, call.object->triangle_count());
+  return call.tell(t, "t", [&](const auto& collider) {
+    return collider.last_free_t(shape_of<Scalar>(*shape), Asked<Shapes<Scalar>>::from_c(*hit));
+  });
+}
+
+template <typename Scalar>
+surehit_status intersect_shape(const char* function, const typename Structs<Scalar>::Triangle* triangle,
+                               const typename ShapeStructs<Scalar>::Shape* shape,
+                               const typename ShapeStructs<Scalar>::QueryOptions* options,
+                               typename ShapeStructs<Scalar>::Hit* hit) {
+  using Types = Asked<Shapes<Scalar>>;
+  Arguments arguments(function);
+  arguments.check_pointer(triangle, "triangle");
+  check_shape(arguments, shape);
+  check_options(arguments, options);
+  arguments.check_pointer(hit, "hit");
+  return arguments.then([&] {
+    const auto found = intersect<Scalar>(shape_of<Scalar>(*shape), from_c(*triangle), Types::options_of(options));
+    *hit = Types::to_c(found.value_or(ShapeHit<Scalar>{}));
+  });
+}
+
+}  // namespace
+
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+#define SUREHIT_SHAPE_FUNCTIONS(Scalar, s)                                                                           \
+  SUREHIT_C_API surehit_shape_query_options##s surehit_shape_query_options##s##_default() {                          \
+    const surehit::ShapeQueryOptions<Scalar> options;                                                                \
+    return {options.max_t, static_cast<uint8_t>(options.culling), options.mask, options.ignored_triangle,            \
+            options.ignore_start_contact};                                                                           \
+  }                                                                                                                  \
+  SUREHIT_C_API surehit_status surehit_collider##s##_shape_first_hit(                                                \
+      const surehit_collider##s* collider, const surehit_swept_shape##s* shape,                                      \
+      const surehit_shape_query_options##s* options, const surehit_shape_filter##s* filter,                          \
+      surehit_statistics* statistics, surehit_shape_hit##s* hit) {                                                   \
+    Arguments arguments(__func__);                                                                                   \
+    return first_hit(SingleQuery<Shapes<Scalar>>(arguments, collider, shape, options, filter, statistics), hit);     \
+  }                                                                                                                  \
+  SUREHIT_C_API surehit_status surehit_collider##s##_shape_any_hit(                                                  \
+      const surehit_collider##s* collider, const surehit_swept_shape##s* shape,                                      \
+      const surehit_shape_query_options##s* options, const surehit_shape_filter##s* filter,                          \
+      surehit_statistics* statistics, uint8_t* blocked) {                                                            \
+    Arguments arguments(__func__);                                                                                   \
+    return any_hit(SingleQuery<Shapes<Scalar>>(arguments, collider, shape, options, filter, statistics), blocked);   \
+  }                                                                                                                  \
+  SUREHIT_C_API surehit_status surehit_collider##s##_shape_all_hits(                                                 \
+      const surehit_collider##s* collider, const surehit_swept_shape##s* shape,                                      \
+      const surehit_shape_query_options##s* options, const surehit_shape_filter##s* filter,                          \
+      surehit_statistics* statistics, surehit_shape_hit##s* hits, size_t capacity, size_t* hit_count) {              \
+    Arguments arguments(__func__);                                                                                   \
+    return all_hits(SingleQuery<Shapes<Scalar>>(arguments, collider, shape, options, filter, statistics), hits,      \
+                    capacity, hit_count);                                                                            \
+  }                                                                                                                  \
+  SUREHIT_C_API surehit_status surehit_collider##s##_shape_first_hits(                                               \
+      const surehit_collider##s* collider, const surehit_swept_shapes##s* shapes,                                    \
+      const surehit_shape_batch_options##s* options, surehit_shape_hit##s* hits) {                                   \
+    Arguments arguments(__func__);                                                                                   \
+    return first_hits(Batch<Shapes<Scalar>>(arguments, collider, shapes, options), hits);                            \
+  }                                                                                                                  \
+  SUREHIT_C_API surehit_status surehit_collider##s##_shape_any_hits(                                                 \
+      const surehit_collider##s* collider, const surehit_swept_shapes##s* shapes,                                    \
+      const surehit_shape_batch_options##s* options, uint8_t* blocked) {                                             \
+    Arguments arguments(__func__);                                                                                   \
+    return any_hits(Batch<Shapes<Scalar>>(arguments, collider, shapes, options), blocked);                           \
+  }                                                                                                                  \
+  SUREHIT_C_API surehit_status surehit_collider##s##_shape_overlaps(                                                 \
+      const surehit_collider##s* collider, const surehit_swept_shape##s* shape,                                      \
+      const surehit_shape_query_options##s* options, surehit_statistics* statistics, uint8_t* touches) {             \
+    Arguments arguments(__func__);                                                                                   \
+    return overlaps(SingleQuery<Shapes<Scalar>>(arguments, collider, shape, options, nullptr, statistics), touches); \
+  }                                                                                                                  \
+  SUREHIT_C_API surehit_status surehit_collider##s##_shape_last_free_t(const surehit_collider##s* collider,          \
+                                                                       const surehit_swept_shape##s* shape,          \
+                                                                       const surehit_shape_hit##s* hit, Scalar* t) { \
+    return last_free_t<Scalar>(__func__, collider, shape, hit, t);                                                   \
+  }                                                                                                                  \
+  SUREHIT_C_API surehit_status surehit_triangle##s##_shape_intersect(                                                \
+      const surehit_triangle##s* triangle, const surehit_swept_shape##s* shape,                                      \
+      const surehit_shape_query_options##s* options, surehit_shape_hit##s* hit) {                                    \
+    return intersect_shape<Scalar>(__func__, triangle, shape, options, hit);                                         \
+  }
+// NOLINTEND(bugprone-macro-parentheses)
+extern "C" {
+SUREHIT_SHAPE_FUNCTIONS(float, f)
+SUREHIT_SHAPE_FUNCTIONS(double, d)
+}
+#undef SUREHIT_SHAPE_FUNCTIONS
+
+}  // namespace surehit::c

@@ -1,0 +1,241 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "c_functions.hpp"
+#include "c_values.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/random.hpp"
+#include "support/same_bits.hpp"
+#include "support/scalars.hpp"
+#include "support/sphere_families.hpp"
+#include "surehit/collider.hpp"
+#include "surehit/intersect.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// Balls and a mesh in which each has a triangle of its own, as a collider in C and one in C++.
+template <typename Scalar>
+class CShapes : public testing::Test {
+ protected:
+  using C = CFunctions<Scalar>;
+  static constexpr std::size_t ball_count = 12;
+
+  void build(SphereFamily family, Random& random) {
+    GeneratedMesh<Scalar> mesh;
+    spheres.clear();
+    masks.clear();
+    while (spheres.size() < ball_count) {
+      const auto [sphere, triangle] = draw_sphere_pair<Scalar>(family, random);
+      mesh.add(triangle);
+      spheres.push_back(sphere);
+      masks.push_back(static_cast<std::uint32_t>(random.below(4)));
+    }
+    cpp = Collider<Scalar>(mesh.view(), {.masks = masks});
+    const typename C::Mesh given = {
+        mesh.vertices[0].data(), mesh.vertices.size(), 0, mesh.triangles.data(), mesh.triangles.size(), 0, 4};
+    surehit_build_options options = {};
+    options.size = sizeof options;
+    options.masks = masks.data();
+    options.mask_count = masks.size();
+    typename C::ColliderHandle* handle = nullptr;
+    ASSERT_EQ(C::create(&given, &options, &handle), SUREHIT_OK) << surehit_last_error();
+    c.reset(handle);
+  }
+
+  [[nodiscard]] ShapeQueryOptions<Scalar> draw_options(Random& random) const {
+    ShapeQueryOptions<Scalar> options;
+    if (random.one_in(2)) options.max_t = random.unit<Scalar>();
+    if (random.one_in(3)) options.culling = static_cast<Culling>(random.below(3));
+    if (random.one_in(2)) options.mask = static_cast<std::uint32_t>(random.below(4));
+    if (random.one_in(3)) options.ignored_triangle = static_cast<std::uint32_t>(random.below(ball_count));
+    options.ignore_start_contact = random.one_in(3);
+    return options;
+  }
+
+  /// A filter that gets what decides from its user pointer.
+  static std::int32_t accept(void* user, std::size_t shape, const typename C::ShapeHit* hit) {
+    return (hit->triangle + shape) % *static_cast<const std::uint32_t*>(user) != 0 ? SUREHIT_ACCEPT : SUREHIT_REJECT;
+  }
+
+  void expect_same(const SweptSphere<Scalar>& sphere, const ShapeQueryOptions<Scalar>& options,
+                   std::uint32_t* modulus) {
+    const auto filter = [&](const ShapeHit<Scalar>& hit) { return modulus == nullptr || hit.triangle % *modulus != 0; };
+    const auto given = in_c(sphere);
+    const auto given_options = in_c(options);
+    const typename C::ShapeFilter given_filter = {accept, modulus};
+    const auto* const c_filter = modulus != nullptr ? &given_filter : nullptr;
+    surehit_statistics work = {};
+    work.size = sizeof work;
+    QueryStatistics cpp_work;
+
+    typename C::ShapeHit c_hit;
+    ASSERT_EQ(C::shape_first_hit(c.get(), &given, &given_options, c_filter, &work, &c_hit), SUREHIT_OK);
+    const auto hit = cpp.first_hit(sphere, filter, options, &cpp_work).value_or(ShapeHit<Scalar>{});
+    EXPECT_EQ(in_cpp(c_hit), hit);
+    EXPECT_EQ(work.paths, cpp_work.paths);
+    found += hit.triangle != no_triangle ? 1 : 0;
+
+    std::uint8_t answer = 2;
+    ASSERT_EQ(C::shape_any_hit(c.get(), &given, &given_options, c_filter, nullptr, &answer), SUREHIT_OK);
+    EXPECT_EQ(answer, hit.triangle != no_triangle ? 1 : 0);
+    ASSERT_EQ(C::shape_overlaps(c.get(), &given, &given_options, &work, &answer), SUREHIT_OK);
+    EXPECT_EQ(answer, cpp.overlaps(sphere, options) ? 1 : 0);
+    touching += answer;
+
+    std::vector<ShapeHit<Scalar>> hits;
+    cpp.all_hits(sphere, hits, filter, options);
+    std::array<typename C::ShapeHit, ball_count> c_hits;
+    std::size_t count = 0;
+    ASSERT_EQ(C::shape_all_hits(c.get(), &given, &given_options, c_filter, nullptr, c_hits.data(), ball_count, &count),
+              SUREHIT_OK);
+    ASSERT_EQ(count, hits.size());
+    for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(in_cpp(c_hits[i]), hits[i]);
+    if (hit.triangle == no_triangle) return;
+
+    Scalar t = -1;
+    ASSERT_EQ(C::shape_last_free_t(c.get(), &given, &c_hit, &t), SUREHIT_OK);
+    EXPECT_TRUE(same_bits(t, cpp.last_free_t(sphere, hit)));
+    const auto triangle = in_c(cpp.triangle(hit.triangle));
+    ASSERT_EQ(C::shape_intersect(&triangle, &given, &given_options, &c_hit), SUREHIT_OK);
+    EXPECT_EQ(in_cpp(c_hit), intersect(sphere, cpp.triangle(hit.triangle), options).value_or(ShapeHit<Scalar>{}));
+  }
+
+  /// Expects a failure whose message names what is wrong.
+  static void expect_refused(surehit_status status, surehit_status expected, const char* named) {
+    EXPECT_EQ(status, expected) << surehit_last_error();
+    EXPECT_NE(std::strstr(surehit_last_error(), named), nullptr) << surehit_last_error();
+  }
+
+  struct Destroy {
+    void operator()(typename C::ColliderHandle* handle) const { EXPECT_EQ(C::destroy(handle), SUREHIT_OK); }
+  };
+  std::unique_ptr<typename C::ColliderHandle, Destroy> c;
+  Collider<Scalar> cpp;
+  std::vector<SweptSphere<Scalar>> spheres;
+  std::vector<std::uint32_t> masks;
+  std::size_t found = 0;
+  std::size_t touching = 0;
+};
+TYPED_TEST_SUITE(CShapes, Scalars, ScalarNames);
+
+TYPED_TEST(CShapes, have_the_bits_of_cpp) {
+  Random random(37);
+  for (const SphereFamily family : all_sphere_families) {
+    ASSERT_NO_FATAL_FAILURE(this->build(family, random));
+    for (std::size_t i = 0; i < this->ball_count; ++i) {
+      std::uint32_t modulus = 2;
+      const auto& sphere = this->spheres[i];
+      ASSERT_NO_FATAL_FAILURE(this->expect_same(sphere, {}, nullptr)) << name_of(family);
+      ASSERT_NO_FATAL_FAILURE(this->expect_same(sphere, this->draw_options(random), i % 2 == 0 ? nullptr : &modulus));
+    }
+  }
+  EXPECT_GT(this->found, 50U);
+  EXPECT_GT(this->touching, 20U);
+}
+
+TYPED_TEST(CShapes, have_the_same_bits_in_batches) {
+  using C = CFunctions<TypeParam>;
+  Random random(38);
+  for (const SphereFamily family : {SphereFamily::general, SphereFamily::tangent, SphereFamily::small_integers}) {
+    ASSERT_NO_FATAL_FAILURE(this->build(family, random));
+    // More than one task of an executor.
+    constexpr std::size_t count = 600;
+    std::vector<typename C::Sphere> balls;
+    std::vector<ShapeQueryOptions<TypeParam>> own;
+    std::vector<typename C::ShapeOptions> c_own;
+    while (balls.size() < count) {
+      const auto& sphere = this->spheres[balls.size() % this->ball_count];
+      balls.push_back({in_c(sphere.start), in_c(sphere.end), sphere.radius});
+      own.push_back(this->draw_options(random));
+      c_own.push_back(in_c(own.back()));
+    }
+    const typename C::Shapes shapes = {&balls[0].start.x, count, SUREHIT_SWEPT_SPHERE};
+    std::uint32_t modulus = 3;
+    std::size_t tasks = 0;
+    const typename C::ShapeFilter filter = {this->accept, &modulus};
+    const surehit_executor executor = {[](void* user, std::size_t task_count, surehit_task task, void* work) {
+                                         *static_cast<std::size_t*>(user) += task_count;
+                                         while (task_count > 0) task(work, --task_count);
+                                       },
+                                       &tasks};
+    surehit_statistics work = {};
+    work.size = sizeof work;
+    const typename C::ShapeBatchOptions options = {sizeof options, nullptr, c_own.data(), &filter, &executor, &work};
+    std::vector<typename C::ShapeHit> hits(count);
+    std::vector<std::uint8_t> blocked(count, 2);
+    ASSERT_EQ(C::shape_first_hits(this->c.get(), &shapes, &options, hits.data()), SUREHIT_OK) << surehit_last_error();
+    ASSERT_EQ(C::shape_any_hits(this->c.get(), &shapes, &options, blocked.data()), SUREHIT_OK);
+    EXPECT_GT(tasks, 2U);
+    EXPECT_EQ(work.paths, 2 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto accepts = [&](const ShapeHit<TypeParam>& hit) { return (hit.triangle + i) % modulus != 0; };
+      const auto& sphere = this->spheres[i % this->ball_count];
+      const auto expected = this->cpp.first_hit(sphere, accepts, own[i]).value_or(ShapeHit<TypeParam>{});
+      ASSERT_EQ(in_cpp(hits[i]), expected) << name_of(family) << ", ball " << i;
+      ASSERT_EQ(blocked[i], expected.triangle != no_triangle ? 1 : 0);
+    }
+  }
+}
+
+TYPED_TEST(CShapes, that_are_wrong_are_refused) {
+  using C = CFunctions<TypeParam>;
+  Random random(39);
+  ASSERT_NO_FATAL_FAILURE(this->build(SphereFamily::starts_touching, random));
+  auto* const collider = this->c.get();
+  auto shape = in_c(this->spheres[0]);
+  auto options = C::default_shape_options();
+  typename C::Sphere ball = {};
+  typename C::Shapes shapes = {&ball.start.x, 1, SUREHIT_SWEPT_SPHERE};
+  typename C::ShapeHit hit;
+  std::uint8_t blocked = 7;
+  TypeParam t = 0;
+  const auto refused = this->expect_refused;
+  ASSERT_EQ(C::shape_first_hit(collider, &shape, nullptr, nullptr, nullptr, &hit), SUREHIT_OK);
+  ASSERT_NE(hit.triangle, SUREHIT_NO_TRIANGLE);
+
+  refused(C::shape_first_hit(nullptr, &shape, nullptr, nullptr, nullptr, &hit), SUREHIT_NULL_POINTER, "collider is");
+  refused(C::shape_first_hit(collider, nullptr, nullptr, nullptr, nullptr, &hit), SUREHIT_NULL_POINTER, "shape is");
+  refused(C::shape_any_hit(collider, &shape, nullptr, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER, "blocked is");
+  refused(C::shape_overlaps(collider, &shape, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER, "touches is");
+  refused(C::shape_last_free_t(collider, &shape, &hit, nullptr), SUREHIT_NULL_POINTER, "t is");
+  refused(C::shape_intersect(nullptr, &shape, nullptr, &hit), SUREHIT_NULL_POINTER, "triangle is");
+  const typename C::ShapeFilter no_filter = {nullptr, nullptr};
+  refused(C::shape_any_hit(collider, &shape, nullptr, &no_filter, nullptr, &blocked), SUREHIT_NULL_POINTER, "accept");
+
+  const typename C::ShapeFilter stops = {
+      [](void*, std::size_t, const typename C::ShapeHit*) -> std::int32_t { return SUREHIT_STOP; }, nullptr};
+  refused(C::shape_any_hit(collider, &shape, nullptr, &stops, nullptr, &blocked), SUREHIT_STOPPED, "said stop");
+  EXPECT_EQ(blocked, 0);
+
+  hit.triangle = this->ball_count;
+  refused(C::shape_last_free_t(collider, &shape, &hit, &t), SUREHIT_OUT_OF_RANGE, "no triangle 12");
+  options.culling = 3;
+  refused(C::shape_any_hit(collider, &shape, &options, nullptr, nullptr, &blocked), SUREHIT_INVALID_VALUE, "culling");
+  options.culling = 0;
+  options.ignore_start_contact = 2;
+  refused(C::shape_any_hit(collider, &shape, &options, nullptr, nullptr, &blocked), SUREHIT_INVALID_VALUE, "contact");
+  shape.kind = 1000;
+  refused(C::shape_first_hit(collider, &shape, nullptr, nullptr, nullptr, &hit), SUREHIT_INVALID_VALUE,
+          "the kind of the shape is 1000");
+
+  shapes.kind = 1000;
+  refused(C::shape_any_hits(collider, &shapes, nullptr, &blocked), SUREHIT_INVALID_VALUE, "shapes.kind is 1000");
+  shapes = {nullptr, 1, SUREHIT_SWEPT_SPHERE};
+  refused(C::shape_any_hits(collider, &shapes, nullptr, &blocked), SUREHIT_NULL_POINTER, "shapes.numbers is");
+  shapes = {&ball.start.x, SIZE_MAX / 4, SUREHIT_SWEPT_SPHERE};
+  refused(C::shape_any_hits(collider, &shapes, nullptr, &blocked), SUREHIT_TOO_LARGE, "shapes.numbers");
+  shapes.count = 1;
+  typename C::ShapeBatchOptions batch = {};
+  refused(C::shape_any_hits(collider, &shapes, &batch, &blocked), SUREHIT_INVALID_SIZE, "options.size is 0");
+}
+
+}  // namespace
+}  // namespace surehit::test
