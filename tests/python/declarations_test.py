@@ -63,7 +63,10 @@ class DeclarationsTest(unittest.TestCase):
                        "query_options" + s: layouts.collider.Options, "filter" + s: layouts.collider.Filter,
                        "batch_options" + s: layouts.collider.BatchOptions, "scene_hit" + s: layouts.scene.Hit,
                        "scene_query_options" + s: layouts.scene.Options, "scene_filter" + s: layouts.scene.Filter,
-                       "scene_batch_options" + s: layouts.scene.BatchOptions}
+                       "scene_batch_options" + s: layouts.scene.BatchOptions, "swept_shape" + s: layouts.Shape,
+                       "swept_shapes" + s: layouts.Shapes, "shape_hit" + s: layouts.shape.Hit,
+                       "shape_query_options" + s: layouts.shape.Options, "shape_filter" + s: layouts.shape.Filter,
+                       "shape_batch_options" + s: layouts.shape.BatchOptions}
             for name, struct in structs.items():
                 with self.subTest(struct=name):
                     members = members_of(name)
@@ -74,7 +77,7 @@ class DeclarationsTest(unittest.TestCase):
 
     def test_arrays_have_the_layouts_of_structs(self):
         for layouts in (_layouts.FLOAT, _layouts.DOUBLE):
-            for kind in (layouts.collider, layouts.scene):
+            for kind in (layouts.collider, layouts.scene, layouts.shape):
                 for dtype, struct in ((kind.hit_dtype, kind.Hit), (kind.options_dtype, kind.Options)):
                     self.assertEqual(dtype.itemsize, ctypes.sizeof(struct))
                     for name, *_ in struct._fields_:

@@ -1,4 +1,4 @@
-"""Where straight paths first meet triangle meshes, exactly.
+"""Where straight paths and moving shapes first meet triangle meshes, exactly.
 
 >>> import surehit
 >>> floor = surehit.Collider([[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]], [[0, 1, 2], [0, 2, 3]])
@@ -11,16 +11,18 @@ exact ones, rounded once.
 
 from ._layouts import ALL_BITS, NO_TRIANGLE, Statistics
 from ._library import LIBRARY_VERSION as __version__
-from ._options import Options, SceneOptions
+from ._options import Options, SceneOptions, ShapeOptions
 from .collider import Collider, GridSummary
 from .errors import Error, InvalidInstance, InvalidMesh, InvalidValue, OutOfMemory, OutOfRange
-from .hits import Hit, Hits, InstanceId, SceneHit, Side
+from .hits import Feature, Hit, Hits, InstanceId, SceneHit, ShapeHit, Side
 from .pair import distance, intersect, point
 from .paths import Line, Lines, Path, Paths, Ray, Rays, Segment, Segments
 from .scene import Scene, rigid_pose, translation_pose
+from .shapes import SweptShape, SweptShapes, SweptSphere, SweptSpheres
 
 __all__ = [
-    "ALL_BITS", "Collider", "Error", "GridSummary", "Hit", "Hits", "InstanceId", "InvalidInstance", "InvalidMesh",
-    "InvalidValue", "Line", "Lines", "NO_TRIANGLE", "Options", "OutOfMemory", "OutOfRange", "Path", "Paths", "Ray",
-    "Rays", "Scene", "SceneHit", "SceneOptions", "Segment", "Segments", "Side", "Statistics", "__version__", "distance",
+    "ALL_BITS", "Collider", "Error", "Feature", "GridSummary", "Hit", "Hits", "InstanceId", "InvalidInstance",
+    "InvalidMesh", "InvalidValue", "Line", "Lines", "NO_TRIANGLE", "Options", "OutOfMemory", "OutOfRange", "Path",
+    "Paths", "Ray", "Rays", "Scene", "SceneHit", "SceneOptions", "Segment", "Segments", "ShapeHit", "ShapeOptions",
+    "Side", "Statistics", "SweptShape", "SweptShapes", "SweptSphere", "SweptSpheres", "__version__", "distance",
     "intersect", "point", "rigid_pose", "translation_pose"]

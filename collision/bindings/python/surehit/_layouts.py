@@ -59,14 +59,14 @@ def _struct(name: str, fields: list[tuple[str, Any]]) -> Any:
     return type(name, (ctypes.Structure,), {"_fields_": fields})
 
 
-def _queries(hit: Any, options: Any, suffix: str) -> SimpleNamespace:
-    """What a collider and a scene have of their own kind each."""
+def _queries(hit: Any, options: Any, suffix: str, owner: str) -> SimpleNamespace:
+    """What queries of colliders, of scenes and of moving shapes have of their own kind each."""
     accept = ctypes.CFUNCTYPE(ctypes.c_int32, c_void_p, c_size_t, POINTER(hit))
     filter_ = _struct("Filter" + suffix, [("accept", accept), ("user", c_void_p)])
     batch = _struct("BatchOptions" + suffix, [
         ("size", c_size_t), ("options", POINTER(options)), ("path_options", c_void_p), ("filter", POINTER(filter_)),
         ("executor", POINTER(Executor)), ("statistics", POINTER(Statistics))])
-    return SimpleNamespace(Hit=hit, Options=options, Accept=accept, Filter=filter_, BatchOptions=batch,
+    return SimpleNamespace(owner=owner, Hit=hit, Options=options, Accept=accept, Filter=filter_, BatchOptions=batch,
                            hit_dtype=np.dtype(hit), options_dtype=np.dtype(options))
 
 
@@ -96,9 +96,20 @@ class Layouts:
         contacts = [("ignored_triangle", c_uint32), ("ignore_start_contact", c_uint8), ("ignore_end_contact", c_uint8)]
         of_instances = [("instance_mask", c_uint32), ("ignored_instance", InstanceIdStruct)]
         self.collider = _queries(_struct("Hit" + suffix, where),
-                                 _struct("QueryOptions" + suffix, limits + contacts), suffix)
+                                 _struct("QueryOptions" + suffix, limits + contacts), suffix, "")
+        self.Shape = _struct("SweptShape" + suffix, [
+            ("start", vector3), ("end", vector3), ("half", vector3), ("radius", real), ("kind", c_uint32)])
+        self.Shapes = _struct("SweptShapes" + suffix, [
+            ("numbers", c_void_p), ("count", c_size_t), ("kind", c_uint32)])
+        touch = [("t", real), ("u", real), ("v", real), ("triangle", c_uint32), ("feature", c_uint8),
+                 ("started_touching", c_uint8)]
+        narrowed = [("max_t", real), ("culling", c_uint8), ("mask", c_uint32), ("ignored_triangle", c_uint32),
+                    ("ignore_start_contact", c_uint8)]
+        self.shape = _queries(_struct("ShapeHit" + suffix, touch), _struct("ShapeQueryOptions" + suffix, narrowed),
+                              suffix, "shape_")
         self.scene = _queries(_struct("SceneHit" + suffix, where + [("instance", InstanceIdStruct)]),
-                              _struct("SceneQueryOptions" + suffix, limits + of_instances + contacts), suffix)
+                              _struct("SceneQueryOptions" + suffix, limits + of_instances + contacts), suffix,
+                              "scene_")
 
 
 FLOAT = Layouts(c_float, "f")

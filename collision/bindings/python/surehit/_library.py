@@ -25,7 +25,9 @@ _OF_COLLIDERS: dict[str, list[Any]] = {
     "all_hits": [_P] * 6 + [c_size_t, _P], "first_hits": [_P] * 4, "any_hits": [_P] * 4,
     "last_free_point": [_P] * 6, "max_t_keeping": [_P] * 4, "triangle_count": [_P, _P],
     "triangle": [_P, c_uint32, _P], "normal": [_P, c_uint32, _P], "box": [_P, _P], "grid_summary": [_P, _P],
-    "memory_bytes": [_P, _P]}
+    "memory_bytes": [_P, _P], "shape_first_hit": [_P] * 6, "shape_any_hit": [_P] * 6,
+    "shape_all_hits": [_P] * 6 + [c_size_t, _P], "shape_first_hits": [_P] * 4, "shape_any_hits": [_P] * 4,
+    "shape_overlaps": [_P] * 5, "shape_last_free_t": [_P] * 4}
 _OF_SCENES: dict[str, list[Any]] = {
     "create": [_P], "destroy": [_P], "add": [_P, _P, _P, c_uint32, c_uint64, _P], "remove": [_P, _ID],
     "set_pose": [_P, _ID, _P], "set_motion": [_P, _ID, _P], "set_mask": [_P, _ID, c_uint32], "commit": [_P, _P],
@@ -36,7 +38,7 @@ _OF_SCENES: dict[str, list[Any]] = {
     "any_hits": [_P] * 4, "last_free_point": [_P] * 6}
 _OF_OTHERS: dict[str, list[Any]] = {
     "triangle{}_intersect": [_P] * 4, "triangle{}_max_t_keeping": [_P] * 4, "triangle{}_normal": [_P, _P],
-    "path{}_point": [_P] * 3, "path{}_distance": [_P] * 3}
+    "triangle{}_shape_intersect": [_P] * 4, "path{}_point": [_P] * 3, "path{}_distance": [_P] * 3}
 
 
 def _path() -> str:
@@ -72,9 +74,8 @@ def _declare(library: ctypes.CDLL) -> None:
         named |= {name.format(suffix): arguments for name, arguments in _OF_OTHERS.items()}
         for name, arguments in named.items():
             getattr(library, "surehit_" + name).argtypes = arguments
-        for owner in ("", "scene_"):
-            options = (layouts.scene if owner else layouts.collider).Options
-            getattr(library, f"surehit_{owner}query_options{suffix}_default").restype = options
+        for kind in (layouts.collider, layouts.scene, layouts.shape):
+            getattr(library, f"surehit_{kind.owner}query_options{suffix}_default").restype = kind.Options
         rigid = getattr(library, f"surehit_pose{suffix}_rigid")
         rigid.argtypes, rigid.restype = [layouts.real] * 4 + [layouts.Vector3Struct], layouts.PoseStruct
     library.surehit_scened_add_colliderf.argtypes = _OF_SCENES["add"]

@@ -25,17 +25,21 @@ def wished_dtype(values: Any) -> np.dtype[Any]:
     return np.dtype(np.float32 if narrow else np.float64)
 
 
-def _place(index: tuple[int, ...], shape: tuple[int, ...]) -> str:
+def _place(index: tuple[int, ...], shape: tuple[int, ...], has_axes: bool) -> str:
     if not index:
         return ""
-    if shape[-1] == 3:
+    if has_axes and shape[-1] == 3:
         rows = "".join(f"[{i}]" for i in index[:-1])
         return f"{rows}.{_AXES[index[-1]]}"
     return "".join(f"[{i}]" for i in index)
 
 
-def converted(values: Any, dtype: np.dtype[Any], name: str, is_plain: bool | None = None) -> NDArray[Any]:
-    """Returns the values in the wanted type, without a copy if they have it. Plain ones may be rounded."""
+def converted(values: Any, dtype: np.dtype[Any], name: str, is_plain: bool | None = None,
+              has_axes: bool = True) -> NDArray[Any]:
+    """Returns the values in the wanted type, without a copy if they have it. Plain ones may be rounded.
+
+    Rows of three numbers are points, unless they have no axes.
+    """
     if is_plain is None:
         is_plain = not has_own_type(values)
     given = np.asarray(values)
@@ -51,7 +55,7 @@ def converted(values: Any, dtype: np.dtype[Any], name: str, is_plain: bool | Non
         is_kept = np.isfinite(result) | ~np.isfinite(given)
     if not is_kept.all():
         index = tuple(int(i) for i in np.argwhere(~is_kept)[0])
-        raise ValueError(f"{name}{_place(index, given.shape)} is {given[index]}, which is no {dtype}. "
+        raise ValueError(f"{name}{_place(index, given.shape, has_axes)} is {given[index]}, which is no {dtype}. "
                          f"If it may be rounded, use astype(numpy.{dtype})")
     return result
 

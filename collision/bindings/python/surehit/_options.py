@@ -48,14 +48,28 @@ class SceneOptions(Options, total=False):
     """Leaves out this instance, or with ``ignored_triangle`` one triangle of it."""
 
 
+class ShapeOptions(TypedDict, total=False):
+    """What narrows a query of a moving shape. In a batch, each may be an array of one a shape."""
+
+    max_t: float | ArrayLike
+    """The maximum exact t that counts. With 0, only what the shape touches at its start is hit."""
+    culling: Literal["none", "back", "front"] | ArrayLike
+    """Leaves out triangles by the side from which the shape moves against them."""
+    mask: int | ArrayLike
+    """Leaves out triangles whose mask shares no bit with this."""
+    ignored_triangle: int | ArrayLike
+    """Leaves out this triangle."""
+    ignore_start_contact: bool | ArrayLike
+    """Leaves out triangles that the shape touches at its start."""
+
+
 class AskedOptions:
-    """The options of a collider or a scene, for one path or for a batch."""
+    """The options of a collider or a scene, for one path or shape, or for a batch."""
 
     def __init__(self, layouts: Layouts, kind: SimpleNamespace) -> None:
-        owner = "scene_" if "ignored_instance" in kind.options_dtype.names else ""
         self._kind = kind
         self._dtype = layouts.dtype
-        default = function(f"{owner}query_options{layouts.suffix}_default")()
+        default = function(f"{kind.owner}query_options{layouts.suffix}_default")()
         self._default = np.frombuffer(bytes(default), kind.options_dtype)[0]
 
     def single(self, options: dict[str, Any]) -> Any:
@@ -99,7 +113,8 @@ class AskedOptions:
             # An infinity stands for a limit that is too large for the type.
             is_plain = not hasattr(value, "dtype")
             with np.errstate(over="ignore"):
-                record[name] = np.asarray(value, self._dtype) if is_plain else converted(value, self._dtype, name)
+                record[name] = (np.asarray(value, self._dtype) if is_plain
+                                else converted(value, self._dtype, name, has_axes=False))
         elif name == "culling":
             given = np.asarray(value)
             is_known = np.isin(given, list(_CULLING))

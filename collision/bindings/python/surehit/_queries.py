@@ -1,4 +1,4 @@
-"""The queries that colliders and scenes have alike."""
+"""The queries that colliders and scenes have alike, about paths and about moving shapes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable
 from concurrent.futures import Executor
 from ctypes import byref, c_size_t, c_uint8
 from types import SimpleNamespace
-from typing import Any, Generic
+from typing import Any, Generic, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +15,23 @@ from numpy.typing import NDArray
 from ._layouts import NO_TRIANGLE, Layouts, Statistics
 from ._library import check, function
 from ._options import AskedOptions, Raised, executor_pointer, filter_struct
-from .hits import AnyHit, Hit, Hits, hit_of, scene_hit_of
+from .hits import AnyHit, Hit, Hits, ShapeHit, hit_of, scene_hit_of, shape_hit_of
 from .paths import Path, Paths, Segment
+from .shapes import SweptShape, SweptShapes
 
 _FEW_HITS = 16
+
+
+class Subject:
+    """What is asked about: the paths or the shapes that come to colliders or scenes. It has their types and functions.
+    """
+
+    def __init__(self, layouts: Layouts, kind: SimpleNamespace, prefix: str, hit_of: Callable[[Any], Any]) -> None:
+        self.kind = kind
+        self.hit_of = hit_of
+        self.options = AskedOptions(layouts, kind)
+        self.calls = {name: function(prefix + name)
+                      for name in ("first_hit", "any_hit", "all_hits", "first_hits", "any_hits")}
 
 
 class Queries(Generic[AnyHit]):
@@ -33,11 +46,12 @@ class Queries(Generic[AnyHit]):
 
     def _set_kind(self, layouts: Layouts, word: str) -> None:
         self._layouts = layouts
-        self._kind: SimpleNamespace = getattr(layouts, word)
         self._prefix = f"{word}{layouts.suffix}_"
-        self._hit_of: Callable[[Any], Any] = hit_of if word == "collider" else scene_hit_of
-        self._asked_options = AskedOptions(layouts, self._kind)
-        self._calls = {name: self._function(name) for name in ("first_hit", "any_hit", "first_hits", "any_hits")}
+        self._paths = Subject(layouts, getattr(layouts, word), self._prefix,
+                              hit_of if word == "collider" else scene_hit_of)
+        self._shapes = None
+        if word == "collider":
+            self._shapes = Subject(layouts, layouts.shape, self._prefix + "shape_", shape_hit_of)
 
     def _function(self, name: str) -> Any:
         return function(self._prefix + name)
@@ -47,44 +61,80 @@ class Queries(Generic[AnyHit]):
         """float32 or float64, which all numbers of queries and hits have."""
         return self._layouts.dtype
 
-    def _single(self, call: Any, path: Path, options: dict[str, Any], accepts: Callable[[AnyHit], Any] | None,
-                statistics: Statistics | None, *results: Any) -> None:
-        if not isinstance(path, Path):
+    def _subject_of(self, path: Any) -> Subject:
+        if isinstance(path, Path):
+            return self._paths
+        if self._shapes is None:
             raise TypeError(f"the path must be a Segment, a Ray or a Line, and not {type(path).__name__}")
+        if not isinstance(path, SweptShape):
+            raise TypeError("the path must be a Segment, a Ray, a Line or a SweptSphere, and not "
+                            f"{type(path).__name__}")
+        return self._shapes
+
+    def _subject_of_batch(self, paths: Any) -> Subject:
+        if isinstance(paths, Paths):
+            return self._paths
+        if self._shapes is None:
+            raise TypeError(f"the paths must be Segments, Rays or Lines, and not {type(paths).__name__}")
+        if not isinstance(paths, SweptShapes):
+            raise TypeError("the paths must be Segments, Rays, Lines or SweptSpheres, and not "
+                            f"{type(paths).__name__}")
+        return self._shapes
+
+    def _single(self, subject: Subject, name: str, path: Path | SweptShape, options: dict[str, Any],
+                accepts: Callable[[Any], Any] | None, statistics: Statistics | None, *results: Any) -> None:
         raised = chosen = None
         if accepts is not None:
             raised = Raised()
-            chosen = byref(filter_struct(self._kind, accepts, self._hit_of, raised, False))
-        asked = byref(self._asked_options.single(options)) if options else None
-        status = call(self._handle, byref(path.struct(self._layouts)), asked, chosen,
-                      None if statistics is None else byref(statistics), *results)
+            chosen = byref(filter_struct(subject.kind, accepts, subject.hit_of, raised, False))
+        asked = byref(subject.options.single(options)) if options else None
+        status = subject.calls[name](self._handle, byref(path.struct(self._layouts)), asked, chosen,
+                                     None if statistics is None else byref(statistics), *results)
         if raised is not None:
             raised.check(status)
         elif status != 0:
             check(status)
 
+    @overload
     def first_hit(self, path: Path, *, filter: Callable[[AnyHit], Any] | None = None,
-                  statistics: Statistics | None = None, **options: Any) -> AnyHit | None:
-        """Returns the hit with the lowest exact t, and among equal ones that of the lowest ids. None is a miss."""
-        hit = self._kind.Hit()
-        self._single(self._calls["first_hit"], path, options, filter, statistics, byref(hit))
-        return None if hit.triangle == NO_TRIANGLE else self._hit_of(hit)
+                  statistics: Statistics | None = None, **options: Any) -> AnyHit | None: ...
 
-    def any_hit(self, path: Path, *, filter: Callable[[AnyHit], Any] | None = None,
+    @overload
+    def first_hit(self, path: SweptShape, *, filter: Callable[[ShapeHit], Any] | None = None,
+                  statistics: Statistics | None = None, **options: Any) -> ShapeHit | None: ...
+
+    def first_hit(self, path: Path | SweptShape, *, filter: Callable[[Any], Any] | None = None,
+                  statistics: Statistics | None = None, **options: Any) -> Any:
+        """Returns the hit with the lowest exact t, and among equal ones that of the lowest ids. None is a miss."""
+        subject = self._subject_of(path)
+        hit = subject.kind.Hit()
+        self._single(subject, "first_hit", path, options, filter, statistics, byref(hit))
+        return None if hit.triangle == NO_TRIANGLE else subject.hit_of(hit)
+
+    def any_hit(self, path: Path | SweptShape, *, filter: Callable[[Any], Any] | None = None,
                 statistics: Statistics | None = None, **options: Any) -> bool:
         """Returns whether the path hits anything. It is cheaper than ``first_hit``."""
         blocked = c_uint8()
-        self._single(self._calls["any_hit"], path, options, filter, statistics, byref(blocked))
+        self._single(self._subject_of(path), "any_hit", path, options, filter, statistics, byref(blocked))
         return blocked.value != 0
 
+    @overload
     def all_hits(self, path: Path, *, filter: Callable[[AnyHit], Any] | None = None,
-                 statistics: Statistics | None = None, **options: Any) -> Hits[AnyHit]:
+                 statistics: Statistics | None = None, **options: Any) -> Hits[AnyHit]: ...
+
+    @overload
+    def all_hits(self, path: SweptShape, *, filter: Callable[[ShapeHit], Any] | None = None,
+                 statistics: Statistics | None = None, **options: Any) -> Hits[ShapeHit]: ...
+
+    def all_hits(self, path: Path | SweptShape, *, filter: Callable[[Any], Any] | None = None,
+                 statistics: Statistics | None = None, **options: Any) -> Any:
         """Returns the hits of all triangles that the path meets, in the order of exact t, and then of ids."""
+        subject = self._subject_of(path)
         room = _FEW_HITS
         count = c_size_t()
         while True:
-            records = np.empty(room, self._kind.hit_dtype)
-            self._single(self._function("all_hits"), path, options, filter, statistics if room == _FEW_HITS else None,
+            records = np.empty(room, subject.kind.hit_dtype)
+            self._single(subject, "all_hits", path, options, filter, statistics if room == _FEW_HITS else None,
                          records.ctypes.data, room, byref(count))
             if count.value <= room:
                 return Hits(records[:count.value])
@@ -99,80 +149,96 @@ class Queries(Generic[AnyHit]):
         struct = self._struct_of_hit(hit)
         point = np.empty(3, self.dtype)
         raised = Raised()
-        asked = self._asked_options.single(options)
-        chosen = filter_struct(self._kind, filter, self._hit_of, raised, False) if filter is not None else None
+        asked = self._paths.options.single(options)
+        chosen = None
+        if filter is not None:
+            chosen = filter_struct(self._paths.kind, filter, self._paths.hit_of, raised, False)
         raised.check(self._function("last_free_point")(
             self._handle, byref(segment.struct(self._layouts)), byref(struct), None if asked is None else byref(asked),
             None if chosen is None else byref(chosen), point.ctypes.data))
         return point
 
     def _struct_of_hit(self, hit: Any) -> Any:
-        struct = self._kind.Hit(hit.t, hit.u, hit.v, hit.triangle, int(hit.side))
+        struct = self._paths.kind.Hit(hit.t, hit.u, hit.v, hit.triangle, int(hit.side))
         if not isinstance(hit, Hit):
             struct.instance.index, struct.instance.generation = hit.instance
         return struct
 
-    def _batch(self, name: str, paths: Paths, options: dict[str, Any], accepts: Callable[[int, AnyHit], Any] | None,
-               executor: Executor | None, statistics: Statistics | None, answers: NDArray[Any]) -> None:
+    def _batch(self, subject: Subject, name: str, paths: Paths | SweptShapes, options: dict[str, Any],
+               accepts: Callable[[int, Any], Any] | None, executor: Executor | None, statistics: Statistics | None,
+               answers: NDArray[Any]) -> None:
         raised = each = asked = None
         if options or accepts is not None or executor is not None or statistics is not None:
             raised = Raised()
-            asked, each = self._batch_options(options, len(paths), accepts, executor, statistics, raised)
+            asked, each = self._batch_options(subject, options, len(paths), accepts, executor, statistics, raised)
         struct, arrays = paths.struct(self._layouts)
-        status = self._calls[name](self._handle, byref(struct), asked, answers.ctypes.data)
+        status = subject.calls[name](self._handle, byref(struct), asked, answers.ctypes.data)
         if raised is not None:
             raised.check(status)
         elif status != 0:
             check(status)
         del arrays, each  # they had to live until here
 
-    def _batch_options(self, options: dict[str, Any], count: int, accepts: Callable[[int, AnyHit], Any] | None,
-                       executor: Executor | None, statistics: Statistics | None, raised: Raised) -> tuple[Any, Any]:
+    @staticmethod
+    def _batch_options(subject: Subject, options: dict[str, Any], count: int,
+                       accepts: Callable[[int, Any], Any] | None, executor: Executor | None,
+                       statistics: Statistics | None, raised: Raised) -> tuple[Any, Any]:
         """Returns a pointer to the options of a batch, and the array that must live as long."""
-        asked = self._kind.BatchOptions(ctypes.sizeof(self._kind.BatchOptions))
+        asked = subject.kind.BatchOptions(ctypes.sizeof(subject.kind.BatchOptions))
         each = None
         if options:
-            single, each = self._asked_options.batch(options, count)
+            single, each = subject.options.batch(options, count)
             asked.options = None if single is None else ctypes.pointer(single)
             asked.path_options = None if each is None else each.ctypes.data
         if accepts is not None:
-            asked.filter = ctypes.pointer(filter_struct(self._kind, accepts, self._hit_of, raised, True))
+            asked.filter = ctypes.pointer(filter_struct(subject.kind, accepts, subject.hit_of, raised, True))
         if executor is not None:
             asked.executor = executor_pointer(executor, raised)
         if statistics is not None:
             asked.statistics = ctypes.pointer(statistics)
         return ctypes.pointer(asked), each
 
-    def _room(self, paths: Paths, out: NDArray[Any] | None, dtype: Any) -> NDArray[Any]:
-        if not isinstance(paths, Paths):
-            raise TypeError(f"the paths must be Segments, Rays or Lines, and not {type(paths).__name__}")
+    @staticmethod
+    def _room(count: int, out: NDArray[Any] | None, dtype: Any) -> NDArray[Any]:
         if out is None:
-            return np.empty(len(paths), dtype)
-        is_array = isinstance(out, np.ndarray) and out.shape == (len(paths),)
+            return np.empty(count, dtype)
+        is_array = isinstance(out, np.ndarray) and out.shape == (count,)
         if not is_array or (out.dtype is not dtype and out.dtype != dtype):
-            raise ValueError(f"out must be an array of the shape ({len(paths)},) and of the type {dtype}")
+            raise ValueError(f"out must be an array of the shape ({count},) and of the type {dtype}")
         if not out.flags.carray:
             raise ValueError("out must be contiguous, aligned and writeable")
         return out
 
+    @overload
     def first_hits(self, paths: Paths, *, filter: Callable[[int, AnyHit], Any] | None = None,
                    executor: Executor | None = None, statistics: Statistics | None = None,
-                   out: Hits[AnyHit] | None = None, **options: Any) -> Hits[AnyHit]:
+                   out: Hits[AnyHit] | None = None, **options: Any) -> Hits[AnyHit]: ...
+
+    @overload
+    def first_hits(self, paths: SweptShapes, *, filter: Callable[[int, ShapeHit], Any] | None = None,
+                   executor: Executor | None = None, statistics: Statistics | None = None,
+                   out: Hits[ShapeHit] | None = None, **options: Any) -> Hits[ShapeHit]: ...
+
+    def first_hits(self, paths: Paths | SweptShapes, *, filter: Callable[[int, Any], Any] | None = None,
+                   executor: Executor | None = None, statistics: Statistics | None = None,
+                   out: Any = None, **options: Any) -> Any:
         """Returns the first hit of each path, with the same bits as ``first_hit``. It is much faster than single calls.
 
         An executor, such as a ``ThreadPoolExecutor``, spreads the batch over its threads. The call may not run in one
         of these. ``out`` is filled in place of new memory. It has the hits of as many paths.
         """
-        records = self._room(paths, None if out is None else out.records, self._kind.hit_dtype)
-        self._batch("first_hits", paths, options, filter, executor, statistics, records)
+        subject = self._subject_of_batch(paths)
+        records = self._room(len(paths), None if out is None else out.records, subject.kind.hit_dtype)
+        self._batch(subject, "first_hits", paths, options, filter, executor, statistics, records)
         return Hits(records) if out is None else out
 
-    def any_hits(self, paths: Paths, *, filter: Callable[[int, AnyHit], Any] | None = None,
+    def any_hits(self, paths: Paths | SweptShapes, *, filter: Callable[[int, Any], Any] | None = None,
                  executor: Executor | None = None, statistics: Statistics | None = None,
                  out: NDArray[np.bool_] | None = None, **options: Any) -> NDArray[np.bool_]:
         """Returns whether each path hits anything. All else is as in ``first_hits``."""
-        blocked = self._room(paths, out, np.dtype(np.bool_))
-        self._batch("any_hits", paths, options, filter, executor, statistics, blocked)
+        subject = self._subject_of_batch(paths)
+        blocked = self._room(len(paths), out, np.dtype(np.bool_))
+        self._batch(subject, "any_hits", paths, options, filter, executor, statistics, blocked)
         return blocked
 
     def box(self) -> tuple[NDArray[Any], NDArray[Any]]:

@@ -23,7 +23,27 @@ class Side(IntEnum):
     """The path arrives from the other side."""
 
 
+class Feature(IntEnum):
+    """A part of a triangle."""
+
+    FACE = 0
+    """The inside of the triangle."""
+    EDGE_AB = 1
+    """The inside of the edge from a to b."""
+    EDGE_BC = 2
+    """The inside of the edge from b to c."""
+    EDGE_CA = 3
+    """The inside of the edge from c to a."""
+    CORNER_A = 4
+    """Corner a."""
+    CORNER_B = 5
+    """Corner b."""
+    CORNER_C = 6
+    """Corner c."""
+
+
 _SIDES = tuple(Side)
+_FEATURES = tuple(Feature)
 
 
 class Hit(NamedTuple):
@@ -57,7 +77,21 @@ class SceneHit(NamedTuple):
     instance: InstanceId
 
 
-AnyHit = TypeVar("AnyHit", Hit, SceneHit)
+class ShapeHit(NamedTuple):
+    """Where a moving shape first touches a triangle. t, u and v are the exact values, each rounded once to nearest.
+
+    The touched point is a + u (b - a) + v (c - a).
+    """
+
+    t: float
+    u: float
+    v: float
+    triangle: int
+    feature: Feature
+    started_touching: bool
+
+
+AnyHit = TypeVar("AnyHit", Hit, SceneHit, ShapeHit)
 
 
 def hit_of(record: Any) -> Hit:
@@ -72,10 +106,17 @@ def scene_hit_of(record: Any) -> SceneHit:
                     instance)
 
 
+def shape_hit_of(record: Any) -> ShapeHit:
+    """Returns the hit of a struct of a moving shape."""
+    return ShapeHit(float(record.t), float(record.u), float(record.v), int(record.triangle),
+                    _FEATURES[record.feature], bool(record.started_touching))
+
+
 class Hits(Generic[AnyHit]):
     """An array of hits. Its parts are views of one array, ``records``, and nothing is copied.
 
-    An index gives a ``Hit``, or None for a miss. A slice, a mask or an array of indices gives other ``Hits``.
+    An index gives a ``Hit`` or its like, or None for a miss. A slice, a mask or an array of indices gives other
+    ``Hits``.
     """
 
     __slots__ = ("records",)
@@ -85,7 +126,7 @@ class Hits(Generic[AnyHit]):
 
     @property
     def t(self) -> NDArray[Any]:
-        """The lowest parameters at which the paths meet their triangles. Those of misses mean nothing."""
+        """The lowest parameters at which the paths or shapes meet their triangles. Those of misses mean nothing."""
         return self.records["t"]
 
     @property
@@ -105,19 +146,33 @@ class Hits(Generic[AnyHit]):
 
     @property
     def side(self) -> NDArray[np.uint8]:
-        """The sides at which the paths arrive, as numbers of ``Side``. Those of misses mean nothing."""
-        return self.records["side"]
+        """The sides at which the paths arrive, as numbers of ``Side``. Only hits of paths have them."""
+        return self._part("side", "paths have sides")
+
+    @property
+    def feature(self) -> NDArray[np.uint8]:
+        """The parts that have the touched points, as numbers of ``Feature``. Only hits of moving shapes have them."""
+        return self._part("feature", "moving shapes have features")
+
+    @property
+    def started_touching(self) -> NDArray[np.bool_]:
+        """Which shapes touch their triangles at t = 0 already. Only hits of moving shapes have it."""
+        started: NDArray[np.bool_] = self._part("started_touching", "moving shapes have this").view(np.bool_)
+        return started
 
     @property
     def instance(self) -> NDArray[Any]:
         """The instances that have the triangles, with ``index`` and ``generation``. Only hits of scenes have them."""
-        if "instance" not in (self.records.dtype.names or ()):
-            raise AttributeError("only hits of a scene have instances")
-        return self.records["instance"]
+        return self._part("instance", "a scene have instances")
+
+    def _part(self, name: str, owner: str) -> NDArray[Any]:
+        if name not in (self.records.dtype.names or ()):
+            raise AttributeError(f"only hits of {owner}")
+        return self.records[name]
 
     @property
     def is_hit(self) -> NDArray[np.bool_]:
-        """Which paths hit anything."""
+        """Which paths or shapes hit anything."""
         is_hit: NDArray[np.bool_] = self.records["triangle"] != NO_TRIANGLE
         return is_hit
 
@@ -128,15 +183,18 @@ class Hits(Generic[AnyHit]):
         found = self.records[index]
         if isinstance(found, np.ndarray) and found.ndim > 0:
             return Hits(found)
-        t, u, v, triangle, side, *instance = found.item()
+        t, u, v, triangle, part, *rest = found.item()
         if triangle == NO_TRIANGLE:
             return None
-        if instance:
-            return SceneHit(t, u, v, triangle, _SIDES[side], InstanceId(*instance[0]))
-        return Hit(t, u, v, triangle, _SIDES[side])
+        if not rest:
+            return Hit(t, u, v, triangle, _SIDES[part])
+        if "instance" in (self.records.dtype.names or ()):
+            return SceneHit(t, u, v, triangle, _SIDES[part], InstanceId(*rest[0]))
+        return ShapeHit(t, u, v, triangle, _FEATURES[part], bool(rest[0]))
 
     def __iter__(self) -> Iterator[AnyHit | None]:
         return (self[i] for i in range(len(self)))
 
     def __repr__(self) -> str:
-        return f"<{int(np.count_nonzero(self.is_hit))} hits of {len(self)} paths>"
+        askers = "shapes" if "feature" in (self.records.dtype.names or ()) else "paths"
+        return f"<{int(np.count_nonzero(self.is_hit))} hits of {len(self)} {askers}>"

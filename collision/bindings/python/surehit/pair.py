@@ -1,9 +1,9 @@
-"""One path and one triangle, and points of paths."""
+"""One path or moving shape and one triangle, and points of paths."""
 
 from __future__ import annotations
 
 from ctypes import byref
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -12,12 +12,23 @@ from ._layouts import NO_TRIANGLE, Layouts, layouts_of
 from ._library import check, function
 from ._numbers import converted, wished_dtype
 from ._options import AskedOptions
-from .hits import Hit, SceneHit, hit_of
+from .hits import Hit, SceneHit, ShapeHit, hit_of, shape_hit_of
 from .paths import Path
+from .shapes import SweptShape
 
 
-def intersect(path: Path, triangle: ArrayLike, *, dtype: DTypeLike | None = None, **options: Any) -> Hit | None:
-    """Returns where a path first meets one triangle of three rows, or None. The hit's triangle is 0.
+@overload
+def intersect(path: Path, triangle: ArrayLike, *, dtype: DTypeLike | None = None, **options: Any) -> Hit | None: ...
+
+
+@overload
+def intersect(path: SweptShape, triangle: ArrayLike, *, dtype: DTypeLike | None = None,
+              **options: Any) -> ShapeHit | None: ...
+
+
+def intersect(path: Path | SweptShape, triangle: ArrayLike, *, dtype: DTypeLike | None = None,
+              **options: Any) -> Any:
+    """Returns where a path or a moving shape first meets one triangle of three rows, or None. The hit's triangle is 0.
 
     A triangle of float32 asks in float, and every other one in double, unless ``dtype`` says which.
     """
@@ -25,11 +36,13 @@ def intersect(path: Path, triangle: ArrayLike, *, dtype: DTypeLike | None = None
     corners = np.ascontiguousarray(converted(triangle, layouts.dtype, "triangle"))
     if corners.shape != (3, 3):
         raise ValueError(f"triangle must have the shape (3, 3), and not {corners.shape}")
-    asked = AskedOptions(layouts, layouts.collider).single(options)
-    hit = layouts.collider.Hit()
-    check(function(f"triangle{layouts.suffix}_intersect")(
+    is_shape = isinstance(path, SweptShape)
+    kind = layouts.shape if is_shape else layouts.collider
+    asked = AskedOptions(layouts, kind).single(options)
+    hit = kind.Hit()
+    check(function(f"triangle{layouts.suffix}_{kind.owner}intersect")(
         corners.ctypes.data, byref(path.struct(layouts)), None if asked is None else byref(asked), byref(hit)))
-    return None if hit.triangle == NO_TRIANGLE else hit_of(hit)
+    return None if hit.triangle == NO_TRIANGLE else (shape_hit_of if is_shape else hit_of)(hit)
 
 
 def point(path: Path, hit: Hit | SceneHit, dtype: DTypeLike = np.float64) -> NDArray[Any]:

@@ -32,6 +32,21 @@ def _points(values: ArrayLike, name: str) -> NDArray[Any]:
     return result
 
 
+def _vector(given: tuple[float, ...], is_plain: bool, name: str, layouts: Layouts) -> Any:
+    """Returns three numbers as the library reads them. Only plain ones may be rounded."""
+    result = layouts.Vector3(*map(float, given))
+    for axis, x, y in zip("xyz", given, result):
+        _check_kept(x, y, is_plain, f"{name}.{axis}", layouts)
+    return result
+
+
+def _check_kept(given: float, kept: float, is_plain: bool, name: str, layouts: Layouts) -> None:
+    # Python compares whole numbers with floating-point ones exactly.
+    if given != kept and given == given and (isinf(kept) or not is_plain):
+        raise ValueError(f"{name} is {given}, which is no {layouts.dtype}. "
+                         f"If it may be rounded, use astype(numpy.{layouts.dtype})")
+
+
 class Path:
     """A segment, a ray or a line. A path with a NaN or an infinity hits nothing."""
 
@@ -51,19 +66,10 @@ class Path:
         """Returns the path as the library reads it."""
         if self._struct is None or self._struct[0] is not layouts:
             struct = layouts.Path(kind=self.kind)
-            struct.start = self._numbers(0, self.start, layouts)
-            struct.toward = self._numbers(1, self.toward, layouts)
+            struct.start = _vector(self.start, self._is_plain[0], self._names[0], layouts)
+            struct.toward = _vector(self.toward, self._is_plain[1], self._names[1], layouts)
             self._struct = (layouts, struct)
         return self._struct[1]
-
-    def _numbers(self, end: int, given: tuple[float, ...], layouts: Layouts) -> Any:
-        result = layouts.Vector3(*map(float, given))
-        for axis, x, y in zip("xyz", given, result):
-            # Python compares whole numbers with floating-point ones exactly.
-            if x != y and x == x and (isinf(y) or not self._is_plain[end]):
-                raise ValueError(f"{self._names[end]}.{axis} is {x}, which is no {layouts.dtype}. "
-                                 f"If it may be rounded, use astype(numpy.{layouts.dtype})")
-        return result
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.start!r}, {self.toward!r})"

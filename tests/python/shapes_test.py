@@ -1,0 +1,127 @@
+"""Moving shapes give the answers of one triangle after the other, and those that a reader can check by hand."""
+
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+import surehit
+
+FLOOR = np.array([[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]], np.float32)
+HALVES = np.array([[0, 1, 2], [0, 2, 3]], np.uint32)
+
+
+def drawn_balls(random, dtype, count):
+    """Balls in whole numbers, so that many of them graze or touch two triangles at once."""
+    starts, ends = (random.integers(-3, 4, (count, 3)).astype(dtype) for _ in range(2))
+    return surehit.SweptSpheres(starts, ends, random.integers(0, 3, count).astype(dtype))
+
+
+class ShapesTest(unittest.TestCase):
+    def test_brute_force(self):
+        for dtype in (np.float32, np.float64):
+            random = np.random.default_rng(3)
+            vertices = random.integers(-2, 3, (12, 3)).astype(dtype)
+            collider = surehit.Collider(vertices, random.integers(0, 12, (15, 3)))
+            balls = drawn_balls(random, dtype, 150)
+            hits, blocked = collider.first_hits(balls), collider.any_hits(balls)
+            touching = 0
+            for i in range(len(balls)):
+                alone = [surehit.intersect(balls[i], collider.triangle(j)) for j in range(len(collider))]
+                met = [hit._replace(triangle=j) for j, hit in enumerate(alone) if hit is not None]
+                every = list(collider.all_hits(balls[i]))
+                touching += bool(met) and met[0].started_touching
+                with self.subTest(dtype=dtype, ball=i):
+                    self.assertEqual(sorted(met, key=lambda hit: hit.triangle),
+                                     sorted(every, key=lambda hit: hit.triangle))
+                    self.assertEqual([hit.t for hit in every], sorted(hit.t for hit in met))
+                    self.assertEqual(hits[i], every[0] if every else None)
+                    self.assertEqual(collider.first_hit(balls[i]), hits[i])
+                    self.assertEqual((bool(blocked[i]), collider.any_hit(balls[i])), (bool(met), bool(met)))
+                    self.assertEqual(collider.overlaps(balls[i]), any(hit.started_touching for hit in met))
+                    if every:
+                        t = collider.last_free_t(balls[i], every[0])
+                        before = np.nextafter(dtype(every[0].t), dtype(0))
+                        self.assertIn(t, (0,) if every[0].started_touching else (before, every[0].t))
+            self.assertTrue(0 < np.count_nonzero(hits.is_hit) < 150)
+            self.assertTrue(0 < touching < 150)
+
+    def test_what_a_reader_can_check(self):
+        floor = surehit.Collider(FLOOR, HALVES)
+        ball = surehit.SweptSphere((5, 5, 3), (5, 5, -1), 1)
+        hit = floor.first_hit(ball)
+        self.assertEqual(hit, (0.5, 0.0, 0.5, 0, surehit.Feature.EDGE_CA, False))
+        self.assertEqual(floor.last_free_t(ball, hit), np.nextafter(np.float32(0.5), np.float32(0)))
+        self.assertEqual([other.triangle for other in floor.all_hits(ball)], [0, 1])
+        hits = floor.all_hits(ball)
+        self.assertEqual((hits.feature.tolist(), hits.started_touching.tolist()),
+                         ([surehit.Feature.EDGE_CA, surehit.Feature.EDGE_AB], [False, False]))
+        self.assertEqual(repr(hits), "<2 hits of 2 shapes>")
+        with self.assertRaisesRegex(AttributeError, "only hits of paths have sides"):
+            hits.side
+        with self.assertRaisesRegex(AttributeError, "only hits of moving shapes have features"):
+            floor.all_hits(surehit.Segment((5, 5, 1), (5, 5, -1))).feature
+        self.assertIsNone(floor.first_hit(surehit.SweptSphere((5, 5, 3), (5, 5, 1.5), 1)))
+        self.assertTrue(floor.overlaps(surehit.SweptSphere((5, 5, 1), (5, 5, 9), 1)))
+        self.assertFalse(floor.overlaps(ball))
+
+    def test_options_filters_and_threads(self):
+        floor = surehit.Collider(FLOOR, HALVES, masks=[1, 2])
+        ball = surehit.SweptSphere((5, 5, 3), (5, 5, -1), 1)
+        self.assertEqual(floor.first_hit(ball, mask=2).triangle, 1)
+        self.assertIsNone(floor.first_hit(ball, max_t=0.25))
+        self.assertEqual(floor.first_hit(ball, filter=lambda hit: hit.triangle == 1).triangle, 1)
+        resting = surehit.SweptSphere((5, 5, 1), (5, 5, 9), 1)
+        self.assertEqual([floor.any_hit(resting, ignore_start_contact=ignored) for ignored in (False, True)],
+                         [True, False])
+        balls = surehit.SweptSpheres(np.tile(ball.start, (2000, 1)), ball.end, ball.radius)
+        hits = floor.first_hits(balls, ignored_triangle=np.arange(2000) % 3)
+        self.assertEqual(hits.triangle[:3].tolist(), [1, 0, 0])
+        with ThreadPoolExecutor(2) as pool:
+            statistics = surehit.Statistics()
+            hits = floor.first_hits(balls, filter=lambda index, hit: index % 2 == hit.triangle, executor=pool,
+                                    statistics=statistics, out=hits)
+        self.assertEqual((hits.triangle.tolist(), statistics.paths), ([0, 1] * 1000, 2000))
+
+    def test_what_is_wrong_is_named(self):
+        floor = surehit.Collider(FLOOR, HALVES)
+        starts = np.zeros((3, 3), np.float32)
+        for make, kind, named in (
+                (lambda: surehit.SweptShape((0, 0, 0), (0, 0, 1)), TypeError, "is a SweptSphere"),
+                (lambda: surehit.SweptShapes(), TypeError, "are SweptSpheres"),
+                (lambda: surehit.SweptSphere((0, 0), (0, 0, 1), 1), ValueError, "start must be three numbers"),
+                (lambda: surehit.SweptSphere((0, 0, 0), (0, 0, 1), (1, 2)), TypeError, "radius must be a number"),
+                (lambda: surehit.SweptSpheres(starts, starts[:2], 1), ValueError, "3 starts but 2 ends"),
+                (lambda: surehit.SweptSpheres(starts, starts, [1, 2]), ValueError, "2 radii"),
+                (lambda: surehit.SweptSpheres(starts, starts, [[1]]), ValueError, "radii must have the shape"),
+                (lambda: floor.first_hit(surehit.SweptSphere((0, 0, 0), (0, 0, 1), np.float64(0.1))), ValueError,
+                 "radius is 0.1, which is no float32"),
+                (lambda: floor.first_hits(surehit.SweptSpheres(starts, starts, np.array([1, 0.1, 1]))), ValueError,
+                 r"radii\[1\] is 0.1, which is no float32"),
+                (lambda: floor.first_hits(surehit.SweptSpheres(starts, starts, 1), max_t=np.array([1, 1, 0.1])),
+                 ValueError, r"max_t\[2\] is 0.1, which is no float32"),
+                (lambda: floor.first_hit((0, 0, 0)), TypeError, "a Line or a SweptSphere, and not tuple"),
+                (lambda: floor.any_hits(starts), TypeError, "Lines or SweptSpheres, and not ndarray"),
+                (lambda: floor.overlaps(surehit.Segment((0, 0, 0), (0, 0, 1))), TypeError, "must be a SweptSphere"),
+                (lambda: floor.first_hit(surehit.SweptSphere((0, 0, 0), (0, 0, 1), 1), min_t=0), TypeError,
+                 "no option min_t"),
+                (lambda: surehit.Scene().first_hit(surehit.SweptSphere((0, 0, 0), (0, 0, 1), 1)), TypeError,
+                 "a Ray or a Line, and not SweptSphere")):
+            with self.subTest(named=named), self.assertRaisesRegex(kind, named):
+                make()
+
+    def test_indices_and_changed_arrays(self):
+        floor = surehit.Collider(FLOOR, HALVES)
+        starts = np.array([[5, 5, 3], [50, 5, 3]], np.float32)
+        balls = surehit.SweptSpheres(starts, [5, 5, -1], [1, 1])
+        self.assertEqual((len(balls), repr(balls)), (2, "<2 SweptSpheres>"))
+        self.assertEqual(repr(balls[-2]), "SweptSphere((5.0, 5.0, 3.0), (5.0, 5.0, -1.0), 1.0)")
+        with self.assertRaisesRegex(IndexError, "there are 2 shapes"):
+            balls[2]
+        self.assertTrue(floor.first_hits(balls).is_hit.all())
+        starts[0, 2] = 0.5
+        self.assertEqual(floor.first_hits(balls).started_touching.tolist(), [True, False])
+
+
+if __name__ == "__main__":
+    unittest.main()
