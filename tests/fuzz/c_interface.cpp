@@ -84,7 +84,7 @@ class CInterfaceCase {
   static constexpr std::size_t vertex_count = 6;
   static constexpr std::size_t triangle_count = 5;
   static constexpr std::size_t path_count = 9;
-  static constexpr std::uint32_t shape_kinds = 1;
+  static constexpr std::uint32_t shape_kinds = 3;
 
   static void expect_status(surehit_status status, surehit_status expected) {
     if (status != expected) stop_at(std::to_string(status) + ": " + surehit_last_error());
@@ -367,7 +367,7 @@ class CInterfaceCase {
   }
   void ask_about_shapes_in_batch() {
     numbers_.clear();
-    for (std::size_t i = 0; i < sizeof(typename C::Sphere) / sizeof(Scalar) * path_count; ++i) {
+    for (std::size_t i = 0; i < sizeof(typename C::Capsule) / sizeof(Scalar) * path_count; ++i) {
       numbers_.push_back(number());
     }
     const typename C::Shapes shapes = {or_null(numbers_.data()), size(path_count), value(shape_kinds)};

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <variant>
 
 #include "c/arguments.hpp"
 #include "c/asked.hpp"
@@ -12,6 +13,8 @@
 #include "surehit/collider.hpp"
 #include "surehit/shape_hit.hpp"
 #include "surehit/shape_options.hpp"
+#include "surehit/swept_box.hpp"
+#include "surehit/swept_capsule.hpp"
 #include "surehit/swept_shape.hpp"
 #include "surehit/swept_sphere.hpp"
 
@@ -36,7 +39,7 @@ SUREHIT_SHAPE_STRUCTS(double, d)
 #undef SUREHIT_SHAPE_STRUCTS
 
 /// The number of `surehit_shape_kind`s.
-inline constexpr std::uint32_t shape_kinds = 1;
+inline constexpr std::uint32_t shape_kinds = 3;
 
 /// Fails unless the shape can be read.
 template <typename CShape>
@@ -48,7 +51,14 @@ void check_shape(Arguments& arguments, const CShape* shape) {
 /// Returns a shape that has been checked.
 template <typename Scalar>
 [[nodiscard]] SweptShape<Scalar> shape_of(const typename ShapeStructs<Scalar>::Shape& shape) {
-  return SweptSphere<Scalar>{from_c(shape.start), from_c(shape.end), shape.radius};
+  switch (shape.kind) {
+    case SUREHIT_SWEPT_BOX:
+      return SweptBox<Scalar>{from_c(shape.start), from_c(shape.end), from_c(shape.half)};
+    case SUREHIT_SWEPT_CAPSULE:
+      return SweptCapsule<Scalar>{from_c(shape.start), from_c(shape.end), from_c(shape.half), shape.radius};
+    default:
+      return SweptSphere<Scalar>{from_c(shape.start), from_c(shape.end), shape.radius};
+  }
 }
 
 /// The shapes of a batch of C.
@@ -64,13 +74,24 @@ class AskedShapes {
     if (!arguments.are_valid()) return;
     given_ = *shapes;
     arguments.check_value(given_.kind, shape_kinds, 0, "shapes.kind");
-    arguments.check_array(given_.numbers, given_.count, sizeof(SweptSphere<Scalar>), "shapes.numbers");
+    if (!arguments.are_valid()) return;
+    const std::size_t size = std::visit([](auto of_kind) { return sizeof(*of_kind.data()); }, span());
+    arguments.check_array(given_.numbers, given_.count, size, "shapes.numbers");
   }
 
   /// Returns the number of shapes.
   [[nodiscard]] std::size_t size() const { return given_.count; }
   /// Returns the shapes, which must be valid.
-  [[nodiscard]] SweptShapeSpan<Scalar> span() const { return as<SweptSphere<Scalar>>(); }
+  [[nodiscard]] SweptShapeSpan<Scalar> span() const {
+    switch (given_.kind) {
+      case SUREHIT_SWEPT_BOX:
+        return as<SweptBox<Scalar>>();
+      case SUREHIT_SWEPT_CAPSULE:
+        return as<SweptCapsule<Scalar>>();
+      default:
+        return as<SweptSphere<Scalar>>();
+    }
+  }
 
  private:
   template <typename Shape>
@@ -130,6 +151,15 @@ struct Asked<ShapesIn<Collider<Scalar>>>
   SUREHIT_SAME_MEMBER(SweptSphere<Scalar>, surehit_swept_sphere##s, start);                         \
   SUREHIT_SAME_MEMBER(SweptSphere<Scalar>, surehit_swept_sphere##s, end);                           \
   SUREHIT_SAME_MEMBER(SweptSphere<Scalar>, surehit_swept_sphere##s, radius);                        \
+  static_assert(sizeof(SweptBox<Scalar>) == sizeof(surehit_swept_box##s));                          \
+  SUREHIT_SAME_MEMBER(SweptBox<Scalar>, surehit_swept_box##s, start);                               \
+  SUREHIT_SAME_MEMBER(SweptBox<Scalar>, surehit_swept_box##s, end);                                 \
+  SUREHIT_SAME_MEMBER(SweptBox<Scalar>, surehit_swept_box##s, half_extents);                        \
+  static_assert(sizeof(SweptCapsule<Scalar>) == sizeof(surehit_swept_capsule##s));                  \
+  SUREHIT_SAME_MEMBER(SweptCapsule<Scalar>, surehit_swept_capsule##s, start);                       \
+  SUREHIT_SAME_MEMBER(SweptCapsule<Scalar>, surehit_swept_capsule##s, end);                         \
+  SUREHIT_SAME_MEMBER(SweptCapsule<Scalar>, surehit_swept_capsule##s, half_axis);                   \
+  SUREHIT_SAME_MEMBER(SweptCapsule<Scalar>, surehit_swept_capsule##s, radius);                      \
   static_assert(sizeof(ShapeHit<Scalar>) == sizeof(surehit_shape_hit##s));                          \
   SUREHIT_SAME_MEMBER(ShapeHit<Scalar>, surehit_shape_hit##s, t);                                   \
   SUREHIT_SAME_MEMBER(ShapeHit<Scalar>, surehit_shape_hit##s, u);                                   \

@@ -49,6 +49,24 @@ static void single_queries(const surehit_colliderf* level) {
   EXPECT(surehit_colliderf_shape_any_hit(level, &falls, &options, NULL, NULL, &answer) == SUREHIT_OK && answer == 0);
 }
 
+static void boxes_and_capsules(const surehit_colliderf* level) {
+  const surehit_swept_shapef box = {{5.5F, 5, 3}, {5.5F, 5, -1}, {1, 1, 1}, 0, SUREHIT_SWEPT_BOX};
+  const surehit_swept_shapef capsule = {{5.5F, 5, 4}, {5.5F, 5, 0}, {0, 0, 1}, 1, SUREHIT_SWEPT_CAPSULE};
+  const surehit_swept_boxf boxes[] = {{{5.5F, 5, 3}, {5.5F, 5, -1}, {1, 1, 1}}, {{15, 5, 3}, {15, 5, -1}, {1, 1, 1}}};
+  const surehit_swept_capsulef capsules[] = {{{5.5F, 5, 4}, {5.5F, 5, 0}, {0, 0, 1}, 1}};
+  const surehit_swept_shapesf shapes = {&boxes[0].start.x, 2, SUREHIT_SWEPT_BOX};
+  const surehit_swept_shapesf others = {&capsules[0].start.x, 1, SUREHIT_SWEPT_CAPSULE};
+  surehit_shape_hitf hits[2];
+
+  EXPECT(surehit_colliderf_shape_first_hit(level, &box, NULL, NULL, NULL, &hits[0]) == SUREHIT_OK);
+  EXPECT(hits[0].t == 0.5F && hits[0].triangle == 0);
+  EXPECT(surehit_colliderf_shape_first_hit(level, &capsule, NULL, NULL, NULL, &hits[0]) == SUREHIT_OK);
+  EXPECT(hits[0].t == 0.5F && hits[0].triangle == 0);
+  EXPECT(surehit_colliderf_shape_first_hits(level, &shapes, NULL, hits) == SUREHIT_OK);
+  EXPECT(hits[0].t == 0.5F && hits[1].triangle == SUREHIT_NO_TRIANGLE);
+  EXPECT(surehit_colliderf_shape_first_hits(level, &others, NULL, hits) == SUREHIT_OK && hits[0].t == 0.5F);
+}
+
 static void batches(const surehit_colliderf* level) {
   const surehit_swept_spheref spheres[] = {{{5.5F, 5, 3}, {5.5F, 5, -1}, 1}, {{12, 4, 3}, {12, 4, -1}, 1}};
   const surehit_swept_shapesf shapes = {&spheres[0].start.x, 2, SUREHIT_SWEPT_SPHERE};
@@ -77,6 +95,7 @@ int main(void) {
 
   EXPECT(surehit_colliderf_create(&mesh, NULL, &level) == SUREHIT_OK);
   single_queries(level);
+  boxes_and_capsules(level);
   batches(level);
   EXPECT(surehit_colliderf_destroy(level) == SUREHIT_OK);
   return failures;

@@ -27,6 +27,8 @@ struct CFunctions;
     using Filter = surehit_filter##s;                                                       \
     using Shape = surehit_swept_shape##s;                                                   \
     using Sphere = surehit_swept_sphere##s;                                                 \
+    using SweptBox = surehit_swept_box##s;                                                  \
+    using Capsule = surehit_swept_capsule##s;                                               \
     using Shapes = surehit_swept_shapes##s;                                                 \
     using ShapeHit = surehit_shape_hit##s;                                                  \
     using ShapeOptions = surehit_shape_query_options##s;                                    \

@@ -6,10 +6,13 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "c_functions.hpp"
 #include "c_values.hpp"
+#include "support/box_families.hpp"
+#include "support/capsule_families.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 #include "support/same_bits.hpp"
@@ -21,21 +24,23 @@
 namespace surehit::test {
 namespace {
 
-/// Balls and a mesh in which each has a triangle of its own, as a collider in C and one in C++.
+/// Shapes and a mesh in which each has a triangle of its own, as a collider in C and one in C++.
 template <typename Scalar>
 class CShapes : public testing::Test {
  protected:
   using C = CFunctions<Scalar>;
-  static constexpr std::size_t ball_count = 12;
+  static constexpr std::size_t shape_count = 12;
 
-  void build(SphereFamily family, Random& random) {
+  /// Draws shapes by `draw()`, which returns one and a triangle that it comes close to.
+  template <typename Draw>
+  void build(const Draw& draw, Random& random) {
     GeneratedMesh<Scalar> mesh;
-    spheres.clear();
+    shapes.clear();
     masks.clear();
-    while (spheres.size() < ball_count) {
-      const auto [sphere, triangle] = draw_sphere_pair<Scalar>(family, random);
+    while (shapes.size() < shape_count) {
+      const auto [shape, triangle] = draw();
       mesh.add(triangle);
-      spheres.push_back(sphere);
+      shapes.push_back(shape);
       masks.push_back(static_cast<std::uint32_t>(random.below(4)));
     }
     cpp = Collider<Scalar>(mesh.view(), {.masks = masks});
@@ -55,7 +60,7 @@ class CShapes : public testing::Test {
     if (random.one_in(2)) options.max_t = random.unit<Scalar>();
     if (random.one_in(3)) options.culling = static_cast<Culling>(random.below(3));
     if (random.one_in(2)) options.mask = static_cast<std::uint32_t>(random.below(4));
-    if (random.one_in(3)) options.ignored_triangle = static_cast<std::uint32_t>(random.below(ball_count));
+    if (random.one_in(3)) options.ignored_triangle = static_cast<std::uint32_t>(random.below(shape_count));
     options.ignore_start_contact = random.one_in(3);
     return options;
   }
@@ -65,10 +70,9 @@ class CShapes : public testing::Test {
     return (hit->triangle + shape) % *static_cast<const std::uint32_t*>(user) != 0 ? SUREHIT_ACCEPT : SUREHIT_REJECT;
   }
 
-  void expect_same(const SweptSphere<Scalar>& sphere, const ShapeQueryOptions<Scalar>& options,
-                   std::uint32_t* modulus) {
+  void expect_same(const SweptShape<Scalar>& shape, const ShapeQueryOptions<Scalar>& options, std::uint32_t* modulus) {
     const auto filter = [&](const ShapeHit<Scalar>& hit) { return modulus == nullptr || hit.triangle % *modulus != 0; };
-    const auto given = in_c(sphere);
+    const auto given = std::visit([](const auto& any) { return in_c(any); }, shape);
     const auto given_options = in_c(options);
     const typename C::ShapeFilter given_filter = {accept, modulus};
     const auto* const c_filter = modulus != nullptr ? &given_filter : nullptr;
@@ -78,7 +82,7 @@ class CShapes : public testing::Test {
 
     typename C::ShapeHit c_hit;
     ASSERT_EQ(C::shape_first_hit(c.get(), &given, &given_options, c_filter, &work, &c_hit), SUREHIT_OK);
-    const auto hit = cpp.first_hit(sphere, filter, options, &cpp_work).value_or(ShapeHit<Scalar>{});
+    const auto hit = cpp.first_hit(shape, filter, options, &cpp_work).value_or(ShapeHit<Scalar>{});
     EXPECT_EQ(in_cpp(c_hit), hit);
     EXPECT_EQ(work.paths, cpp_work.paths);
     found += hit.triangle != no_triangle ? 1 : 0;
@@ -87,14 +91,14 @@ class CShapes : public testing::Test {
     ASSERT_EQ(C::shape_any_hit(c.get(), &given, &given_options, c_filter, nullptr, &answer), SUREHIT_OK);
     EXPECT_EQ(answer, hit.triangle != no_triangle ? 1 : 0);
     ASSERT_EQ(C::shape_overlaps(c.get(), &given, &given_options, &work, &answer), SUREHIT_OK);
-    EXPECT_EQ(answer, cpp.overlaps(sphere, options) ? 1 : 0);
+    EXPECT_EQ(answer, cpp.overlaps(shape, options) ? 1 : 0);
     touching += answer;
 
     std::vector<ShapeHit<Scalar>> hits;
-    cpp.all_hits(sphere, hits, filter, options);
-    std::array<typename C::ShapeHit, ball_count> c_hits;
+    cpp.all_hits(shape, hits, filter, options);
+    std::array<typename C::ShapeHit, shape_count> c_hits;
     std::size_t count = 0;
-    ASSERT_EQ(C::shape_all_hits(c.get(), &given, &given_options, c_filter, nullptr, c_hits.data(), ball_count, &count),
+    ASSERT_EQ(C::shape_all_hits(c.get(), &given, &given_options, c_filter, nullptr, c_hits.data(), shape_count, &count),
               SUREHIT_OK);
     ASSERT_EQ(count, hits.size());
     for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(in_cpp(c_hits[i]), hits[i]);
@@ -102,10 +106,10 @@ class CShapes : public testing::Test {
 
     Scalar t = -1;
     ASSERT_EQ(C::shape_last_free_t(c.get(), &given, &c_hit, &t), SUREHIT_OK);
-    EXPECT_TRUE(same_bits(t, cpp.last_free_t(sphere, hit)));
+    EXPECT_TRUE(same_bits(t, cpp.last_free_t(shape, hit)));
     const auto triangle = in_c(cpp.triangle(hit.triangle));
     ASSERT_EQ(C::shape_intersect(&triangle, &given, &given_options, &c_hit), SUREHIT_OK);
-    EXPECT_EQ(in_cpp(c_hit), intersect(sphere, cpp.triangle(hit.triangle), options).value_or(ShapeHit<Scalar>{}));
+    EXPECT_EQ(in_cpp(c_hit), intersect(shape, cpp.triangle(hit.triangle), options).value_or(ShapeHit<Scalar>{}));
   }
 
   /// Expects a failure whose message names what is wrong.
@@ -119,7 +123,7 @@ class CShapes : public testing::Test {
   };
   std::unique_ptr<typename C::ColliderHandle, Destroy> c;
   Collider<Scalar> cpp;
-  std::vector<SweptSphere<Scalar>> spheres;
+  std::vector<SweptShape<Scalar>> shapes;
   std::vector<std::uint32_t> masks;
   std::size_t found = 0;
   std::size_t touching = 0;
@@ -128,14 +132,23 @@ TYPED_TEST_SUITE(CShapes, Scalars, ScalarNames);
 
 TYPED_TEST(CShapes, have_the_bits_of_cpp) {
   Random random(37);
-  for (const SphereFamily family : all_sphere_families) {
-    ASSERT_NO_FATAL_FAILURE(this->build(family, random));
-    for (std::size_t i = 0; i < this->ball_count; ++i) {
+  const auto compare = [&](const auto& draw, const std::string& family) {
+    ASSERT_NO_FATAL_FAILURE(this->build(draw, random));
+    for (std::size_t i = 0; i < this->shape_count; ++i) {
       std::uint32_t modulus = 2;
-      const auto& sphere = this->spheres[i];
-      ASSERT_NO_FATAL_FAILURE(this->expect_same(sphere, {}, nullptr)) << name_of(family);
-      ASSERT_NO_FATAL_FAILURE(this->expect_same(sphere, this->draw_options(random), i % 2 == 0 ? nullptr : &modulus));
+      const auto& shape = this->shapes[i];
+      ASSERT_NO_FATAL_FAILURE(this->expect_same(shape, {}, nullptr)) << family;
+      ASSERT_NO_FATAL_FAILURE(this->expect_same(shape, this->draw_options(random), i % 2 == 0 ? nullptr : &modulus));
     }
+  };
+  for (const auto family : {SphereFamily::general, SphereFamily::tangent, SphereFamily::starts_at_distance}) {
+    ASSERT_NO_FATAL_FAILURE(compare([&] { return draw_sphere_pair<TypeParam>(family, random); }, name_of(family)));
+  }
+  for (const auto family : {BoxFamily::general, BoxFamily::grazing, BoxFamily::starts_grazing}) {
+    ASSERT_NO_FATAL_FAILURE(compare([&] { return draw_box_pair<TypeParam>(family, random); }, name_of(family)));
+  }
+  for (const auto family : {CapsuleFamily::general, CapsuleFamily::small_integers}) {
+    ASSERT_NO_FATAL_FAILURE(compare([&] { return draw_capsule_pair<TypeParam>(family, random); }, name_of(family)));
   }
   EXPECT_GT(this->found, 50U);
   EXPECT_GT(this->touching, 20U);
@@ -144,20 +157,23 @@ TYPED_TEST(CShapes, have_the_bits_of_cpp) {
 TYPED_TEST(CShapes, have_the_same_bits_in_batches) {
   using C = CFunctions<TypeParam>;
   Random random(38);
-  for (const SphereFamily family : {SphereFamily::general, SphereFamily::tangent, SphereFamily::small_integers}) {
-    ASSERT_NO_FATAL_FAILURE(this->build(family, random));
+  const auto compare = [&](const auto& draw, std::uint32_t kind) {
+    ASSERT_NO_FATAL_FAILURE(this->build(draw, random));
     // More than one task of an executor.
     constexpr std::size_t count = 600;
-    std::vector<typename C::Sphere> balls;
+    std::vector<TypeParam> numbers;
     std::vector<ShapeQueryOptions<TypeParam>> own;
     std::vector<typename C::ShapeOptions> c_own;
-    while (balls.size() < count) {
-      const auto& sphere = this->spheres[balls.size() % this->ball_count];
-      balls.push_back({in_c(sphere.start), in_c(sphere.end), sphere.radius});
+    while (own.size() < count) {
+      const auto append = [&](const auto& shape) {
+        const auto* const first = reinterpret_cast<const TypeParam*>(&shape);
+        numbers.insert(numbers.end(), first, first + sizeof shape / sizeof(TypeParam));
+      };
+      std::visit(append, this->shapes[own.size() % this->shape_count]);
       own.push_back(this->draw_options(random));
       c_own.push_back(in_c(own.back()));
     }
-    const typename C::Shapes shapes = {&balls[0].start.x, count, SUREHIT_SWEPT_SPHERE};
+    const typename C::Shapes shapes = {numbers.data(), count, kind};
     std::uint32_t modulus = 3;
     std::size_t tasks = 0;
     const typename C::ShapeFilter filter = {this->accept, &modulus};
@@ -177,20 +193,27 @@ TYPED_TEST(CShapes, have_the_same_bits_in_batches) {
     EXPECT_EQ(work.paths, 2 * count);
     for (std::size_t i = 0; i < count; ++i) {
       const auto accepts = [&](const ShapeHit<TypeParam>& hit) { return (hit.triangle + i) % modulus != 0; };
-      const auto& sphere = this->spheres[i % this->ball_count];
-      const auto expected = this->cpp.first_hit(sphere, accepts, own[i]).value_or(ShapeHit<TypeParam>{});
-      ASSERT_EQ(in_cpp(hits[i]), expected) << name_of(family) << ", ball " << i;
+      const auto& shape = this->shapes[i % this->shape_count];
+      const auto expected = this->cpp.first_hit(shape, accepts, own[i]).value_or(ShapeHit<TypeParam>{});
+      ASSERT_EQ(in_cpp(hits[i]), expected) << "kind " << kind << ", shape " << i;
       ASSERT_EQ(blocked[i], expected.triangle != no_triangle ? 1 : 0);
     }
-  }
+  };
+  ASSERT_NO_FATAL_FAILURE(
+      compare([&] { return draw_sphere_pair<TypeParam>(SphereFamily::small_integers, random); }, SUREHIT_SWEPT_SPHERE));
+  ASSERT_NO_FATAL_FAILURE(
+      compare([&] { return draw_box_pair<TypeParam>(BoxFamily::small_integers, random); }, SUREHIT_SWEPT_BOX));
+  ASSERT_NO_FATAL_FAILURE(compare([&] { return draw_capsule_pair<TypeParam>(CapsuleFamily::small_integers, random); },
+                                  SUREHIT_SWEPT_CAPSULE));
 }
 
 TYPED_TEST(CShapes, that_are_wrong_are_refused) {
   using C = CFunctions<TypeParam>;
   Random random(39);
-  ASSERT_NO_FATAL_FAILURE(this->build(SphereFamily::starts_touching, random));
+  const auto draw = [&] { return draw_sphere_pair<TypeParam>(SphereFamily::starts_touching, random); };
+  ASSERT_NO_FATAL_FAILURE(this->build(draw, random));
   auto* const collider = this->c.get();
-  auto shape = in_c(this->spheres[0]);
+  auto shape = in_c(std::get<SweptSphere<TypeParam>>(this->shapes[0]));
   auto options = C::default_shape_options();
   typename C::Sphere ball = {};
   typename C::Shapes shapes = {&ball.start.x, 1, SUREHIT_SWEPT_SPHERE};
@@ -215,7 +238,7 @@ TYPED_TEST(CShapes, that_are_wrong_are_refused) {
   refused(C::shape_any_hit(collider, &shape, nullptr, &stops, nullptr, &blocked), SUREHIT_STOPPED, "said stop");
   EXPECT_EQ(blocked, 0);
 
-  hit.triangle = this->ball_count;
+  hit.triangle = this->shape_count;
   refused(C::shape_last_free_t(collider, &shape, &hit, &t), SUREHIT_OUT_OF_RANGE, "no triangle 12");
   options.culling = 3;
   refused(C::shape_any_hit(collider, &shape, &options, nullptr, nullptr, &blocked), SUREHIT_INVALID_VALUE, "culling");

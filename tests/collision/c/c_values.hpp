@@ -10,6 +10,8 @@
 #include "surehit/scene_query_options.hpp"
 #include "surehit/shape_hit.hpp"
 #include "surehit/shape_options.hpp"
+#include "surehit/swept_box.hpp"
+#include "surehit/swept_capsule.hpp"
 #include "surehit/swept_sphere.hpp"
 #include "surehit/triangle.hpp"
 
@@ -48,6 +50,16 @@ typename CFunctions<Scalar>::SceneHit in_c(const SceneHit<Scalar>& hit) {
 template <typename Scalar>
 typename CFunctions<Scalar>::Shape in_c(const SweptSphere<Scalar>& sphere) {
   return {in_c(sphere.start), in_c(sphere.end), {}, sphere.radius, SUREHIT_SWEPT_SPHERE};
+}
+
+template <typename Scalar>
+typename CFunctions<Scalar>::Shape in_c(const SweptBox<Scalar>& box) {
+  return {in_c(box.start), in_c(box.end), in_c(box.half_extents), 0, SUREHIT_SWEPT_BOX};
+}
+
+template <typename Scalar>
+typename CFunctions<Scalar>::Shape in_c(const SweptCapsule<Scalar>& capsule) {
+  return {in_c(capsule.start), in_c(capsule.end), in_c(capsule.half_axis), capsule.radius, SUREHIT_SWEPT_CAPSULE};
 }
 
 template <typename Scalar>

@@ -18,11 +18,12 @@ from .hits import Feature, Hit, Hits, InstanceId, SceneHit, ShapeHit, Side
 from .pair import distance, intersect, point
 from .paths import Line, Lines, Path, Paths, Ray, Rays, Segment, Segments
 from .scene import Scene, rigid_pose, translation_pose
-from .shapes import SweptShape, SweptShapes, SweptSphere, SweptSpheres
+from .shapes import (SweptBox, SweptBoxes, SweptCapsule, SweptCapsules, SweptShape, SweptShapes, SweptSphere,
+                     SweptSpheres)
 
 __all__ = [
     "ALL_BITS", "Collider", "Error", "Feature", "GridSummary", "Hit", "Hits", "InstanceId", "InvalidInstance",
     "InvalidMesh", "InvalidValue", "Line", "Lines", "NO_TRIANGLE", "Options", "OutOfMemory", "OutOfRange", "Path",
     "Paths", "Ray", "Rays", "Scene", "SceneHit", "SceneOptions", "Segment", "Segments", "ShapeHit", "ShapeOptions",
-    "Side", "Statistics", "SweptShape", "SweptShapes", "SweptSphere", "SweptSpheres", "__version__", "distance",
-    "intersect", "point", "rigid_pose", "translation_pose"]
+    "Side", "Statistics", "SweptBox", "SweptBoxes", "SweptCapsule", "SweptCapsules", "SweptShape", "SweptShapes",
+    "SweptSphere", "SweptSpheres", "__version__", "distance", "intersect", "point", "rigid_pose", "translation_pose"]

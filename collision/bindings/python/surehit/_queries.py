@@ -67,7 +67,7 @@ class Queries(Generic[AnyHit]):
         if self._shapes is None:
             raise TypeError(f"the path must be a Segment, a Ray or a Line, and not {type(path).__name__}")
         if not isinstance(path, SweptShape):
-            raise TypeError("the path must be a Segment, a Ray, a Line or a SweptSphere, and not "
+            raise TypeError("the path must be a Segment, a Ray, a Line or a moving shape, and not "
                             f"{type(path).__name__}")
         return self._shapes
 
@@ -77,7 +77,7 @@ class Queries(Generic[AnyHit]):
         if self._shapes is None:
             raise TypeError(f"the paths must be Segments, Rays or Lines, and not {type(paths).__name__}")
         if not isinstance(paths, SweptShapes):
-            raise TypeError("the paths must be Segments, Rays, Lines or SweptSpheres, and not "
+            raise TypeError("the paths must be Segments, Rays, Lines or moving shapes, and not "
                             f"{type(paths).__name__}")
         return self._shapes
 

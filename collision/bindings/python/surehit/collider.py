@@ -173,7 +173,7 @@ class Collider(Queries[Hit]):
 
     def _shapes_of(self, shape: SweptShape) -> Subject:
         if not isinstance(shape, SweptShape):
-            raise TypeError(f"the shape must be a SweptSphere, and not {type(shape).__name__}")
+            raise TypeError(f"the shape must be a moving shape, and not {type(shape).__name__}")
         return self._subject_of(shape)
 
     def grid_summary(self) -> GridSummary:

@@ -26,7 +26,9 @@ typedef enum surehit_path_kind {
 
 /// The kinds of moving shapes.
 typedef enum surehit_shape_kind {
-  SUREHIT_SWEPT_SPHERE = 0  ///< A ball whose centre moves from its start to its end. A batch has 7 numbers for each.
+  SUREHIT_SWEPT_SPHERE = 0,  ///< A ball. A batch has 7 numbers for each, as in `surehit_swept_spheref`.
+  SUREHIT_SWEPT_BOX = 1,     ///< A box with edges along the axes. A batch has 9 numbers, as in `surehit_swept_boxf`.
+  SUREHIT_SWEPT_CAPSULE = 2  ///< A capsule. A batch has 10 numbers for each, as in `surehit_swept_capsulef`.
 } surehit_shape_kind;
 
 /// The parts of a triangle with corners a, b and c.

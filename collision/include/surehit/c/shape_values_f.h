@@ -13,12 +13,12 @@ extern "C" {
 /// A shape that moves in a straight line during one physics step, from its start at t = 0 to its end at t = 1.
 ///
 /// It touches a triangle if their distance is zero, so a contact in a single point counts. Any finite numbers are
-/// allowed. With a negative radius, a NaN or an infinity, it touches nothing. Its end may be its start.
+/// allowed. With a negative radius or extent, a NaN or an infinity, it touches nothing. Its end may be its start.
 typedef struct surehit_swept_shapef {
   surehit_vector3f start;  ///< The centre at t = 0.
   surehit_vector3f end;    ///< The centre at t = 1.
-  surehit_vector3f half;   ///< Not used by a ball.
-  float radius;            ///< The radius of a ball, in the mesh's unit of length. It may be 0.
+  surehit_vector3f half;   ///< Half the size of a box, or half the axis of a capsule. Not used by a ball.
+  float radius;            ///< The radius of a ball or a capsule, in the mesh's unit of length. Not used by a box.
   uint32_t kind;           ///< A `surehit_shape_kind`.
 } surehit_swept_shapef;
 
@@ -28,6 +28,23 @@ typedef struct surehit_swept_spheref {
   surehit_vector3f end;    ///< The centre at t = 1.
   float radius;            ///< The radius.
 } surehit_swept_spheref;
+
+/// A moving box, as an array for a batch has it: nine numbers side by side. It has all points whose difference from the
+/// centre is at most `half_extents` on each axis.
+typedef struct surehit_swept_boxf {
+  surehit_vector3f start;         ///< The centre at t = 0.
+  surehit_vector3f end;           ///< The centre at t = 1.
+  surehit_vector3f half_extents;  ///< Half the size on each axis.
+} surehit_swept_boxf;
+
+/// A moving capsule, as an array for a batch has it: ten numbers side by side. It has all points within the radius of
+/// the segment from the centre - `half_axis` to the centre + `half_axis`.
+typedef struct surehit_swept_capsulef {
+  surehit_vector3f start;      ///< The centre at t = 0.
+  surehit_vector3f end;        ///< The centre at t = 1.
+  surehit_vector3f half_axis;  ///< The way from the centre to an end of the segment.
+  float radius;                ///< The radius.
+} surehit_swept_capsulef;
 
 /// Moving shapes of one kind, side by side in memory that the caller owns.
 typedef struct surehit_swept_shapesf {
