@@ -260,12 +260,22 @@ class CInterfaceCase {
     if (!is_hit) return;
     if (bytes_.one_in(4)) hit.t = number();
     if (bytes_.one_in(4)) hit.triangle = value(triangle_count);
+    if (bytes_.one_in(4)) explain(asked, way, given);
     typename C::Vector point;
     Scalar max_t = 0;
     checked(C::last_free_point(asked, &way, &hit, given, given_filter, &point));
     checked(C::max_t_keeping(asked, &way, &hit, &max_t));
     checked(C::point(&way, &hit, &point));
     checked(C::distance(&way, &hit, &max_t));
+  }
+
+  void explain(const Collider* asked, const typename C::Path& way, const typename C::Options* given) {
+    typename C::Explainer explainer = {};
+    set_size(explainer);
+    if (bytes_.one_in(2)) explainer.hit = [](void*, std::size_t, const typename C::ExplainedHit*) {};
+    if (bytes_.one_in(2)) explainer.cell = [](void*, std::size_t, const surehit_explained_cell*) {};
+    std::uint32_t walk = 9;
+    checked(C::explain(asked, &way, given, or_null(&explainer), or_null(&walk)), walk, std::uint32_t{9});
   }
 
   typename C::Paths paths() {

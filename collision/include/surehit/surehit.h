@@ -19,6 +19,9 @@
 
 #include "surehit/c/collider_d.h"      // IWYU pragma: export
 #include "surehit/c/collider_f.h"      // IWYU pragma: export
+#include "surehit/c/explain.h"         // IWYU pragma: export
+#include "surehit/c/explain_d.h"       // IWYU pragma: export
+#include "surehit/c/explain_f.h"       // IWYU pragma: export
 #include "surehit/c/mixed_scene.h"     // IWYU pragma: export
 #include "surehit/c/options.h"         // IWYU pragma: export
 #include "surehit/c/pair_d.h"          // IWYU pragma: export

@@ -134,6 +134,17 @@ PIN_SIZE(surehit_shape_batch_optionsf, 48);
 PIN_PLACE(surehit_shape_batch_optionsf, statistics, 40);
 PIN_SIZE(surehit_pathsd, 48);
 PIN_SIZE(surehit_meshd, 56);
+PIN_SIZE(surehit_explained_cell, 88);
+PIN_PLACE(surehit_explained_cell, first_candidate, 64);
+PIN_PLACE(surehit_explained_cell, is_inner, 81);
+PIN_SIZE(surehit_explained_candidate, 88);
+PIN_PLACE(surehit_explained_candidate, triangle, 80);
+PIN_PLACE(surehit_explained_candidate, outcome, 87);
+PIN_SIZE(surehit_explained_hitf, 48);
+PIN_PLACE(surehit_explained_hitf, ordered_by, 40);
+PIN_SIZE(surehit_explained_hitd, 56);
+PIN_SIZE(surehit_explainerf, 40);
+PIN_PLACE(surehit_explainerf, user, 32);
 PIN_SIZE(surehit_batch_optionsd, 48);
 #endif
 

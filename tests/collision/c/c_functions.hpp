@@ -34,6 +34,8 @@ struct CFunctions;
     using ShapeOptions = surehit_shape_query_options##s;                                    \
     using ShapeBatchOptions = surehit_shape_batch_options##s;                               \
     using ShapeFilter = surehit_shape_filter##s;                                            \
+    using ExplainedHit = surehit_explained_hit##s;                                          \
+    using Explainer = surehit_explainer##s;                                                 \
     using Pose = surehit_pose##s;                                                           \
     using SceneHit = surehit_scene_hit##s;                                                  \
     using SceneOptions = surehit_scene_query_options##s;                                    \
@@ -76,6 +78,7 @@ struct CFunctions;
     static constexpr auto box = surehit_collider##s##_box;                                  \
     static constexpr auto grid_summary = surehit_collider##s##_grid_summary;                \
     static constexpr auto memory_bytes = surehit_collider##s##_memory_bytes;                \
+    static constexpr auto explain = surehit_collider##s##_explain;                          \
                                                                                             \
     /* Moving shapes. */                                                                    \
     static constexpr auto shape_first_hit = surehit_collider##s##_shape_first_hit;          \

@@ -1,7 +1,7 @@
 # The C headers for double are those for float with other names and types. With -D WRITE=ON it writes them, and
 # clang-format then breaks their lines. Without it, it compares those that are there.
 set(folder "${CMAKE_CURRENT_LIST_DIR}/../../../collision/include/surehit/c")
-set(stems "accept_hit|batch_options|box|capsule|collider|filter|hit|mesh|path|paths|pose|query_options|scene|scene_hit|shape|shapes|sphere|triangle|vector3")
+set(stems "accept_hit|batch_options|box|capsule|collider|explained_hit|explainer|filter|hit|tell_hit|mesh|path|paths|pose|query_options|scene|scene_hit|shape|shapes|sphere|triangle|vector3")
 
 # What line breaks and the width of a comment cannot change.
 function(without_breaks text result)
