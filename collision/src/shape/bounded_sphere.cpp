@@ -11,26 +11,26 @@ namespace surehit::detail {
 namespace {
 
 template <typename Number>
-using TermsOf = SphereTerms<Number, Number>;
+using SphereTermsOf = SphereTerms<Number, Number>;
 
 template <typename Number, typename Scalar>
-TermsOf<Number> terms_of(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
-  TermsOf<Number> terms;
+SphereTermsOf<Number> terms_of(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
+  SphereTermsOf<Number> terms;
   set_terms(terms, sphere, triangle);
   return terms;
 }
 
 /// Returns whether the premise of Z2 holds.
-bool has_usual_sizes(const TermsOf<Sized>& terms) {
+bool has_usual_sizes(const SphereTermsOf<Sized>& terms) {
   SizeRange range;
   range.include(terms);
   return range.is_usual();
 }
-bool has_usual_sizes(const TermsOf<Bounded>&) { return true; }
+bool has_usual_sizes(const SphereTermsOf<Bounded>&) { return true; }
 
 /// Returns bounds of the t at which the ball comes to a part (S3).
 template <typename Number>
-DoubleRange time_of(const TermsOf<Number>& terms, Feature part) {
+DoubleRange time_of(const SphereTermsOf<Number>& terms, Feature part) {
   if (part == Feature::face) {
     return time_to_plane(terms.from_corner[0], terms.step, normal_of(terms), terms.radius);
   }
@@ -43,7 +43,7 @@ DoubleRange time_of(const TermsOf<Number>& terms, Feature part) {
 template <typename Number, typename Scalar>
 SUREHIT_NOINLINE bool try_round_weights(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
                                         const SphereContact& contact, ShapeHit<Scalar>& hit) {
-  const TermsOf<Number> terms = terms_of<Number>(sphere, triangle);
+  const SphereTermsOf<Number> terms = terms_of<Number>(sphere, triangle);
   if (!has_usual_sizes(terms)) return false;
   const DoubleRange t = {contact.t_lower, contact.t_upper};
   if (contact.feature == Feature::face) {
@@ -72,7 +72,7 @@ SUREHIT_NOINLINE bool try_round_weights(const SweptSphere<Scalar>& sphere, const
 template <typename Number, typename Scalar>
 SUREHIT_NOINLINE Verdict find_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
                                       SphereContact& found) {
-  const TermsOf<Number> terms = terms_of<Number>(sphere, triangle);
+  const SphereTermsOf<Number> terms = terms_of<Number>(sphere, triangle);
   if (!has_usual_sizes(terms)) return Verdict::undecided;
   Signs signs;
   bool has_face = false;

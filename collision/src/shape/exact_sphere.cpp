@@ -23,9 +23,9 @@ struct SphereBits {
 };
 
 template <typename Scalar>
-using IntTerms = SphereTerms<WideInt<SphereBits<Scalar>::difference>, WideInt<SphereBits<Scalar>::coordinate>>;
+using SphereIntTerms = SphereTerms<WideInt<SphereBits<Scalar>::difference>, WideInt<SphereBits<Scalar>::coordinate>>;
 template <typename Scalar>
-using Root = QuadraticRoot<SphereBits<Scalar>::quadratic>;
+using SphereRoot = QuadraticRoot<SphereBits<Scalar>::quadratic>;
 
 /// A ball and a triangle in integers. `unit` is their unit, or that of a larger set of numbers.
 template <typename Scalar>
@@ -72,7 +72,7 @@ class ExactSphere {
   [[nodiscard]] int sign_along() const { return dot(normal_of(terms_), terms_.step).sign(); }
 
   /// Returns the equation of the t at which the ball comes to a part (S3).
-  [[nodiscard]] SUREHIT_NOINLINE Root<Scalar> root(Feature part) const {
+  [[nodiscard]] SUREHIT_NOINLINE SphereRoot<Scalar> root(Feature part) const {
     constexpr int bits = Bits::quadratic;
     const auto rr = terms_.radius * terms_.radius;
     const auto& d = terms_.step;
@@ -137,11 +137,11 @@ class ExactSphere {
                                                        const Volume& z) const {
     constexpr int bits = Bits::quadratic;
     if (contact.at_start) return detail::rounded_weight<Scalar, bits>(nullptr, x, y, z);
-    const Root<Scalar> t = root(contact.timed_by);
+    const SphereRoot<Scalar> t = root(contact.timed_by);
     return detail::rounded_weight<Scalar>(&t, x, y, z);
   }
 
-  IntTerms<Scalar> terms_;
+  SphereIntTerms<Scalar> terms_;
   Outline outline_;
 };
 
@@ -157,8 +157,8 @@ int compare_times(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x_t
                   const Triangle<Scalar>& y_triangle, const SphereContact& y) {
   if (x.at_start || y.at_start) return static_cast<int>(y.at_start) - static_cast<int>(x.at_start);
   const BinaryUnit unit = ExactSphere<Scalar>::unit_of(sphere, x_triangle, y_triangle);
-  const Root<Scalar> x_root = ExactSphere<Scalar>(sphere, x_triangle, unit).root(x.timed_by);
-  const Root<Scalar> y_root = ExactSphere<Scalar>(sphere, y_triangle, unit).root(y.timed_by);
+  const SphereRoot<Scalar> x_root = ExactSphere<Scalar>(sphere, x_triangle, unit).root(x.timed_by);
+  const SphereRoot<Scalar> y_root = ExactSphere<Scalar>(sphere, y_triangle, unit).root(y.timed_by);
   return RootOrder(x_root, y_root).sign();
 }
 
@@ -168,7 +168,7 @@ int compare_time(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& tria
   if (contact.at_start) return limit > 0 ? -1 : 0;
   if (!(limit > 0)) return 1;
   const Decomposed<Scalar> parts(limit);
-  const Root<Scalar> root = ExactSphere<Scalar>(sphere, triangle).root(contact.timed_by);
+  const SphereRoot<Scalar> root = ExactSphere<Scalar>(sphere, triangle).root(contact.timed_by);
   return root.template compare<Scalar>({parts.significand, parts.exponent});
 }
 
