@@ -20,6 +20,10 @@ class RayMeshIntersector:
 
     A ray in a triangle's plane meets the triangle, and so does one through an edge or a vertex. Of triangles that are
     met at the same exact t, the lowest index is reported first. Numbers are float64 unless the vertices are float32.
+
+    trimesh has two such classes, whose options are in different orders, so options must be named here. Its class
+    without Embree has tolerances. Where locations are wanted, that class keeps only one of a ray's hits at the same
+    place. Here each triangle has its hit.
     """
 
     def __init__(self, geometry: Any = None, *, vertices: ArrayLike | None = None,
@@ -39,7 +43,7 @@ class RayMeshIntersector:
         """Returns whether each ray hits anything."""
         return self.collider.any_hits(self._rays(ray_origins, ray_directions))
 
-    def intersects_id(self, ray_origins: ArrayLike, ray_directions: ArrayLike, multiple_hits: bool = True,
+    def intersects_id(self, ray_origins: ArrayLike, ray_directions: ArrayLike, *, multiple_hits: bool = True,
                       return_locations: bool = False) -> tuple[NDArray[Any], ...]:
         """Returns the indices of triangles and of the rays that hit them, and the locations if they are wanted.
 
@@ -52,13 +56,14 @@ class RayMeshIntersector:
             return index_tri, index_ray
         return index_tri, index_ray, self._locations(rays, index_ray, hits)
 
-    def intersects_location(self, ray_origins: ArrayLike, ray_directions: ArrayLike,
+    def intersects_location(self, ray_origins: ArrayLike, ray_directions: ArrayLike, *,
                             multiple_hits: bool = True) -> tuple[NDArray[Any], NDArray[np.int64], NDArray[np.int64]]:
         """Returns the locations of hits, the indices of their rays and those of their triangles.
 
         Each coordinate of a location is the exact one for the rounded t, rounded once.
         """
-        index_tri, index_ray, locations = self.intersects_id(ray_origins, ray_directions, multiple_hits, True)
+        index_tri, index_ray, locations = self.intersects_id(
+            ray_origins, ray_directions, multiple_hits=multiple_hits, return_locations=True)
         return locations, index_ray, index_tri
 
     def _rays(self, origins: ArrayLike, directions: ArrayLike) -> Rays:
