@@ -157,6 +157,37 @@ class ColliderTest(unittest.TestCase):
         collider.rebuild(np.empty((0, 3), np.float32), [])
         self.assertEqual((len(collider), collider.first_hit(down)), (0, None))
 
+    def test_explanations(self):
+        random = np.random.default_rng(8)
+        vertices = random.integers(-8, 9, (60, 3)).astype(np.float32)
+        collider = surehit.Collider(vertices, random.integers(0, 60, (200, 3)))
+        decided = set()
+        cells = 0
+        for i in range(40):
+            path = surehit.Segment(*(random.integers(-9, 10, 3).astype(np.float32) for _ in range(2)))
+            ignored = int(random.integers(0, 200))
+            told = collider.explain(path, ignored_triangle=ignored)
+            first = collider.first_hit(path, ignored_triangle=ignored)
+            self.assertEqual(told.hits[0].hit if told.hits else None, first)
+            met = {one.triangle for one in told.candidates if one.outcome == surehit.PairOutcome.HIT}
+            self.assertEqual({one.hit.triangle for one in told.hits}, met)
+            self.assertNotIn(ignored, met)
+            for one in told.hits:
+                self.assertTrue(one.t_lower <= one.t_upper)
+            for one in told.candidates:
+                decided.add(one.decided_by)
+                self.assertEqual(one.numbers is None, one.filter_verdict == surehit.FilterVerdict.NOT_ASKED)
+            for cell in told.cells:
+                self.assertTrue(all(low <= high for low, high in zip(*cell.box)))
+                self.assertLessEqual(cell.first_candidate + cell.candidate_count, len(told.candidates))
+            cells += len(told.cells) if told.walk == surehit.Walk.CELLS else 0
+        self.assertGreater(cells, 40)
+        self.assertIn(surehit.DecidedBy.FILTER, decided)
+        with self.assertRaisesRegex(TypeError, "no option side"):
+            collider.explain(path, side=1)
+        with self.assertRaisesRegex(TypeError, "a Ray or a Line, and not tuple"):
+            collider.explain((0, 0, 0))
+
     def test_what_it_tells(self):
         collider = surehit.Collider([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
         ray = surehit.Ray((1, 1, 3), (0, 0, -1))

@@ -24,14 +24,23 @@ def members_of(name):
     return [(member.rpartition(" ")[2].lstrip("*"), member.rpartition(" ")[0]) for member in members if member]
 
 
+def size_and_alignment_of(type_name):
+    """Returns the size and the alignment of a type in C."""
+    if "*" in type_name or type_name.startswith(("surehit_run_tasks", "surehit_accept", "surehit_tell")):
+        return (ctypes.sizeof(ctypes.c_void_p),) * 2
+    if type_name in PLAIN:
+        return (ctypes.sizeof(PLAIN[type_name]),) * 2
+    end = largest = 0
+    for _, member_type in members_of(type_name.removeprefix("surehit_")):
+        size, alignment = size_and_alignment_of(member_type)
+        end = -(-end // alignment) * alignment + size
+        largest = max(largest, alignment)
+    return -(-end // largest) * largest, largest
+
+
 def size_of(type_name):
     """Returns the size of a type in C."""
-    if "*" in type_name or type_name in ("surehit_run_tasks",) or type_name.startswith("surehit_accept"):
-        return ctypes.sizeof(ctypes.c_void_p)
-    if type_name in PLAIN:
-        return ctypes.sizeof(PLAIN[type_name])
-    members = members_of(type_name.removeprefix("surehit_"))
-    return sum(size_of(member_type) for _, member_type in members)
+    return size_and_alignment_of(type_name)[0]
 
 
 class DeclarationsTest(unittest.TestCase):
@@ -66,7 +75,10 @@ class DeclarationsTest(unittest.TestCase):
                        "scene_batch_options" + s: layouts.scene.BatchOptions, "swept_shape" + s: layouts.Shape,
                        "swept_shapes" + s: layouts.Shapes, "shape_hit" + s: layouts.shape.Hit,
                        "shape_query_options" + s: layouts.shape.Options, "shape_filter" + s: layouts.shape.Filter,
-                       "shape_batch_options" + s: layouts.shape.BatchOptions}
+                       "shape_batch_options" + s: layouts.shape.BatchOptions,
+                       "explained_cell": _layouts.ExplainedCellStruct, "filter_number": _layouts.FilterNumberStruct,
+                       "explained_candidate": _layouts.ExplainedCandidateStruct,
+                       "explained_hit" + s: layouts.ExplainedHit, "explainer" + s: layouts.Explainer}
             for name, struct in structs.items():
                 with self.subTest(struct=name):
                     members = members_of(name)

@@ -14,6 +14,8 @@ from ._library import LIBRARY_VERSION as __version__
 from ._options import Options, SceneOptions, ShapeOptions
 from .collider import Collider, GridSummary
 from .errors import Error, InvalidInstance, InvalidMesh, InvalidValue, OutOfMemory, OutOfRange
+from .explanation import (CellFinding, DecidedBy, ExplainedCandidate, ExplainedCell, ExplainedHit, Explanation,
+                          FilterNumber, FilterNumbers, FilterVerdict, OrderedBy, PairOutcome, Walk)
 from .hits import Feature, Hit, Hits, InstanceId, SceneHit, ShapeHit, Side
 from .pair import distance, intersect, point
 from .paths import Line, Lines, Path, Paths, Ray, Rays, Segment, Segments
@@ -22,8 +24,10 @@ from .shapes import (SweptBox, SweptBoxes, SweptCapsule, SweptCapsules, SweptSha
                      SweptSpheres)
 
 __all__ = [
-    "ALL_BITS", "Collider", "Error", "Feature", "GridSummary", "Hit", "Hits", "InstanceId", "InvalidInstance",
-    "InvalidMesh", "InvalidValue", "Line", "Lines", "NO_TRIANGLE", "Options", "OutOfMemory", "OutOfRange", "Path",
-    "Paths", "Ray", "Rays", "Scene", "SceneHit", "SceneOptions", "Segment", "Segments", "ShapeHit", "ShapeOptions",
-    "Side", "Statistics", "SweptBox", "SweptBoxes", "SweptCapsule", "SweptCapsules", "SweptShape", "SweptShapes",
-    "SweptSphere", "SweptSpheres", "__version__", "distance", "intersect", "point", "rigid_pose", "translation_pose"]
+    "ALL_BITS", "CellFinding", "Collider", "DecidedBy", "Error", "ExplainedCandidate", "ExplainedCell", "ExplainedHit",
+    "Explanation", "Feature", "FilterNumber", "FilterNumbers", "FilterVerdict", "GridSummary", "Hit", "Hits",
+    "InstanceId", "InvalidInstance", "InvalidMesh", "InvalidValue", "Line", "Lines", "NO_TRIANGLE", "Options",
+    "OrderedBy", "OutOfMemory", "OutOfRange", "PairOutcome", "Path", "Paths", "Ray", "Rays", "Scene", "SceneHit",
+    "SceneOptions", "Segment", "Segments", "ShapeHit", "ShapeOptions", "Side", "Statistics", "SweptBox", "SweptBoxes",
+    "SweptCapsule", "SweptCapsules", "SweptShape", "SweptShapes", "SweptSphere", "SweptSpheres", "Walk", "__version__",
+    "distance", "intersect", "point", "rigid_pose", "translation_pose"]

@@ -55,6 +55,29 @@ class GridSummaryStruct(ctypes.Structure):
                 ("levels", c_uint32)]
 
 
+class BoxStruct(ctypes.Structure):
+    _fields_ = [("numbers", c_double * 6)]
+
+
+class ExplainedCellStruct(ctypes.Structure):
+    _fields_ = [("box", BoxStruct), ("enters", c_double), ("leaves", c_double), ("first_candidate", c_size_t),
+                ("candidate_count", c_size_t), ("finding", c_uint8), ("is_inner", c_uint8)]
+
+
+class FilterNumberStruct(ctypes.Structure):
+    _fields_ = [("value", c_double), ("bound", c_double)]
+
+
+class ExplainedCandidateStruct(ctypes.Structure):
+    _fields_ = [(name, FilterNumberStruct) for name in ("det", "t_det", "u_det", "v_det", "w_det")] + [
+        ("triangle", c_uint32), ("has_numbers", c_uint8), ("filter_verdict", c_uint8), ("decided_by", c_uint8),
+        ("outcome", c_uint8)]
+
+
+TELL_CELL = ctypes.CFUNCTYPE(None, c_void_p, c_size_t, POINTER(ExplainedCellStruct))
+TELL_CANDIDATE = ctypes.CFUNCTYPE(None, c_void_p, c_size_t, POINTER(ExplainedCandidateStruct))
+
+
 def _struct(name: str, fields: list[tuple[str, Any]]) -> Any:
     return type(name, (ctypes.Structure,), {"_fields_": fields})
 
@@ -97,6 +120,13 @@ class Layouts:
         of_instances = [("instance_mask", c_uint32), ("ignored_instance", InstanceIdStruct)]
         self.collider = _queries(_struct("Hit" + suffix, where),
                                  _struct("QueryOptions" + suffix, limits + contacts), suffix, "")
+        self.ExplainedHit = _struct("ExplainedHit" + suffix, [
+            ("hit", self.collider.Hit), ("t_lower", c_double), ("t_upper", c_double), ("ordered_by", c_uint8),
+            ("is_rounded_by_integers", c_uint8)])
+        self.TellHit = ctypes.CFUNCTYPE(None, c_void_p, c_size_t, POINTER(self.ExplainedHit))
+        self.Explainer = _struct("Explainer" + suffix, [
+            ("size", c_size_t), ("cell", TELL_CELL), ("candidate", TELL_CANDIDATE), ("hit", self.TellHit),
+            ("user", c_void_p)])
         self.Shape = _struct("SweptShape" + suffix, [
             ("start", vector3), ("end", vector3), ("half", vector3), ("radius", real), ("kind", c_uint32)])
         self.Shapes = _struct("SweptShapes" + suffix, [

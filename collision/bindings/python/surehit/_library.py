@@ -27,7 +27,8 @@ _OF_COLLIDERS: dict[str, list[Any]] = {
     "triangle": [_P, c_uint32, _P], "normal": [_P, c_uint32, _P], "box": [_P, _P], "grid_summary": [_P, _P],
     "memory_bytes": [_P, _P], "shape_first_hit": [_P] * 6, "shape_any_hit": [_P] * 6,
     "shape_all_hits": [_P] * 6 + [c_size_t, _P], "shape_first_hits": [_P] * 4, "shape_any_hits": [_P] * 4,
-    "shape_overlaps": [_P] * 5, "shape_last_free_t": [_P] * 4}
+    "shape_overlaps": [_P] * 5, "shape_last_free_t": [_P] * 4,
+    "explain": [_P] * 5}
 _OF_SCENES: dict[str, list[Any]] = {
     "create": [_P], "destroy": [_P], "add": [_P, _P, _P, c_uint32, c_uint64, _P], "remove": [_P, _ID],
     "set_pose": [_P, _ID, _P], "set_motion": [_P, _ID, _P], "set_mask": [_P, _ID, c_uint32], "commit": [_P, _P],

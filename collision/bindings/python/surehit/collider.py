@@ -17,6 +17,7 @@ from ._library import check, function
 from ._numbers import indices, masks_of, rows, stride_of, wished_dtype
 from ._options import Raised, executor_pointer
 from ._queries import Queries, Subject
+from .explanation import Explanation, explanation_of
 from .hits import Hit, ShapeHit
 from .paths import Path
 from .shapes import SweptShape
@@ -148,6 +149,17 @@ class Collider(Queries[Hit]):
         check(self._function("max_t_keeping")(self._handle, byref(path.struct(self._layouts)),
                                               byref(self._struct_of_hit(hit)), byref(limit)))
         return float(limit.value)
+
+    def explain(self, path: Path, **options: Any) -> Explanation:
+        """Returns how ``first_hit`` comes to its answer: cells, candidates, what each stage says of them, and hits.
+
+        The answer is the same. The way to it may differ between machines and versions. It is slow, for people to read.
+        """
+        if not isinstance(path, Path):
+            raise TypeError(f"the path must be a Segment, a Ray or a Line, and not {type(path).__name__}")
+        asked = self._paths.options.single(options)
+        return explanation_of(self._function("explain"), self._handle, byref(path.struct(self._layouts)),
+                              None if asked is None else byref(asked), self._layouts)
 
     def overlaps(self, shape: SweptShape, *, statistics: Statistics | None = None, **options: Any) -> bool:
         """Returns whether a shape touches anything at its start. Its end plays no part, and neither does ``max_t``."""
