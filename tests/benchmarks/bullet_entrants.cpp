@@ -1,16 +1,12 @@
-#include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
-#include <BulletCollision/CollisionShapes/btOptimizedBvh.h>
-#include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 
-#include <array>
+#include <memory>
 
+#include "bullet_mesh.hpp"
 #include "entrants.hpp"
 
 namespace surehit::benchmark {
 namespace {
-
-btVector3 to_bullet(const Vector3f& point) { return {point.x(), point.y(), point.z()}; }
 
 class FirstHit : public btTriangleRaycastCallback {
  public:
@@ -43,29 +39,16 @@ class AnyHit : public btTriangleRaycastCallback {
 class BulletContender : public Contender {
  public:
   void build(const TriangleMeshViewf& mesh) override {
-    shape_.reset();
-    copy(mesh);
-    btIndexedMesh indexed;
-    indexed.m_numTriangles = static_cast<int>(triangles_.size());
-    indexed.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(triangles_.data());
-    indexed.m_triangleIndexStride = sizeof triangles_[0];
-    indexed.m_numVertices = static_cast<int>(vertices_.size());
-    indexed.m_vertexBase = reinterpret_cast<const unsigned char*>(vertices_.data());
-    indexed.m_vertexStride = sizeof vertices_[0];
-    arrays_ = std::make_unique<btTriangleIndexVertexArray>();
-    arrays_->addIndexedMesh(indexed);
-    shape_ = std::make_unique<btBvhTriangleMeshShape>(arrays_.get(), true);
+    mesh_.reset();
+    mesh_ = std::make_unique<BulletMesh>(mesh);
   }
 
-  [[nodiscard]] std::size_t memory_bytes() const override {
-    return vertices_.size() * sizeof vertices_[0] + triangles_.size() * sizeof triangles_[0] +
-           shape_->getOptimizedBvh()->calculateSerializeBufferSize();
-  }
+  [[nodiscard]] std::size_t memory_bytes() const override { return mesh_->memory_bytes(); }
 
   void first(const PathBatch& paths, std::span<Hitf> hits) const override {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       FirstHit cast(paths.segments()[i]);
-      shape_->performRaycast(&cast, cast.m_from, cast.m_to);
+      mesh_->shape().performRaycast(&cast, cast.m_from, cast.m_to);
       hits[i] = cast.hit;
     }
   }
@@ -73,25 +56,13 @@ class BulletContender : public Contender {
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       AnyHit cast(paths.segments()[i]);
-      shape_->performRaycast(&cast, cast.m_from, cast.m_to);
+      mesh_->shape().performRaycast(&cast, cast.m_from, cast.m_to);
       blocked[i] = cast.blocked ? 1 : 0;
     }
   }
 
  private:
-  void copy(const TriangleMeshViewf& mesh) {
-    vertices_.resize(mesh.vertex_count());
-    for (std::size_t i = 0; i < vertices_.size(); ++i) Vector3f::Map(vertices_[i].data()) = mesh.vertex(i);
-    triangles_.resize(mesh.triangle_count());
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      triangles_[i] = {mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
-    }
-  }
-
-  std::vector<std::array<float, 3>> vertices_;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
-  std::unique_ptr<btTriangleIndexVertexArray> arrays_;  // Bullet's types keep their own alignment by their operator new
-  std::unique_ptr<btBvhTriangleMeshShape> shape_;
+  std::unique_ptr<BulletMesh> mesh_;
 };
 
 }  // namespace

@@ -32,7 +32,7 @@ const std::vector<TableKind>& all_tables() {
       {"load", measure_loads},          {"size", measure_sizes},
       {"tick", measure_ticks},          {"threads", measure_threads, false},
       {"exactness", measure_exactness}, {"statistics", measure_statistics},
-      {"scene", measure_worlds},
+      {"scene", measure_worlds},        {"shapes", measure_shapes},
   };
   return tables;
 }
@@ -153,6 +153,7 @@ void choose(const Words& words, Request& request) {
   };
   copy_chosen(all_entrants(), request.entrants);
   copy_chosen(all_world_entrants(), request.world_entrants);
+  copy_chosen(all_sweep_entrants(), request.sweep_entrants);
 }
 
 std::int64_t target_of(const std::string& instruction_set) {

@@ -7,6 +7,7 @@
 #include "entrants.hpp"
 #include "path_set.hpp"
 #include "scene.hpp"
+#include "sweep_entrants.hpp"
 #include "world_entrants.hpp"
 
 namespace surehit::benchmark {
@@ -23,6 +24,7 @@ struct Request {
   std::vector<Entrant> entrants;
   std::vector<std::string> worlds;
   std::vector<WorldEntrant> world_entrants;
+  std::vector<SweepEntrant> sweep_entrants;
   float detail = 1;  ///< of the worlds
 };
 

@@ -25,4 +25,7 @@ void measure_statistics(const Request& request, Report& report);
 /// Worlds of many instances: queries, wrong decisions, an instance beside its collider, and commits of moved instances.
 void measure_worlds(const Request& request, Report& report);
 
+/// Moving shapes beside peers, beside segments of the same paths, and close decisions beside general ones.
+void measure_shapes(const Request& request, Report& report);
+
 }  // namespace surehit::benchmark
