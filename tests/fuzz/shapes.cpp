@@ -1,0 +1,187 @@
+// Draws moving shapes and triangles of the families in any number, and holds every answer against exact roots in
+// integers; where asked to, against rationals and long floats too.
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "command_line/program.hpp"
+#include "support/neighbour.hpp"
+#include "support/shape_text.hpp"
+#include "support/sphere_families.hpp"
+#include "support/sphere_oracle.hpp"
+#include "support/swept_truth.hpp"
+#include "surehit/intersect.hpp"
+
+namespace surehit::test {
+namespace {
+
+struct Request {
+  std::uint64_t pairs = 0;
+  std::uint64_t seed = 1;
+  unsigned threads = 1;
+  bool in_double = false;
+  bool confirm = false;
+};
+
+struct Counts {
+  std::uint64_t pairs = 0;
+  std::uint64_t hits = 0;
+  std::uint64_t starts = 0;  ///< hits at the start
+  std::uint64_t findings = 0;
+
+  Counts& operator+=(const Counts& more) {
+    pairs += more.pairs;
+    hits += more.hits;
+    starts += more.starts;
+    findings += more.findings;
+    return *this;
+  }
+};
+
+/// Whether an answer that is wrong in one field, by as little as can be, passes for right.
+template <typename Scalar>
+bool passes_wrong(const SweptTruth& truth, const std::optional<ShapeHit<Scalar>>& right) {
+  const auto accepts = [&](const std::optional<ShapeHit<Scalar>>& wrong) { return !find_error(truth, wrong); };
+  if (!right) return accepts(ShapeHit<Scalar>{.triangle = 0});
+  if (accepts(std::nullopt)) return true;
+  for (Scalar ShapeHit<Scalar>::*field : {&ShapeHit<Scalar>::t, &ShapeHit<Scalar>::u, &ShapeHit<Scalar>::v}) {
+    for (const int steps : {-1, 1}) {
+      ShapeHit<Scalar> wrong = *right;
+      wrong.*field = neighbour(wrong.*field, steps);
+      if (accepts(wrong)) return true;
+    }
+  }
+  ShapeHit<Scalar> wrong = *right;
+  wrong.feature = wrong.feature == Feature::face ? Feature::edge_ab : Feature::face;
+  if (accepts(wrong)) return true;
+  wrong = *right;
+  wrong.started_touching = !wrong.started_touching;
+  return accepts(wrong);
+}
+
+/// The finding's text, if there is one.
+template <typename Shape, typename Scalar>
+std::string check(const Shape& shape, const Triangle<Scalar>& triangle, bool confirm, Counts& counts) {
+  const SweptTruth truth = truth_of(shape, triangle);
+  const std::optional<ShapeHit<Scalar>> answer = intersect(shape, triangle);
+  ++counts.pairs;
+  counts.hits += truth.touches;
+  counts.starts += truth.starts_touching;
+
+  std::string finding;
+  const auto tell = [&](const std::optional<std::string>& error) {
+    if (error) finding += '\n' + *error;
+  };
+  tell(find_error(truth, answer));
+  if (confirm) {
+    tell(find_error(shape, triangle, answer));
+    if (passes_wrong(truth, answer)) tell("the integers let a wrong answer pass");
+  }
+  if (finding.empty()) return finding;
+  ++counts.findings;
+  return hex_text(shape) + '\n' + hex_text(triangle) + finding +
+         "\nanswered: " + (answer ? hex_text(*answer) : "a miss") + '\n';
+}
+
+/// Each thread takes the next chunk, which has a seed of its own: what is drawn does not depend on the threads.
+template <typename Scalar>
+class SphereRun {
+ public:
+  static constexpr const auto& families = all_sphere_families;
+  using CountsOfFamilies = std::array<Counts, families.size()>;
+
+  explicit SphereRun(const Request& request) : request_(request) {}
+
+  CountsOfFamilies run() {
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < request_.threads; ++i) threads.emplace_back([this] { work(); });
+    for (std::thread& thread : threads) thread.join();
+    return counts_;
+  }
+
+ private:
+  static constexpr std::uint64_t chunk = families.size() * 256;
+
+  void work() {
+    CountsOfFamilies counts;
+    for (;;) {
+      const std::uint64_t first = next_.fetch_add(chunk);
+      if (first >= request_.pairs) break;
+      Random random(Random(request_.seed).bits() + first);
+      for (std::uint64_t i = first; i < std::min(first + chunk, request_.pairs); ++i) {
+        const std::size_t family = i % families.size();
+        const auto [shape, triangle] = draw_sphere_pair<Scalar>(families[family], random);
+        tell(check(shape, triangle, request_.confirm, counts[family]));
+      }
+    }
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = 0; i < counts.size(); ++i) counts_[i] += counts[i];
+  }
+
+  void tell(const std::string& finding) {
+    if (finding.empty()) return;
+    const std::lock_guard lock(mutex_);
+    std::fprintf(stderr, "%s\n", finding.c_str());
+  }
+
+  const Request& request_;
+  std::atomic<std::uint64_t> next_ = 0;
+  std::mutex mutex_;
+  CountsOfFamilies counts_;
+};
+
+void print_row(const char* name, const Counts& counts) {
+  std::printf("%-22s", name);
+  for (const std::uint64_t count : {counts.pairs, counts.hits, counts.starts, counts.findings}) {
+    std::printf(" %13llu", static_cast<unsigned long long>(count));
+  }
+  std::printf("\n");
+}
+
+template <typename Run>
+example::ExitStatus run(const Request& request) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto counts = Run(request).run();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+
+  std::printf("%-22s %13s %13s %13s %13s\n", "family", "pairs", "hits", "at the start", "findings");
+  Counts all;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    print_row(name_of(Run::families[i]).c_str(), counts[i]);
+    all += counts[i];
+  }
+  print_row("all", all);
+  std::printf("%.1f s, %.0f pairs a second\n", seconds.count(), static_cast<double>(all.pairs) / seconds.count());
+  return all.findings == 0 ? example::success : example::failure;
+}
+
+example::Work describe(CLI::App& app) {
+  const auto request = std::make_shared<Request>();
+  app.add_option("--pairs", request->pairs, "How many")->required();
+  app.add_option("--seed", request->seed, "Each draws other pairs")->capture_default_str();
+  app.add_option("--threads", request->threads, "Threads that share them; they change nothing that is drawn")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_flag("--double", request->in_double, "In double instead of float");
+  app.add_flag("--confirm", request->confirm,
+               "Ask the rationals about every pair as well, and the integers about wrong answers");
+  return [request] { return request->in_double ? run<SphereRun<double>>(*request) : run<SphereRun<float>>(*request); };
+}
+
+}  // namespace
+}  // namespace surehit::test
+
+int main(int argc, char** argv) {
+  return surehit::example::run_program("fuzz_shapes", "Holds answers about drawn shapes against exact oracles.", argc,
+                                       argv, surehit::test::describe);
+}

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "support/one_root_number.hpp"
+#include "surehit/shape_hit.hpp"
+#include "surehit/swept_sphere.hpp"
+#include "surehit/triangle.hpp"
+
+namespace surehit::test {
+
+/// What is true of a moving shape and a triangle, in exact numbers.
+struct SweptTruth {
+  bool touches = false;
+  bool starts_touching = false;
+  QuadraticRoot t = {};  ///< It is 0 if they touch at the start.
+  OneRootNumber u = {};
+  OneRootNumber v = {};
+  Feature feature = Feature::face;
+};
+
+/// Returns what is true of a moving ball and a triangle. All numbers must be finite, and the radius must not be
+/// negative. Call it in the default floating-point environment.
+///
+/// It follows the definition. A time counts if the centre is then at a distance of the radius from a plane, a line or a
+/// corner, at a point that belongs to the triangle. All of them are computed, and the first one is chosen by exact
+/// comparisons of roots. It shares nothing with the library or with `sphere_oracle`, and is much faster than the
+/// latter.
+template <typename Scalar>
+[[nodiscard]] SweptTruth truth_of(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle);
+
+/// Returns the hit that has to be reported. The shape must touch.
+template <typename Scalar>
+[[nodiscard]] ShapeHit<Scalar> rounded_hit(const SweptTruth& truth);
+
+/// Says what is wrong with an answer, or returns nothing if it is right in every field.
+template <typename Scalar>
+[[nodiscard]] std::optional<std::string> find_error(const SweptTruth& truth,
+                                                    const std::optional<ShapeHit<Scalar>>& answer);
+
+}  // namespace surehit::test
