@@ -1,0 +1,60 @@
+// Answers cases with Bullet: `swept_adapter_of_bullet <cases >answers`. An adapter of another engine looks like this.
+
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btTriangleMesh.h>
+
+#include <cstdio>
+
+#include "swept_input.hpp"
+
+namespace {
+
+btVector3 vector(const std::array<double, 3>& x) {
+  return {static_cast<btScalar>(x[0]), static_cast<btScalar>(x[1]), static_cast<btScalar>(x[2])};
+}
+
+class FirstTouch : public btCollisionWorld::ConvexResultCallback {
+ public:
+  btScalar addSingleResult(btCollisionWorld::LocalConvexResult& result, bool) override {
+    m_closestHitFraction = result.m_hitFraction;
+    touches = true;
+    return result.m_hitFraction;
+  }
+
+  bool touches = false;
+};
+
+std::string ask(const swept::Input& input) {
+  btTriangleMesh triangles;
+  triangles.addTriangle(vector(input.corners[0]), vector(input.corners[1]), vector(input.corners[2]));
+  btBvhTriangleMeshShape mesh(&triangles, true);
+  btCollisionObject object;
+  object.setCollisionShape(&mesh);
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  btDbvtBroadphase broadphase;
+  btCollisionWorld world(&dispatcher, &broadphase, &configuration);
+  world.addCollisionObject(&object);
+
+  const btSphereShape ball(static_cast<btScalar>(input.size[0]));
+  const auto at = [](const std::array<double, 3>& place) {
+    return btTransform(btQuaternion::getIdentity(), vector(place));
+  };
+  FirstTouch touch;
+  world.convexSweepTest(&ball, at(input.start), at(input.end), touch);
+  world.removeCollisionObject(&object);
+  if (!touch.touches) return "miss";
+  char text[64];
+  std::snprintf(text, sizeof text, "hit %a", static_cast<double>(touch.m_closestHitFraction));
+  return text;
+}
+
+}  // namespace
+
+int main() { return swept::answer_all(ask); }
