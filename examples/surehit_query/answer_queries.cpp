@@ -1,15 +1,13 @@
 #include "surehit_query/answer_queries.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <functional>
-#include <future>
 #include <string_view>
 #include <surehit/surehit.hpp>
 #include <vector>
 
-#include "command_line/output_file.hpp"
-#include "command_line/progress_bar.hpp"
+#include "surehit_query/answer_blocks.hpp"
+#include "surehit_query/answer_shapes.hpp"
 #include "surehit_query/asked_mesh.hpp"
 #include "surehit_query/asked_scene.hpp"
 #include "surehit_query/hit_text.hpp"
@@ -19,42 +17,6 @@
 
 namespace surehit::example {
 namespace {
-
-struct AnsweredBlock {
-  std::string lines;
-  QueryStatistics statistics;
-};
-
-/// The answers to the paths from `begin` to before `end`. Called from several threads at once.
-using Answer = std::function<AnsweredBlock(std::size_t begin, std::size_t end)>;
-
-/// Returns what was done for all of them. Every thread answers one block of a round; the blocks are written in their
-/// order, so the output is the same for any number of threads, and no more than a round of it is held in memory.
-QueryStatistics write_answers(const QueryRequest& request, std::string_view header, std::size_t paths,
-                              const Answer& answer) {
-  constexpr std::size_t block = 4096;
-  OutputFile output(request.output_path);
-  output.write(header);
-  ProgressBar progress("Answering", paths);
-  QueryStatistics statistics;
-  for (std::size_t begin = 0; begin < paths;) {
-    std::vector<std::future<AnsweredBlock>> round;
-    for (std::size_t thread = 0; thread < request.threads && begin < paths; ++thread) {
-      const std::size_t end = std::min(begin + block, paths);
-      round.push_back(std::async(std::launch::async, answer, begin, end));
-      begin = end;
-    }
-    for (auto& answered : round) {
-      const AnsweredBlock block_of_answers = answered.get();
-      if (output.is_terminal()) progress.hide();
-      output.write(block_of_answers.lines);
-      statistics += block_of_answers.statistics;
-    }
-    progress.show(begin);
-  }
-  output.finish();
-  return statistics;
-}
 
 template <typename Scalar>
 Vector3<Scalar> point_at(const Scalar* numbers) {
@@ -209,7 +171,7 @@ class Queries {
 };
 
 template <typename Shape, typename Scalar>
-void answer_shapes(const QueryRequest& request) {
+void answer_paths(const QueryRequest& request) {
   if (request.question == Question::pair) {
     answer_pairs<Shape, Scalar>(request);
   } else if (request.scene_path.empty()) {
@@ -222,18 +184,21 @@ void answer_shapes(const QueryRequest& request) {
 template <typename Scalar>
 void answer_in(const QueryRequest& request) {
   switch (request.path) {
-    case PathKind::segment:
-      return answer_shapes<Segment<Scalar>, Scalar>(request);
-    case PathKind::ray:
-      return answer_shapes<Ray<Scalar>, Scalar>(request);
-    case PathKind::line:
-      return answer_shapes<Line<Scalar>, Scalar>(request);
+    case PathForm::segment:
+      return answer_paths<Segment<Scalar>, Scalar>(request);
+    case PathForm::ray:
+      return answer_paths<Ray<Scalar>, Scalar>(request);
+    case PathForm::line:
+      return answer_paths<Line<Scalar>, Scalar>(request);
+    default:
+      return;  // A shape.
   }
 }
 
 }  // namespace
 
 void answer_queries(const QueryRequest& request) {
+  if (is_shape(request.path)) return answer_shapes(request);
   if (request.scalar == ScalarKind::single_precision) {
     answer_in<float>(request);
   } else {

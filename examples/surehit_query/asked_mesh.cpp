@@ -47,8 +47,8 @@ AskedMesh<Scalar>::AskedMesh(const QueryRequest& request)
     : options_(options_of<Scalar>(request)), id_column_(id_column(request)), mesh_(read_collider<Scalar>(request)) {}
 
 template <typename Scalar>
-void AskedMesh<Scalar>::append_ids(const Answer& hit, std::string& text) const {
-  append_number(mesh_.id_of(hit.triangle), text);
+void AskedMesh<Scalar>::append_id(std::uint32_t triangle, std::string& text) const {
+  append_number(mesh_.id_of(triangle), text);
 }
 
 template <typename Scalar>

@@ -17,6 +17,11 @@
 namespace surehit::example {
 namespace {
 
+/// No shape is explained.
+PathKind kind_of(PathForm form) {
+  return form == PathForm::line ? PathKind::line : form == PathForm::ray ? PathKind::ray : PathKind::segment;
+}
+
 /// The path of the input that is meant.
 template <typename Scalar>
 Path<Scalar> read_path(const QueryRequest& request) {
@@ -31,7 +36,7 @@ Path<Scalar> read_path(const QueryRequest& request) {
                      ", which count from 0");
   }
   const Scalar* const row = table.row(index);
-  return {request.path, {row[0], row[1], row[2]}, {row[3], row[4], row[5]}};
+  return {kind_of(request.path), {row[0], row[1], row[2]}, {row[3], row[4], row[5]}};
 }
 
 template <typename Scalar>

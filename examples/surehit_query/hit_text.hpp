@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <surehit/hit.hpp>
+#include <surehit/shape_hit.hpp>
 
 namespace surehit::example {
 
@@ -27,6 +28,23 @@ void append_number(Number number, std::string& text) {
       break;
   }
   return "edge_on";
+}
+
+[[nodiscard]] inline const char* name_of(Feature feature) {
+  constexpr std::array names = {"face", "edge_ab", "edge_bc", "edge_ca", "corner_a", "corner_b", "corner_c"};
+  return names[static_cast<std::size_t>(feature)];
+}
+
+/// Appends `,t,u,v,feature,started_touching`.
+template <typename Scalar>
+void append_contact(const ShapeHit<Scalar>& hit, std::string& text) {
+  for (const Scalar number : {hit.t, hit.u, hit.v}) {
+    text += ',';
+    append_number(number, text);
+  }
+  text += ',';
+  text += name_of(hit.feature);
+  text += hit.started_touching ? ",1" : ",0";
 }
 
 /// Appends `,t,u,v,side`.

@@ -12,7 +12,8 @@ namespace surehit::example {
 namespace {
 
 template <typename Scalar>
-NumberTable<Scalar> parse_number_table(std::string_view text, std::size_t columns) {
+NumberTable<Scalar> parse_number_table(std::string_view text, std::size_t columns,
+                                       const std::function<void(const Scalar*)>& check) {
   NumberTable<Scalar> table{columns, {}};
   TextLines lines(text);
   ProgressBar progress("Reading", text.size());
@@ -28,6 +29,7 @@ NumberTable<Scalar> parse_number_table(std::string_view text, std::size_t column
         throw InputError("expected " + std::to_string(columns) + " numbers, not " + std::to_string(fields.size()));
       }
       for (const std::string_view field : fields) table.numbers.push_back(parse_number<Scalar>(field));
+      if (check) check(table.row(table.rows() - 1));
     }
   });
   return table;
@@ -48,15 +50,18 @@ void split_at_commas(std::string_view line, std::vector<std::string_view>& part,
 }
 
 template <typename Scalar>
-NumberTable<Scalar> read_number_table(const std::string& path, std::size_t columns) {
+NumberTable<Scalar> read_number_table(const std::string& path, std::size_t columns,
+                                      const std::function<void(const Scalar*)>& check) {
   try {
-    return parse_number_table<Scalar>(read_file(path), columns);
+    return parse_number_table<Scalar>(read_file(path), columns, check);
   } catch (const InputError& error) {
     throw error.at(path == "-" ? "standard input" : path);
   }
 }
 
-template NumberTable<float> read_number_table<float>(const std::string&, std::size_t);
-template NumberTable<double> read_number_table<double>(const std::string&, std::size_t);
+template NumberTable<float> read_number_table<float>(const std::string&, std::size_t,
+                                                     const std::function<void(const float*)>&);
+template NumberTable<double> read_number_table<double>(const std::string&, std::size_t,
+                                                       const std::function<void(const double*)>&);
 
 }  // namespace surehit::example

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,9 +23,10 @@ struct NumberTable {
 void split_at_commas(std::string_view line, std::vector<std::string_view>& part, std::vector<std::string_view>& fields);
 
 /// Reads a row from each line of a file, or of standard input if it is `-`. White space, or a comma with or without it,
-/// separates numbers. Lines that begin with # and blank lines are skipped. Throws InputError, which names the file and
-/// the line.
+/// separates numbers. Lines that begin with # and blank lines are skipped. `check` may refuse a row by an InputError.
+/// Throws InputError, which names the file and the line.
 template <typename Scalar>
-[[nodiscard]] NumberTable<Scalar> read_number_table(const std::string& path, std::size_t columns);
+[[nodiscard]] NumberTable<Scalar> read_number_table(const std::string& path, std::size_t columns,
+                                                    const std::function<void(const Scalar* row)>& check = {});
 
 }  // namespace surehit::example

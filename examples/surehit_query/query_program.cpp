@@ -55,11 +55,15 @@ void add_scalar(CLI::App& command, QueryRequest& request, const std::string& des
 }
 
 /// What numbers are, and where the answers go.
-void add_form(CLI::App& command, QueryRequest& request) {
+void add_form(CLI::App& command, QueryRequest& request, bool takes_shapes) {
   add_scalar(command, request, "The type that all numbers are read to and answers rounded to");
-  add_choice<PathKind>(command, "--path", request.path,
-                       {{"segment", PathKind::segment}, {"ray", PathKind::ray}, {"line", PathKind::line}},
-                       "What a path is: from p to q, from p along a direction, or both ways along it");
+  Choices<PathForm> forms = {{"segment", PathForm::segment}, {"ray", PathForm::ray}, {"line", PathForm::line}};
+  std::string description = "What a path is: from p to q, from p along a direction, or both ways along it";
+  if (takes_shapes) {
+    forms.insert(forms.end(), {{"sphere", PathForm::sphere}, {"box", PathForm::box}, {"capsule", PathForm::capsule}});
+    description += "; or a shape whose centre moves from p to q";
+  }
+  add_choice<PathForm>(command, "--path", request.path, forms, description);
   command.add_option("-o", request.output_path, "Where the answers go; - is standard output")
       ->type_name("OUT")
       ->capture_default_str();
@@ -79,7 +83,7 @@ CLI::App& add_command(CLI::App& app, QueryRequest& request, Question question, c
       command.add_option("FILE", request.input_path, "The paths, one a line; - is standard input");
   file->required()->type_name("");
   if (mesh != nullptr) add_scene(command, request, *mesh, *file);
-  add_form(command, request);
+  add_form(command, request, true);
   command
       .add_option("--threads", request.threads, "Threads that share the paths; the output is the same for any number")
       ->type_name("N")
@@ -144,7 +148,15 @@ void add_more_columns(CLI::App& command, QueryRequest& request) {
   command.add_flag("--normals", request.wants_normals, "More columns nx,ny,nz: the unit normal of the triangle");
 }
 
-constexpr const char* paths_of_a_mesh = "FILE: 6 numbers a line: p, then q or the direction.\n";
+constexpr const char* path_of_a_mesh = "FILE: 6 numbers a line: p, then q or the direction.\n";
+
+constexpr const char* paths_of_a_mesh =
+    "FILE: 6 numbers a line: p, then q or the direction. Shapes have more: a sphere its radius, a box its three\n"
+    "half extents, and a capsule the three numbers of its half axis and its radius.\n";
+
+constexpr const char* shape_columns_help =
+    "Shapes have feature,started_touching in place of side: what is touched, face, edge_ab, edge_bc, edge_ca,\n"
+    "corner_a, corner_b or corner_c, and 1 if they touch at t = 0 already.\n";
 
 constexpr const char* scenes =
     "SCENE: a text file with one instance a line: a mesh file, the 12 numbers of its pose, and if need be\n"
@@ -178,11 +190,11 @@ void add_explain(CLI::App& app, QueryRequest& request) {
                   "Draw the cells, the candidates and the path to this file: .ply, .obj or .png; may be given again")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  add_form(command, request);
+  add_form(command, request, false);
   add_limits(command, request);
   add_triangle_filters(command, request);
   command.footer(
-      std::string(paths_of_a_mesh) +
+      std::string(path_of_a_mesh) +
       "Output: the way of a query for the first hit, for people to read. The cells that the path walks through, each\n"
       "with its t and its box; the triangles that their lists ask, with the five determinants of Möller and Trumbore\n"
       "as the filter has them, and their error bounds; the stage that decides each; the order of the hits; how t, u\n"
@@ -215,7 +227,8 @@ void describe(CLI::App& app, QueryRequest& request) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(36);
   app.footer(
-      "A line of FILE holds the numbers of one path: p, then q or the direction. They are decimal or hex\n"
+      "A line of FILE holds the numbers of one path: p, then q or the direction, then a shape's size. They are decimal "
+      "or hex\n"
       "floats (0x1.8p-3), with white space, a comma or both between them. Blank lines and lines that begin\n"
       "with # are skipped. Answers are exact, their numbers rounded once to nearest; what is written reads\n"
       "back to the same bits. COMMAND --help tells the options and the output of a command.\n"
@@ -225,8 +238,11 @@ void describe(CLI::App& app, QueryRequest& request) {
   add_limits(pair, request);
   add_more_columns(pair, request);
   pair.footer(
-      "FILE: 15 numbers a line: p, then q or the direction, then the corners a, b and c.\n"
-      "Output: hit,t,u,v,side, one line a pair; a miss is 0,,,, and side is front, back or edge_on.");
+      "FILE: 15 numbers a line: p, then q or the direction, then the corners a, b and c. A shape has its size before\n"
+      "the corners: a sphere its radius, a box its three half extents, and a capsule the three numbers of its half\n"
+      "axis and its radius.\n"
+      "Output: hit,t,u,v,side, one line a pair; a miss is 0,,,, and side is front, back or edge_on. Of shapes:\n"
+      "hit,t,u,v,feature,started_touching, and a miss is 0,,,,, .");
 
   CLI::App& first = add_command(app, request, Question::first, "first", "Where does each path first meet the mesh?");
   add_limits(first, request);
@@ -239,7 +255,7 @@ void describe(CLI::App& app, QueryRequest& request) {
   first.footer(std::string(paths_of_a_mesh) +
                "Output: triangle,t,u,v,side, one line a path; a miss is -1,,,,. Of equal exact t the least triangle "
                "wins.\n" +
-               scenes + meshes);
+               shape_columns_help + scenes + meshes);
 
   CLI::App& any = add_command(app, request, Question::any, "any", "Does each path meet the mesh at all?");
   add_limits(any, request);
@@ -254,8 +270,8 @@ void describe(CLI::App& app, QueryRequest& request) {
   add_more_columns(all, request);
   all.footer(std::string(paths_of_a_mesh) +
              "Output: path,triangle,t,u,v,side,tie, one line a hit, in order along the path; paths count from 0. tie "
-             "is 1\nwhere another hit of the path has the very same exact t, else 0.\n" +
-             scenes + meshes);
+             "is 1\nwhere another hit of the path has the very same exact t, else 0. Shapes have no column tie.\n" +
+             shape_columns_help + scenes + meshes);
 
   add_explain(app, request);
   add_bake(app, request);
@@ -289,11 +305,24 @@ void check_drawings(const QueryRequest& request) {
   }
 }
 
+/// What only straight paths have.
+void check_shape(const QueryRequest& request) {
+  const auto refuse = [](bool is_given, const char* option) {
+    if (is_given) throw CLI::ValidationError(option, "only straight paths have it");
+  };
+  refuse(!request.scene_path.empty(), "--scene");
+  refuse(request.min_t != "-inf", "--min-t");
+  refuse(request.ignore_end_contact, "--ignore-end-contact");
+  refuse(request.wants_points, "--points");
+  refuse(request.wants_normals, "--normals");
+}
+
 /// What no single option can know.
 void check(QueryRequest& request) {
+  if (is_shape(request.path)) check_shape(request);
   check_scene(request);
   check_drawings(request);
-  if (request.wants_free_points && request.path != PathKind::segment) {
+  if (request.wants_free_points && request.path != PathForm::segment) {
     throw CLI::ValidationError("--free-points", "only a segment has them");
   }
   if (request.masks_path == "-" && request.input_path == "-") {

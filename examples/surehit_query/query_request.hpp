@@ -14,6 +14,11 @@ enum class Question : std::uint8_t { pair, first, any, all, explain, bake };
 
 enum class ScalarKind : std::uint8_t { single_precision, double_precision };
 
+/// What a path is: a straight one, or a shape that moves.
+enum class PathForm : std::uint8_t { segment, ray, line, sphere, box, capsule };
+
+[[nodiscard]] constexpr bool is_shape(PathForm form) { return form >= PathForm::sphere; }
+
 /// What the ids in the output count: the triangles, or the faces that the file's triangles were cut from.
 enum class IdKind : std::uint8_t { triangle, face };
 
@@ -25,7 +30,7 @@ struct QueryRequest {
   std::string input_path;
   std::string output_path = "-";
   ScalarKind scalar = ScalarKind::single_precision;
-  PathKind path = PathKind::segment;
+  PathForm path = PathForm::segment;
   std::size_t threads = 1;
 
   std::string min_t = "-inf";
