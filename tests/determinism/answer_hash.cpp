@@ -5,6 +5,7 @@
 #include "answers.hpp"
 #include "hard_questions.hpp"
 #include "hard_scene.hpp"
+#include "hard_shapes.hpp"
 #include "saved_hash.hpp"
 
 namespace {
@@ -35,14 +36,23 @@ bool scene_answers_are_published(const char* name) {
   return is_published(name, hash, surehit::test::published_scene_hash<Scalar>) && is_saved;
 }
 
+template <typename Scalar>
+bool shape_answers_are_published(const char* name) {
+  const surehit::test::HardShapes<Scalar> hard;
+  const std::uint64_t hash = surehit::test::ShapeAnswers<Scalar>(hard.hard.collider(), hard.shapes).hash();
+  return is_published(name, hash, surehit::test::published_shape_hash<Scalar>);
+}
+
 }  // namespace
 
-/// The answers to the hard questions and about the hard scene, and the bytes of both, of a library that somebody else
-/// has compiled.
+/// The answers to the hard questions, about the hard scene and about the hard shapes, and the bytes of the first two,
+/// of a library that somebody else has compiled.
 int main() {
   const bool floats = answers_are_published<float>("float");
   const bool doubles = answers_are_published<double>("double");
   const bool float_scenes = scene_answers_are_published<float>("scene of floats");
   const bool double_scenes = scene_answers_are_published<double>("scene of doubles");
-  return floats && doubles && float_scenes && double_scenes ? 0 : 1;
+  const bool float_shapes = shape_answers_are_published<float>("shapes of floats");
+  const bool double_shapes = shape_answers_are_published<double>("shapes of doubles");
+  return floats && doubles && float_scenes && double_scenes && float_shapes && double_shapes ? 0 : 1;
 }
