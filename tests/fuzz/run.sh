@@ -20,7 +20,7 @@ replays one is printed.
 USAGE
 }
 
-targets=(pair collider c_interface mesh_readers command_line saved_file)
+targets=(pair shape collider c_interface mesh_readers command_line saved_file)
 wanted=("${targets[@]}")
 mode=
 seed=1
@@ -73,7 +73,7 @@ build "$preset" || exit 1
 # A text may grow long; a pair or a mesh says all it has to say in less.
 limits_of() {
   case "$1" in
-    pair) echo -max_len=128 ;;
+    pair | shape) echo -max_len=128 ;;
     collider) echo -max_len=192 ;;
     c_interface) echo -max_len=1024 ;;
     mesh_readers) echo -max_len=2048 -malloc_limit_mb=64 "-dict=$root/tests/fuzz/mesh_readers.dict" ;;

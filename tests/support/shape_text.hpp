@@ -5,6 +5,8 @@
 
 #include "support/pair_text.hpp"
 #include "surehit/shape_hit.hpp"
+#include "surehit/swept_box.hpp"
+#include "surehit/swept_capsule.hpp"
 #include "surehit/swept_sphere.hpp"
 
 namespace surehit::test {
@@ -18,6 +20,32 @@ std::string hex_text(const SweptSphere<Scalar>& sphere) {
   out << ", ";
   write(out, sphere.end);
   out << ", " << sphere.radius << '}';
+  return out.str();
+}
+
+template <typename Scalar>
+std::string hex_text(const SweptBox<Scalar>& box) {
+  std::ostringstream out;
+  out << std::hexfloat << "SweptBox" << (sizeof(Scalar) == sizeof(float) ? "f{" : "d{");
+  write(out, box.start);
+  out << ", ";
+  write(out, box.end);
+  out << ", ";
+  write(out, box.half_extents);
+  out << '}';
+  return out.str();
+}
+
+template <typename Scalar>
+std::string hex_text(const SweptCapsule<Scalar>& capsule) {
+  std::ostringstream out;
+  out << std::hexfloat << "SweptCapsule" << (sizeof(Scalar) == sizeof(float) ? "f{" : "d{");
+  write(out, capsule.start);
+  out << ", ";
+  write(out, capsule.end);
+  out << ", ";
+  write(out, capsule.half_axis);
+  out << ", " << capsule.radius << '}';
   return out.str();
 }
 
