@@ -15,9 +15,11 @@
 #include <vector>
 
 #include "command_line/program.hpp"
+#include "support/box_oracle.hpp"
+#include "support/capsule_oracle.hpp"
 #include "support/neighbour.hpp"
+#include "support/shape_families.hpp"
 #include "support/shape_text.hpp"
-#include "support/sphere_families.hpp"
 #include "support/sphere_oracle.hpp"
 #include "support/swept_truth.hpp"
 #include "surehit/intersect.hpp"
@@ -27,6 +29,7 @@ namespace {
 
 struct Request {
   std::uint64_t pairs = 0;
+  std::string shape = "sphere";
   std::uint64_t seed = 1;
   unsigned threads = 1;
   bool in_double = false;
@@ -94,13 +97,13 @@ std::string check(const Shape& shape, const Triangle<Scalar>& triangle, bool con
 }
 
 /// Each thread takes the next chunk, which has a seed of its own: what is drawn does not depend on the threads.
-template <typename Scalar>
-class SphereRun {
+template <typename Family, typename Scalar>
+class ShapeRun {
  public:
-  static constexpr const auto& families = all_sphere_families;
+  static constexpr const auto& families = all_families<Family>;
   using CountsOfFamilies = std::array<Counts, families.size()>;
 
-  explicit SphereRun(const Request& request) : request_(request) {}
+  explicit ShapeRun(const Request& request) : request_(request) {}
 
   CountsOfFamilies run() {
     std::vector<std::thread> threads;
@@ -120,7 +123,7 @@ class SphereRun {
       Random random(Random(request_.seed).bits() + first);
       for (std::uint64_t i = first; i < std::min(first + chunk, request_.pairs); ++i) {
         const std::size_t family = i % families.size();
-        const auto [shape, triangle] = draw_sphere_pair<Scalar>(families[family], random);
+        const auto [shape, triangle] = draw_shape_pair<Scalar>(families[family], random);
         tell(check(shape, triangle, request_.confirm, counts[family]));
       }
     }
@@ -165,6 +168,11 @@ example::ExitStatus run(const Request& request) {
   return all.findings == 0 ? example::success : example::failure;
 }
 
+template <typename Family>
+example::ExitStatus run_in(const Request& request) {
+  return request.in_double ? run<ShapeRun<Family, double>>(request) : run<ShapeRun<Family, float>>(request);
+}
+
 example::Work describe(CLI::App& app) {
   const auto request = std::make_shared<Request>();
   app.add_option("--pairs", request->pairs, "How many")->required();
@@ -175,7 +183,14 @@ example::Work describe(CLI::App& app) {
   app.add_flag("--double", request->in_double, "In double instead of float");
   app.add_flag("--confirm", request->confirm,
                "Ask the rationals about every pair as well, and the integers about wrong answers");
-  return [request] { return request->in_double ? run<SphereRun<double>>(*request) : run<SphereRun<float>>(*request); };
+  app.add_option("--shape", request->shape, "What moves")
+      ->check(CLI::IsMember({"sphere", "box", "capsule"}))
+      ->capture_default_str();
+  return [request] {
+    if (request->shape == "box") return run_in<BoxFamily>(*request);
+    if (request->shape == "capsule") return run_in<CapsuleFamily>(*request);
+    return run_in<SphereFamily>(*request);
+  };
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "support/dyadic.hpp"
+#include "support/swept_truth.hpp"
 
 namespace surehit::test {
 namespace {
@@ -225,6 +226,24 @@ std::optional<std::string> find_error(const SweptBox<Scalar>& box, const Triangl
 }
 
 template <typename Scalar>
+SweptTruth truth_of(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle) {
+  const Pair pair = convert(box, triangle);
+  const std::optional<mpq_class> t = first_time(pair);
+  if (!t) return {};
+  const Weighted touched = touched_point(pair, *t).value();
+  const auto number = [](const mpq_class& x) { return OneRootNumber{x.get_num(), 0, 0, x.get_den()}; };
+  // (P - Q t)² = 0 at t = P/Q.
+  const mpz_class& p = t->get_num();
+  const mpz_class& q = t->get_den();
+  return {true,
+          *t == 0,
+          {q * q, -p * q, p * p},
+          number(touched.weights[1]),
+          number(touched.weights[2]),
+          feature_of(touched.weights)};
+}
+
+template <typename Scalar>
 bool comes_before(const SweptBox<Scalar>& box, const Triangle<Scalar>& x, const Triangle<Scalar>& y) {
   return first_time(convert(box, x)).value() < first_time(convert(box, y)).value();
 }
@@ -232,6 +251,7 @@ bool comes_before(const SweptBox<Scalar>& box, const Triangle<Scalar>& x, const 
 #define SUREHIT_INSTANTIATE(Scalar)                                                                \
   template std::optional<std::string> find_error(const SweptBox<Scalar>&, const Triangle<Scalar>&, \
                                                  const std::optional<ShapeHit<Scalar>>&);          \
+  template SweptTruth truth_of(const SweptBox<Scalar>&, const Triangle<Scalar>&);                  \
   template bool comes_before(const SweptBox<Scalar>&, const Triangle<Scalar>&, const Triangle<Scalar>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

@@ -5,6 +5,8 @@
 
 #include "support/one_root_number.hpp"
 #include "surehit/shape_hit.hpp"
+#include "surehit/swept_box.hpp"
+#include "surehit/swept_capsule.hpp"
 #include "surehit/swept_sphere.hpp"
 #include "surehit/triangle.hpp"
 
@@ -29,6 +31,15 @@ struct SweptTruth {
 /// latter.
 template <typename Scalar>
 [[nodiscard]] SweptTruth truth_of(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle);
+
+/// Returns what is true of a moving capsule. Its centre comes near to the triangle, moved along the core in both
+/// directions. This prism has two triangles and three parallelograms.
+template <typename Scalar>
+[[nodiscard]] SweptTruth truth_of(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle);
+
+/// Returns what is true of a moving box, by the rationals of `box_oracle`.
+template <typename Scalar>
+[[nodiscard]] SweptTruth truth_of(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle);
 
 /// Returns the hit that has to be reported. The shape must touch.
 template <typename Scalar>

@@ -5,11 +5,14 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleMesh.h>
 
 #include <cstdio>
+#include <memory>
 
 #include "swept_input.hpp"
 
@@ -30,6 +33,17 @@ class FirstTouch : public btCollisionWorld::ConvexResultCallback {
   bool touches = false;
 };
 
+/// Bullet's capsules are along an axis, so they have to be turned.
+std::unique_ptr<btConvexShape> shape_of(const swept::Input& input, btQuaternion& turn) {
+  const auto size = [&](std::size_t i) { return static_cast<btScalar>(input.size[i]); };
+  if (input.shape == "sphere") return std::make_unique<btSphereShape>(size(0));
+  const btVector3 first(size(0), size(1), size(2));
+  if (input.shape == "box") return std::make_unique<btBoxShape>(first);
+  if (first.isZero()) return std::make_unique<btSphereShape>(size(3));
+  turn = shortestArcQuat(btVector3(0, 1, 0), first.normalized());
+  return std::make_unique<btCapsuleShape>(size(3), 2 * first.length());
+}
+
 std::string ask(const swept::Input& input) {
   btTriangleMesh triangles;
   triangles.addTriangle(vector(input.corners[0]), vector(input.corners[1]), vector(input.corners[2]));
@@ -42,12 +56,11 @@ std::string ask(const swept::Input& input) {
   btCollisionWorld world(&dispatcher, &broadphase, &configuration);
   world.addCollisionObject(&object);
 
-  const btSphereShape ball(static_cast<btScalar>(input.size[0]));
-  const auto at = [](const std::array<double, 3>& place) {
-    return btTransform(btQuaternion::getIdentity(), vector(place));
-  };
+  btQuaternion turn = btQuaternion::getIdentity();
+  const std::unique_ptr<btConvexShape> shape = shape_of(input, turn);
+  const auto at = [&](const std::array<double, 3>& place) { return btTransform(turn, vector(place)); };
   FirstTouch touch;
-  world.convexSweepTest(&ball, at(input.start), at(input.end), touch);
+  world.convexSweepTest(shape.get(), at(input.start), at(input.end), touch);
   world.removeCollisionObject(&object);
   if (!touch.touches) return "miss";
   char text[64];

@@ -4,21 +4,18 @@
 #include <cstdio>
 #include <surehit/intersect.hpp>
 
+#include "shape_of_input.hpp"
 #include "swept_case.hpp"
 #include "swept_input.hpp"
 
 namespace {
 
+using surehit::test::shape_of;
+
 template <typename Scalar>
 std::string ask_in(const swept::Input& input) {
-  const auto vector = [](const std::array<double, 3>& x) {
-    return surehit::Vector3<Scalar>(static_cast<Scalar>(x[0]), static_cast<Scalar>(x[1]), static_cast<Scalar>(x[2]));
-  };
-  const surehit::Triangle<Scalar> triangle{vector(input.corners[0]), vector(input.corners[1]),
-                                           vector(input.corners[2])};
-  const auto hit = surehit::intersect(
-      surehit::SweptSphere<Scalar>{vector(input.start), vector(input.end), static_cast<Scalar>(input.size[0])},
-      triangle);
+  const surehit::Triangle<Scalar> triangle = surehit::test::triangle_of<Scalar>(input);
+  const auto hit = surehit::intersect(shape_of<Scalar>(input), triangle);
   if (!hit) return "miss";
   std::array<char, 128> text{};
   std::snprintf(text.data(), text.size(), "hit %a %s %a %a", double{hit->t},

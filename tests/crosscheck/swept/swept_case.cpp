@@ -26,6 +26,33 @@ void append(const ShapeHit<Scalar>& hit, std::string& line) {
   for (const Scalar x : {hit.t, hit.u, hit.v}) append(double{x}, line);
 }
 
+template <typename Scalar>
+const char* shape_name(const SweptSphere<Scalar>&) {
+  return "sphere";
+}
+template <typename Scalar>
+const char* shape_name(const SweptBox<Scalar>&) {
+  return "box";
+}
+template <typename Scalar>
+const char* shape_name(const SweptCapsule<Scalar>&) {
+  return "capsule";
+}
+
+template <typename Scalar>
+void append_size(const SweptSphere<Scalar>& sphere, std::string& line) {
+  append(double{sphere.radius}, line);
+}
+template <typename Scalar>
+void append_size(const SweptBox<Scalar>& box, std::string& line) {
+  append(box.half_extents, line);
+}
+template <typename Scalar>
+void append_size(const SweptCapsule<Scalar>& capsule, std::string& line) {
+  append(capsule.half_axis, line);
+  append(double{capsule.radius}, line);
+}
+
 std::string truth_text(const SweptTruth& truth) {
   if (!truth.touches) return "miss";
   std::string text = truth.starts_touching ? "start" : "hit";
@@ -42,24 +69,25 @@ std::string name_of(Feature feature) {
   return names[static_cast<std::size_t>(feature)];
 }
 
-template <typename Scalar>
-std::string draw_swept_case(SphereFamily family, Random& random) {
-  const auto [sphere, triangle] = draw_sphere_pair<Scalar>(family, random);
-  std::string line = "sphere ";
-  line += sizeof(Scalar) == 4 ? "float " : "double ";
+template <typename Scalar, typename Family>
+std::string draw_swept_case(Family family, Random& random) {
+  const auto [shape, triangle] = draw_shape_pair<Scalar>(family, random);
+  std::string line = shape_name(shape);
+  line += sizeof(Scalar) == 4 ? " float " : " double ";
   line += name_of(family);
   for (const auto* const corner : {&triangle.a, &triangle.b, &triangle.c}) append(*corner, line);
-  append(sphere.start, line);
-  append(sphere.end, line);
-  append(double{sphere.radius}, line);
-  return line + ' ' + truth_text(truth_of(sphere, triangle));
+  append(shape.start, line);
+  append(shape.end, line);
+  append_size(shape, line);
+  return line + ' ' + truth_text(truth_of(shape, triangle));
 }
 
-std::uint64_t seed_of(SphereFamily family, std::uint64_t seed) {
-  return Random(seed).bits() + static_cast<std::uint64_t>(family);
-}
-
-template std::string draw_swept_case<float>(SphereFamily, Random&);
-template std::string draw_swept_case<double>(SphereFamily, Random&);
+#define SUREHIT_INSTANTIATE(Family)                             \
+  template std::string draw_swept_case<float>(Family, Random&); \
+  template std::string draw_swept_case<double>(Family, Random&);
+SUREHIT_INSTANTIATE(SphereFamily)
+SUREHIT_INSTANTIATE(BoxFamily)
+SUREHIT_INSTANTIATE(CapsuleFamily)
+#undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit::test

@@ -6,8 +6,12 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "shape_of_input.hpp"
+#include "support/box_oracle.hpp"
+#include "support/capsule_oracle.hpp"
 #include "support/one_root_number.hpp"
 #include "support/program_run.hpp"
 #include "support/sphere_oracle.hpp"
@@ -55,12 +59,20 @@ std::optional<ShapeHit<Scalar>> answer_of(const std::string& truth) {
 
 template <typename Scalar>
 void check_with_long_floats(const swept::Input& input) {
-  const auto vector = [](const std::array<double, 3>& x) {
-    return Vector3<Scalar>(static_cast<Scalar>(x[0]), static_cast<Scalar>(x[1]), static_cast<Scalar>(x[2]));
+  const auto check = [&](const auto& shape) {
+    EXPECT_EQ(find_error(shape, triangle_of<Scalar>(input), answer_of<Scalar>(input.truth)), std::nullopt);
   };
-  const SweptSphere<Scalar> sphere{vector(input.start), vector(input.end), static_cast<Scalar>(input.size[0])};
-  const Triangle<Scalar> triangle{vector(input.corners[0]), vector(input.corners[1]), vector(input.corners[2])};
-  EXPECT_EQ(find_error(sphere, triangle, answer_of<Scalar>(input.truth)), std::nullopt);
+  std::visit(check, shape_of<Scalar>(input));
+}
+
+const std::vector<std::string> shapes = {"sphere", "box", "capsule"};
+
+std::vector<std::string> all_samples() {
+  std::vector<std::string> paths;
+  for (const std::string& shape : shapes) {
+    for (const char* scalar : {"_float.txt", "_double.txt"}) paths.push_back(samples + '/' + shape + scalar);
+  }
+  return paths;
 }
 
 TEST(SweptCases, of_the_samples_are_those_that_the_generator_writes) {
@@ -70,19 +82,21 @@ TEST(SweptCases, of_the_samples_are_those_that_the_generator_writes) {
     EXPECT_EQ(outcome.status, 0) << outcome.error;
     EXPECT_EQ(outcome.output, text_of(samples + sample));
   };
-  expect_written("--cases 20", "/sphere_float.txt");
-  expect_written("--cases 8 --double", "/sphere_double.txt");
+  for (const std::string& shape : shapes) {
+    expect_written("--cases 10 --shape " + shape, '/' + shape + "_float.txt");
+    expect_written("--cases 4 --double --shape " + shape, '/' + shape + "_double.txt");
+  }
 }
 
 TEST(SweptCases, have_truths_that_another_oracle_confirms) {
   std::set<std::string> families;
   std::size_t hits = 0;
-  for (const char* sample : {"/sphere_float.txt", "/sphere_double.txt"}) {
-    for (const std::string& line : lines_of(samples + sample)) {
+  for (const std::string& sample : all_samples()) {
+    for (const std::string& line : lines_of(sample)) {
       SCOPED_TRACE(line.substr(0, 300));
       swept::Input input;
       ASSERT_TRUE(swept::read(line, input));
-      families.insert(input.family);
+      families.insert(input.shape + ' ' + input.family);
       hits += input.truth.starts_with("hit");
       if (input.scalar == "float") {
         check_with_long_floats<float>(input);
@@ -91,8 +105,8 @@ TEST(SweptCases, have_truths_that_another_oracle_confirms) {
       }
     }
   }
-  EXPECT_EQ(families.size(), all_sphere_families.size());
-  EXPECT_GT(hits, 100U);
+  EXPECT_EQ(families.size(), all_sphere_families.size() + all_box_families.size() + all_capsule_families.size());
+  EXPECT_GT(hits, 150U);
 }
 
 TEST(SweptCases, are_refused_if_a_line_is_damaged) {
@@ -132,14 +146,17 @@ class SweptJudge : public testing::Test {
 };
 
 TEST_F(SweptJudge, finds_nothing_wrong_with_surehit) {
-  for (const char* arguments : {"--cases 500 --seed 2", "--cases 100 --seed 2 --double"}) {
-    generate(arguments);
-    const auto outcome = judge(SWEPT_SUREHIT_PROGRAM);
-    EXPECT_EQ(outcome.status, 0) << outcome.output << outcome.error;
-    const std::vector<std::string> all = sums(outcome.output);
-    ASSERT_EQ(all.size(), 8U) << outcome.output;
-    EXPECT_GT(std::stoi(all[2]), 400);
-    for (const std::size_t wrong : {3, 4, 5, 6}) EXPECT_EQ(all[wrong], "0") << outcome.output;
+  for (const std::string& arguments :
+       {std::string("--cases 200 --shape "), std::string("--cases 40 --double --shape ")}) {
+    for (const std::string& shape : shapes) {
+      generate("--seed 2 " + arguments + shape);
+      const auto outcome = judge(SWEPT_SUREHIT_PROGRAM);
+      EXPECT_EQ(outcome.status, 0) << outcome.output << outcome.error;
+      const std::vector<std::string> all = sums(outcome.output);
+      ASSERT_EQ(all.size(), 8U) << outcome.output;
+      EXPECT_GT(std::stoi(all[2]), 200);
+      for (const std::size_t wrong : {3, 4, 5, 6}) EXPECT_EQ(all[wrong], "0") << outcome.output;
+    }
   }
 }
 

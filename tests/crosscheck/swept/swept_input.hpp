@@ -13,18 +13,20 @@ namespace swept {
 
 /// A line of a file of cases, as README.md describes it.
 struct Input {
-  std::string shape;   ///< sphere
+  std::string shape;   ///< sphere, box or capsule
   std::string scalar;  ///< float or double
   std::string family;
   std::array<std::array<double, 3>, 3> corners;
   std::array<double, 3> start;
   std::array<double, 3> end;
-  std::vector<double> size;  ///< of a sphere, its radius
+  std::vector<double> size;  ///< the radius; three half extents; or the half axis and the radius
   std::string truth;         ///< the rest of the line, which no adapter looks at
 };
 
 /// How many numbers say the size of a shape, or 0 for a shape that is not known.
-inline std::size_t size_count(const std::string& shape) { return shape == "sphere" ? 1 : 0; }
+inline std::size_t size_count(const std::string& shape) {
+  return shape == "sphere" ? 1 : shape == "box" ? 3 : shape == "capsule" ? 4 : 0;
+}
 
 /// Reads a line. Returns false if it is no case.
 inline bool read(const std::string& line, Input& input) {
