@@ -3,6 +3,8 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
 #include <memory>
@@ -29,6 +31,13 @@ class FirstTouch : public btCollisionWorld::ConvexResultCallback {
   ShapeHitf hit;
 };
 
+std::unique_ptr<btConvexShape> shape_of(const SweepBatch& sweeps) {
+  const btScalar size = sweeps.size();
+  if (sweeps.kind() == ShapeKind::box) return std::make_unique<btBoxShape>(btVector3(size, size, size));
+  if (sweeps.kind() == ShapeKind::capsule) return std::make_unique<btCapsuleShapeZ>(size, 2 * size);
+  return std::make_unique<btSphereShape>(size);
+}
+
 /// A world that has one mesh, which does not move.
 class BulletSweep : public SweepContender {
  public:
@@ -42,12 +51,12 @@ class BulletSweep : public SweepContender {
   }
 
   void first(const SweepBatch& sweeps, std::span<ShapeHitf> hits) override {
-    const btSphereShape ball(sweeps.size());
+    const std::unique_ptr<btConvexShape> shape = shape_of(sweeps);
     const auto at = [](const Vector3f& place) { return btTransform(btQuaternion::getIdentity(), to_bullet(place)); };
     for (std::size_t i = 0; i < hits.size(); ++i) {
       const Segmentf& path = sweeps.paths().segments()[i];
       FirstTouch touch;
-      world_.convexSweepTest(&ball, at(path.start), at(path.end), touch);
+      world_.convexSweepTest(shape.get(), at(path.start), at(path.end), touch);
       hits[i] = touch.hit;
     }
   }

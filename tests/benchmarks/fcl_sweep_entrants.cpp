@@ -1,4 +1,6 @@
 #include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/continuous_collision.h>
 
@@ -11,6 +13,13 @@ namespace {
 
 /// Decides a sweep in a microsecond to a millisecond.
 constexpr std::size_t max_sweeps = 2000;
+
+std::unique_ptr<fcl::CollisionGeometryd> shape_of(const SweepBatch& sweeps) {
+  const double size = sweeps.size();
+  if (sweeps.kind() == ShapeKind::box) return std::make_unique<fcl::Boxd>(2 * size, 2 * size, 2 * size);
+  if (sweeps.kind() == ShapeKind::capsule) return std::make_unique<fcl::Capsuled>(size, 2 * size);
+  return std::make_unique<fcl::Sphered>(size);
+}
 
 class FclSweep : public SweepContender {
  public:
@@ -28,7 +37,7 @@ class FclSweep : public SweepContender {
   }
 
   void first(const SweepBatch& sweeps, std::span<ShapeHitf> hits) override {
-    const fcl::Sphered ball(double{sweeps.size()});
+    const std::unique_ptr<fcl::CollisionGeometryd> shape = shape_of(sweeps);
     const fcl::Transform3d rest = fcl::Transform3d::Identity();
     const auto at = [&](const Vector3f& place) {
       fcl::Transform3d transform = rest;
@@ -40,7 +49,8 @@ class FclSweep : public SweepContender {
     for (std::size_t i = 0; i < hits.size(); ++i) {
       const Segmentf& path = sweeps.paths().segments()[i];
       fcl::ContinuousCollisionResultd result;
-      fcl::continuousCollide<double>(model_.get(), rest, rest, &ball, at(path.start), at(path.end), request, result);
+      fcl::continuousCollide<double>(model_.get(), rest, rest, shape.get(), at(path.start), at(path.end), request,
+                                     result);
       hits[i] = {};
       if (!result.is_collide) continue;
       hits[i].t = static_cast<float>(result.time_of_contact);

@@ -44,6 +44,7 @@ struct Words {
   std::vector<std::string> sets;
   std::vector<std::string> worlds;
   std::vector<std::string> contenders;
+  std::vector<std::string> shapes;
   std::string folder;
   std::vector<std::string> z_up;
   std::string instruction_set = all_instruction_sets().front().name;
@@ -84,6 +85,9 @@ void describe(CLI::App& app, Words& words, Request& request) {
              names_of(all_path_sets, [](PathSet set) { return name_of(set); }))
       ->type_name("NAME");
   add_choice(app, "--scene", words.worlds, "Only these scenes of table scene", world_names())->type_name("NAME");
+  add_choice(app, "--shape", words.shapes, "Only these moving shapes of table shapes",
+             names_of(all_shape_kinds, [](ShapeKind kind) { return name_of(kind); }))
+      ->type_name("NAME");
   app.add_option("--contender", words.contenders, "Besides surehit only contenders whose name has one of these in it")
       ->type_name("TEXT");
   add_choice(app, "--instruction-set", words.instruction_set, "What surehit runs on; the others choose by themselves",
@@ -143,6 +147,9 @@ void choose(const Words& words, Request& request) {
   }
   for (const std::string& name : world_names()) {
     if (is_among(name, words.worlds)) request.worlds.push_back(name);
+  }
+  for (const ShapeKind kind : all_shape_kinds) {
+    if (is_among(name_of(kind), words.shapes)) request.shapes.push_back(kind);
   }
   const auto copy_chosen = [&](const auto& all, auto& chosen) {
     std::copy_if(all.begin(), all.end(), std::back_inserter(chosen), [&](const auto& entrant) {

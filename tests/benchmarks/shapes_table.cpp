@@ -74,7 +74,7 @@ class SweepContest {
  public:
   SweepContest(const Scene& scene, const std::vector<SweepEntrant>& entrants, const Request& request)
       : scene_(scene), entrants_(entrants), request_(request) {
-    for (const ShapeKind kind : all_shape_kinds) {
+    for (const ShapeKind kind : request.shapes) {
       for (const SweepSet set : general_sweep_sets) add_samples(kind, set, false);
       for (const SweepSet set : close_sweep_sets) add_samples(kind, set, true);
     }

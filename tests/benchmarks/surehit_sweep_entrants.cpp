@@ -28,7 +28,7 @@ class SegmentBatch : public SurehitSweep {
 class ShapeBatch : public SurehitSweep {
  public:
   void first(const SweepBatch& sweeps, std::span<ShapeHitf> hits) override {
-    collider_.first_hits(sweeps.spheres().first(hits.size()), hits);
+    collider_.first_hits(sweeps.shapes(hits.size()), hits);
   }
 };
 
@@ -36,7 +36,7 @@ class SingleShapes : public SurehitSweep {
  public:
   void first(const SweepBatch& sweeps, std::span<ShapeHitf> hits) override {
     for (std::size_t i = 0; i < hits.size(); ++i) {
-      hits[i] = collider_.first_hit(sweeps.spheres()[i]).value_or(ShapeHitf{});
+      hits[i] = collider_.first_hit(sweeps.shape(i)).value_or(ShapeHitf{});
     }
   }
 };

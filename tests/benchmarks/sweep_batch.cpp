@@ -57,7 +57,10 @@ PathBatch draw_all_resting(const Scene& scene, float size, std::size_t count, st
 
 }  // namespace
 
-std::string name_of(ShapeKind) { return "sphere"; }
+std::string name_of(ShapeKind kind) {
+  constexpr std::array names = {"sphere", "box", "capsule"};
+  return names[static_cast<std::size_t>(kind)];
+}
 
 PathSet path_set_of(SweepSet set) {
   switch (set) {
@@ -86,7 +89,23 @@ std::string name_of(SweepSet set) { return set == SweepSet::resting_sweeps ? "re
 
 SweepBatch::SweepBatch(ShapeKind kind, float size, PathBatch paths)
     : kind_(kind), size_(size), paths_(std::move(paths)) {
-  for (const Segmentf& path : paths_.segments()) spheres_.push_back({path.start, path.end, size});
+  for (const auto& [start, end] : paths_.segments()) {
+    if (kind == ShapeKind::sphere) spheres_.push_back({start, end, size});
+    if (kind == ShapeKind::box) boxes_.push_back({start, end, {size, size, size}});
+    if (kind == ShapeKind::capsule) capsules_.push_back({start, end, {0, 0, size}, size});
+  }
+}
+
+SweptShapeSpanf SweepBatch::shapes(std::size_t count) const {
+  if (kind_ == ShapeKind::box) return std::span(boxes_).first(count);
+  if (kind_ == ShapeKind::capsule) return std::span(capsules_).first(count);
+  return std::span(spheres_).first(count);
+}
+
+SweptShapef SweepBatch::shape(std::size_t index) const {
+  if (kind_ == ShapeKind::box) return boxes_[index];
+  if (kind_ == ShapeKind::capsule) return capsules_[index];
+  return spheres_[index];
 }
 
 PathBatch draw_sweeps(SweepSet set, const Scene& scene, float size, std::size_t count, std::uint64_t seed) {

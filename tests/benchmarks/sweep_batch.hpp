@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <surehit/swept_sphere.hpp>
+#include <surehit/swept_shape.hpp>
 #include <vector>
 
 #include "path_batch.hpp"
@@ -14,9 +14,9 @@
 namespace surehit::benchmark {
 
 /// What moves along a path.
-enum class ShapeKind : std::uint8_t { sphere };
+enum class ShapeKind : std::uint8_t { sphere, box, capsule };
 
-inline constexpr std::array all_shape_kinds = {ShapeKind::sphere};
+inline constexpr std::array all_shape_kinds = {ShapeKind::sphere, ShapeKind::box, ShapeKind::capsule};
 
 [[nodiscard]] std::string name_of(ShapeKind kind);
 
@@ -47,19 +47,25 @@ inline constexpr std::array close_sweep_sets = {SweepSet::edge_sweeps, SweepSet:
 /// Shapes of one kind and size, each on a path of its own, in the layouts that contenders take.
 class SweepBatch {
  public:
-  /// The size is the radius of a ball.
+  /// The size is the radius of a ball, each half extent of a box, and the radius of a capsule and its half axis, which
+  /// is along z.
   SweepBatch(ShapeKind kind, float size, PathBatch paths);
 
   [[nodiscard]] ShapeKind kind() const { return kind_; }
   [[nodiscard]] float size() const { return size_; }
   [[nodiscard]] const PathBatch& paths() const { return paths_; }
-  [[nodiscard]] std::span<const SweptSpheref> spheres() const { return spheres_; }
+  /// Returns the first ones.
+  [[nodiscard]] SweptShapeSpanf shapes(std::size_t count) const;
+  /// Returns one of them.
+  [[nodiscard]] SweptShapef shape(std::size_t index) const;
 
  private:
   ShapeKind kind_;
   float size_;
   PathBatch paths_;
   std::vector<SweptSpheref> spheres_;
+  std::vector<SweptBoxf> boxes_;
+  std::vector<SweptCapsulef> capsules_;
 };
 
 /// In random order, the same every time for the same seed. `count` is rounded up to whole octets.
