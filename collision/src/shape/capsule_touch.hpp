@@ -17,7 +17,7 @@ namespace surehit::detail {
 ///
 /// Two parts, one of the triangle and one of the core, have an equation: its root is the t at which they come within
 /// the radius (C5). If they are the nearest parts then, they touch. Usually no other parts can be as near, and the
-/// contact is found. Otherwise `comes_before(x, y)` says whether the root of contact x is before that of y.
+/// first contact is found (C6). Otherwise `comes_before(x, y)` says whether the root of contact x is before that of y.
 template <typename Terms>
 class CapsuleTouch {
  public:
@@ -28,38 +28,38 @@ class CapsuleTouch {
   /// if `guide` knows better.
   template <typename ComesBefore, typename Guide>
   [[nodiscard]] std::optional<CapsuleContact> find(const ComesBefore& comes_before, Guide& guide) {
+    // If a root is the first contact, then they do not touch at the start.
     std::optional<CapsuleContact> first;
-    const auto take_nearest = [&](const CapsuleContact& contact) {
+    const auto take_first = [&](const CapsuleContact& parts) {
       begin();
-      if (!guide.may_be_nearest(contact) || !is_nearest_at_start(contact)) return false;
-      first = contact;
-      return true;
+      if (!guide.may_enter(parts) || !enters(parts)) return false;
+      is_final_ = is_strict_ && signs_.is_certain();
+      if (is_final_ || !first || !comes_before(*first, parts)) first = parts;
+      return is_final_;
     };
-    if (!for_each_part(true, take_nearest)) {
-      end();
-      return std::nullopt;
-    }
-    // If no sign is zero, no other parts are as near. So the signs that were asked before do not matter.
-    if (is_strict_ && signs_.is_certain()) is_certain_ = true;
-    begin();
-    if (reaches(*first)) {
-      first->at_start = true;
-      end();
+    if (for_each_part(false, take_first)) {
+      is_certain_ = true;
       return first;
     }
     end();
-    const bool has_certain_start = is_certain_;
-    first.reset();
-    const auto take_first = [&](const CapsuleContact& contact) {
+    const bool is_certain_later = is_certain_;
+    is_certain_ = true;
+    std::optional<CapsuleContact> nearest;
+    const auto take_nearest = [&](const CapsuleContact& parts) {
       begin();
-      if (!guide.may_enter(contact) || !enters(contact)) return false;
-      is_final_ = is_strict_ && signs_.is_certain();
-      if (is_final_ || !first || comes_before(contact, *first)) first = contact;
-      return is_final_;
+      if (!guide.may_be_nearest(parts) || !is_nearest_at_start(parts)) return false;
+      nearest = parts;
+      return is_strict_ && signs_.is_certain();
     };
-    for_each_part(false, take_first);
+    if (for_each_part(true, take_nearest)) is_certain_ = true;
+    begin();
+    if (nearest && reaches(*nearest)) {
+      first = nearest;
+      first->at_start = is_final_ = true;
+    } else {
+      is_certain_ &= is_certain_later;
+    }
     end();
-    if (is_final_) is_certain_ = has_certain_start;
     return first;
   }
 
@@ -76,7 +76,7 @@ class CapsuleTouch {
 
   /// Returns true if all signs that the answer needs were certain.
   [[nodiscard]] bool is_certain() const { return is_certain_; }
-  /// Returns true if the contact was found without an order of roots.
+  /// Returns true if the contact did not need an order of roots.
   [[nodiscard]] bool is_final() const { return is_final_; }
 
  private:
@@ -129,8 +129,8 @@ class CapsuleTouch {
     return time.sign_of(signs_, dot(x, w), dot(x, terms_.step));
   }
 
-  /// Calls `take` with all parts that can be nearest (C2), until it returns true. Corners come before edges, and edges
-  /// before the face. Returns what `take` has returned last.
+  /// Calls `take` with all parts that can be nearest (C2), until it returns true. The face comes before edges, and
+  /// edges before corners. Returns what `take` has returned last.
   template <typename Take>
   bool for_each_part(bool with_crossing, const Take& take) {
     constexpr std::array parts = {CorePart::inside, CorePart::low_end, CorePart::high_end};
@@ -142,13 +142,14 @@ class CapsuleTouch {
       }
       return false;
     };
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      if (outline_.corners[corner] && take_all(corner_feature(corner), tilt_.is_point)) return true;
-    }
+    if (outline_.has_face && take_all(Feature::face, tilt_.of_plane == 0)) return true;
     for (std::size_t edge = 0; edge < 3; ++edge) {
       if (outline_.edges[edge] && take_all(edge_feature(edge), tilt_.is_along[edge])) return true;
     }
-    return outline_.has_face && take_all(Feature::face, tilt_.of_plane == 0);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (outline_.corners[corner] && take_all(corner_feature(corner), tilt_.is_point)) return true;
+    }
+    return false;
   }
 
   /// Returns true if a way out of an edge's inside leaves the triangle, if it has the direction -s A (C4).
@@ -297,7 +298,9 @@ class CapsuleTouch {
     return enters_face(parts.core);
   }
   [[nodiscard]] SUREHIT_NOINLINE bool enters_corner(std::size_t corner, CorePart core) {
-    const auto time = approach_.to_point(from_corner(corner, core), to_end(corner, core), signs_);
+    const auto w = from_corner(corner, core);
+    if (signs_.of(dot(w, w) - terms_.radius * terms_.radius) <= 0) return false;
+    const auto time = approach_.to_point(w, to_end(corner, core), signs_);
     return time && is_nearest_corner(corner, core, *time);
   }
   [[nodiscard]] SUREHIT_NOINLINE bool enters_post(std::size_t corner) {
@@ -325,7 +328,7 @@ class CapsuleTouch {
   Approach<typename decltype(Terms::step)::value_type, decltype(Terms::radius)> approach_;
   Signs signs_;             ///< The signs that were asked about the parts in question.
   bool is_certain_ = true;  ///< True if all signs before these were certain, as far as they count.
-  bool is_final_ = false;   ///< True if no sign about the parts of the first contact is zero.
+  bool is_final_ = false;   ///< True if the contact does not depend on an order of roots.
   bool is_strict_ = true;   ///< True if no sign about the parts in question is zero.
 };
 
