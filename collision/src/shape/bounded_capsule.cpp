@@ -1,7 +1,7 @@
 #include "shape/bounded_capsule.hpp"
 
 #include <algorithm>
-#include <type_traits>
+#include <optional>
 
 #include "shape/bounded_approach.hpp"
 #include "shape/capsule_touch.hpp"
@@ -101,25 +101,41 @@ SUREHIT_NOINLINE bool try_round_weights(const SweptCapsule<Scalar>& capsule, con
                                   : try_round_weights_of_face(terms, contact, hit);
 }
 
+/// Returns how the core lies to the parts of a triangle. Sizes never know that it is parallel to a wall. Exact products
+/// of floats do, and integers always do.
+template <typename Scalar>
+CoreTilt known_tilt(const TermsOf<Bounded>& terms, const SweptCapsule<Scalar>& capsule,
+                    const Triangle<Scalar>& triangle) {
+  Signs signs;
+  CoreTilt tilt = tilt_of(terms, signs);
+  if (!signs.is_certain()) tilt = exact_tilt(capsule, triangle);
+  return tilt;
+}
+template <typename Scalar>
+CoreTilt known_tilt(const TermsOf<Sized>& terms, const SweptCapsule<Scalar>& capsule,
+                    const Triangle<Scalar>& triangle) {
+  Signs signs;
+  const CoreTilt tilt = tilt_of(terms, signs);
+  if (signs.is_certain()) return tilt;
+  TermsOf<Bounded> bounded;
+  set_terms(bounded, capsule, triangle);
+  return known_tilt(bounded, capsule, triangle);
+}
+
 template <typename Number, typename Scalar>
 SUREHIT_NOINLINE Verdict find_contact(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
-                                      CapsuleContact& found) {
+                                      std::optional<CoreTilt>& tilt, CapsuleContact& found) {
   TermsOf<Number> terms;
   set_terms(terms, capsule, triangle);
   if (!has_usual_sizes(terms)) return Verdict::undecided;
   bool has_face = false;
   for (const Number& x : normal_of(terms)) has_face |= x.sign().value_or(0) != 0;
   if (!has_face) return Verdict::undecided;
-  Signs signs;
-  CoreTilt tilt = tilt_of(terms, signs);
-  if (!signs.is_certain()) {
-    if (std::is_same_v<Number, Sized>) return Verdict::undecided;
-    tilt = exact_tilt(capsule, triangle);
-  }
+  if (!tilt) tilt = known_tilt(terms, capsule, triangle);
   constexpr Outline outline;
   bool is_alone = true;
   const auto comes_before = [&](const CapsuleContact&, const CapsuleContact&) { return is_alone = false; };
-  CapsuleTouch touch(terms, outline, tilt);
+  CapsuleTouch touch(terms, outline, *tilt);
   NoGuide guide;
   const std::optional<CapsuleContact> contact = touch.find(comes_before, guide);
   if (!touch.is_certain() || !(is_alone || touch.is_final())) return Verdict::undecided;
@@ -137,8 +153,9 @@ SUREHIT_NOINLINE Verdict find_contact(const SweptCapsule<Scalar>& capsule, const
 
 template <typename Scalar>
 Verdict bounded_contact(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, CapsuleContact& found) {
-  const Verdict verdict = find_contact<Sized>(capsule, triangle, found);
-  return verdict != Verdict::undecided ? verdict : find_contact<Bounded>(capsule, triangle, found);
+  std::optional<CoreTilt> tilt;
+  const Verdict verdict = find_contact<Sized>(capsule, triangle, tilt, found);
+  return verdict != Verdict::undecided ? verdict : find_contact<Bounded>(capsule, triangle, tilt, found);
 }
 
 template <typename Scalar>
