@@ -206,6 +206,10 @@ TYPED_TEST(CapsuleIntersect, TakesATriangleWithoutAreaForASegment) {
   EXPECT_EQ(along->u, Scalar(0.375));
   EXPECT_EQ(intersect(lying<Scalar>(-1, 0), segment)->feature, Feature::corner_a);
   EXPECT_EQ(intersect(lying<Scalar>(9, 0), segment)->feature, Feature::corner_b);
+  // It lies beyond both ends.
+  EXPECT_EQ(intersect(SweptCapsule<Scalar>{{9, 0, 4}, {9, 0, -2}, {20, 0, 0}, 1}, segment)->feature, Feature::corner_b);
+  EXPECT_EQ(intersect(SweptCapsule<Scalar>{{-1, 0, 4}, {-1, 0, -2}, {20, 0, 0}, 1}, segment)->feature,
+            Feature::corner_a);
   const SweptCapsule<Scalar> across{{3, 1, 4}, {3, 1, -2}, {0, 2, 0}, 1};
   EXPECT_EQ(intersect(across, segment)->feature, Feature::edge_ab);
   EXPECT_EQ(intersect(across, segment)->u, Scalar(0.375));
