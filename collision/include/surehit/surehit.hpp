@@ -17,6 +17,8 @@
 #include "surehit/query_options.hpp"
 #include "surehit/query_statistics.hpp"
 #include "surehit/scene.hpp"
+#include "surehit/scene_shape_hit.hpp"
+#include "surehit/scene_shape_options.hpp"
 #include "surehit/shape_hit.hpp"
 #include "surehit/shape_options.hpp"
 #include "surehit/swept_box.hpp"

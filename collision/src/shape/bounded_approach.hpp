@@ -16,21 +16,15 @@ namespace surehit::detail {
 // What the decisions of moving balls and capsules in double have in common. `Number` is `Sized` or `Bounded`.
 
 /// Sets the terms of a ball, or those of the ball in the middle of a capsule.
-template <typename Number, typename Shape, typename Scalar>
-void set_terms(SphereTerms<Number, Number>& terms, const Shape& shape, const Triangle<Scalar>& triangle) {
-  const auto& [a, b, c] = triangle;
-  const auto of = [](const auto& x, const auto& y) { return difference<Number>(x, y); };
-  terms.from_corner = {of(shape.start, a), of(shape.start, b), of(shape.start, c)};
-  terms.to_end = {of(shape.end, a), of(shape.end, b), of(shape.end, c)};
-  terms.edge = {of(b, a), of(c, b), of(a, c)};
-  terms.step = of(shape.end, shape.start);
+template <typename Number, typename Shape, typename AnyTriangle>
+void set_terms(SphereTerms<Number, Number>& terms, const Shape& shape, const AnyTriangle& triangle) {
+  set_differences<Number>(terms, shape, triangle);
   set_exact(terms.radius, double{shape.radius});
 }
 
 /// Sets the terms of a capsule.
-template <typename Number, typename Scalar>
-void set_terms(CapsuleTerms<Number, Number>& terms, const SweptCapsule<Scalar>& capsule,
-               const Triangle<Scalar>& triangle) {
+template <typename Number, typename Scalar, typename AnyTriangle>
+void set_terms(CapsuleTerms<Number, Number>& terms, const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle) {
   set_terms(static_cast<SphereTerms<Number, Number>&>(terms), capsule, triangle);
   for (std::size_t i = 0; i < 3; ++i) {
     set_exact(terms.half_axis[i], double{capsule.half_axis[static_cast<Eigen::Index>(i)]});

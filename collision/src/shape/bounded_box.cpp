@@ -32,25 +32,35 @@ void set_certain_zeros(Vector<Sized>& normal, const Triangle<Scalar>& triangle) 
     if (certain_sign(ab[j] * bc[k] - ab[k] * bc[j]) == 0) normal[i] = {};
   }
 }
-template <typename Scalar>
-void set_certain_zeros(Vector<Bounded>&, const Triangle<Scalar>&) {}
+template <typename AnyTriangle>
+void set_certain_zeros(Vector<Bounded>&, const AnyTriangle&) {}
 
+/// Sets the extreme corners. Returns false if they are not certain.
 template <typename Number, typename Scalar>
-TermsOf<Number> terms_of(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle) {
-  const auto& [a, b, c] = triangle;
-  const auto of = [](const auto& x, const auto& y) { return difference<Number>(x, y); };
-  Vector<Number> half_extents;
-  for (std::size_t i = 0; i < 3; ++i)
-    set_exact(half_extents[i], double{box.half_extents[static_cast<Eigen::Index>(i)]});
-  TermsOf<Number> terms{{{of(box.start, a), of(box.start, b), of(box.start, c)},
-                         {of(b, a), of(c, b), of(a, c)},
-                         of(box.end, box.start),
-                         half_extents,
-                         AxisExtremes(triangle)},
-                        {}};
+bool set_extremes(TermsOf<Number>& terms, const Triangle<Scalar>& triangle) {
+  terms.extremes = AxisExtremes(triangle);
+  return true;
+}
+template <typename Number, typename Scalar>
+bool set_extremes(TermsOf<Number>& terms, const PlacedTriangle<Scalar>&) {
+  Signs signs;
+  terms.extremes = AxisExtremes::from_edges([&](std::size_t k, std::size_t i) { return signs.of(terms.edge[k][i]); });
+  for (const Vector<Number>& edge : terms.edge) {
+    for (const Number& x : edge) static_cast<void>(signs.of(x));
+  }
+  return signs.is_certain();
+}
+
+/// Sets the terms of a box and a triangle. Returns false if the extreme corners are not certain.
+template <typename Number, typename Scalar, typename AnyTriangle>
+bool set_terms(TermsOf<Number>& terms, const SweptBox<Scalar>& box, const AnyTriangle& triangle) {
+  set_differences<Number>(terms, box, triangle);
+  for (std::size_t i = 0; i < 3; ++i) {
+    set_exact(terms.half_extents[i], double{box.half_extents[static_cast<Eigen::Index>(i)]});
+  }
   terms.normal = normal_of(terms);
   set_certain_zeros(terms.normal, triangle);
-  return terms;
+  return set_extremes(terms, triangle);
 }
 
 /// Returns whether the premise of Z2 holds.
@@ -165,11 +175,10 @@ class Passage {
   std::array<double, axis_count> enters_at_ = {0};  ///< The centre has entered between the sides of each axis by then.
 };
 
-template <typename Number, typename Scalar>
-SUREHIT_NOINLINE Verdict find_contact(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle,
-                                      BoxContact& found) {
-  const TermsOf<Number> terms = terms_of<Number>(box, triangle);
-  if (!has_usual_sizes(terms)) return Verdict::undecided;
+template <typename Number, typename Scalar, typename AnyTriangle>
+SUREHIT_NOINLINE Verdict find_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle, BoxContact& found) {
+  TermsOf<Number> terms;
+  if (!set_terms(terms, box, triangle) || !has_usual_sizes(terms)) return Verdict::undecided;
   Passage passage;
   double slack = 0;
   const auto take = [&](std::size_t axis, bool is_above, const Number& gap, const Number& approach) {
@@ -343,33 +352,44 @@ class BoundedPoint {
   Signs signs_;
 };
 
-template <typename Number, typename Scalar>
-SUREHIT_NOINLINE bool try_round_point(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle,
+template <typename Number, typename Scalar, typename AnyTriangle>
+SUREHIT_NOINLINE bool try_round_point(const SweptBox<Scalar>& box, const AnyTriangle& triangle,
                                       const BoxContact& contact, ShapeHit<Scalar>& hit) {
-  const TermsOf<Number> terms = terms_of<Number>(box, triangle);
-  return has_usual_sizes(terms) && BoundedPoint<Number>(terms, contact).try_round(hit);
+  TermsOf<Number> terms;
+  return set_terms(terms, box, triangle) && has_usual_sizes(terms) &&
+         BoundedPoint<Number>(terms, contact).try_round(hit);
 }
 
 }  // namespace
 
-template <typename Scalar>
-Verdict bounded_contact(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, BoxContact& found) {
-  const Verdict verdict = find_contact<Sized>(box, triangle, found);
-  return verdict != Verdict::undecided ? verdict : find_contact<Bounded>(box, triangle, found);
+template <typename Scalar, typename AnyTriangle>
+Verdict bounded_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle, BoxContact& found) {
+  if constexpr (has_short_sums<AnyTriangle>) {
+    const Verdict verdict = find_contact<Sized>(box, triangle, found);
+    if (verdict != Verdict::undecided) return verdict;
+  }
+  return find_contact<Bounded>(box, triangle, found);
 }
 
-template <typename Scalar>
-bool try_round(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const BoxContact& contact,
+template <typename Scalar, typename AnyTriangle>
+bool try_round(const SweptBox<Scalar>& box, const AnyTriangle& triangle, const BoxContact& contact,
                ShapeHit<Scalar>& hit) {
   if (!contact.at_start && contact.timed_by == axis_count) return false;
   hit.t = static_cast<Scalar>(contact.t_lower);
   if (hit.t != static_cast<Scalar>(contact.t_upper)) return false;
-  return try_round_point<Sized>(box, triangle, contact, hit) || try_round_point<Bounded>(box, triangle, contact, hit);
+  if constexpr (has_short_sums<AnyTriangle>) {
+    if (try_round_point<Sized>(box, triangle, contact, hit)) return true;
+  }
+  return try_round_point<Bounded>(box, triangle, contact, hit);
 }
 
-template Verdict bounded_contact(const SweptBox<float>&, const Triangle<float>&, BoxContact&);
-template Verdict bounded_contact(const SweptBox<double>&, const Triangle<double>&, BoxContact&);
-template bool try_round(const SweptBox<float>&, const Triangle<float>&, const BoxContact&, ShapeHit<float>&);
-template bool try_round(const SweptBox<double>&, const Triangle<double>&, const BoxContact&, ShapeHit<double>&);
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                              \
+  template Verdict bounded_contact(const SweptBox<Scalar>&, const AnyTriangle&, BoxContact&); \
+  template bool try_round(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, ShapeHit<Scalar>&);
+SUREHIT_INSTANTIATE(float, Triangle<float>)
+SUREHIT_INSTANTIATE(double, Triangle<double>)
+SUREHIT_INSTANTIATE(float, PlacedTriangle<float>)
+SUREHIT_INSTANTIATE(double, PlacedTriangle<double>)
+#undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit::detail

@@ -10,12 +10,12 @@ namespace surehit::detail {
 
 /// Decides a moving box and a triangle in double, first with the sizes of all numbers, then with running error bounds.
 /// If it is a hit, sets `found`. The input must be finite, and half extents must not be negative.
-template <typename Scalar>
-[[nodiscard]] Verdict bounded_contact(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, BoxContact& found);
+template <typename Scalar, typename AnyTriangle>
+[[nodiscard]] Verdict bounded_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle, BoxContact& found);
 
 /// Rounds t, u and v of a contact, and sets the feature. Returns false if its bounds do not decide all of them.
-template <typename Scalar>
-[[nodiscard]] bool try_round(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const BoxContact& contact,
+template <typename Scalar, typename AnyTriangle>
+[[nodiscard]] bool try_round(const SweptBox<Scalar>& box, const AnyTriangle& triangle, const BoxContact& contact,
                              ShapeHit<Scalar>& hit);
 
 }  // namespace surehit::detail

@@ -91,8 +91,8 @@ bool try_round_weights_of_edge(const TermsOf<Number>& terms, const CapsuleContac
 }
 
 /// Rounds the weights of a contact that is not at a corner.
-template <typename Number, typename Scalar>
-SUREHIT_NOINLINE bool try_round_weights(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
+template <typename Number, typename Scalar, typename AnyTriangle>
+SUREHIT_NOINLINE bool try_round_weights(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle,
                                         const CapsuleContact& contact, ShapeHit<Scalar>& hit) {
   TermsOf<Number> terms;
   set_terms(terms, capsule, triangle);
@@ -103,17 +103,15 @@ SUREHIT_NOINLINE bool try_round_weights(const SweptCapsule<Scalar>& capsule, con
 
 /// Returns how the core lies to the parts of a triangle. Sizes never know that it is parallel to a wall. Exact products
 /// of floats do, and integers always do.
-template <typename Scalar>
-CoreTilt known_tilt(const TermsOf<Bounded>& terms, const SweptCapsule<Scalar>& capsule,
-                    const Triangle<Scalar>& triangle) {
+template <typename Scalar, typename AnyTriangle>
+CoreTilt known_tilt(const TermsOf<Bounded>& terms, const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle) {
   Signs signs;
   CoreTilt tilt = tilt_of(terms, signs);
   if (!signs.is_certain()) tilt = exact_tilt(capsule, triangle);
   return tilt;
 }
-template <typename Scalar>
-CoreTilt known_tilt(const TermsOf<Sized>& terms, const SweptCapsule<Scalar>& capsule,
-                    const Triangle<Scalar>& triangle) {
+template <typename Scalar, typename AnyTriangle>
+CoreTilt known_tilt(const TermsOf<Sized>& terms, const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle) {
   Signs signs;
   const CoreTilt tilt = tilt_of(terms, signs);
   if (signs.is_certain()) return tilt;
@@ -122,8 +120,8 @@ CoreTilt known_tilt(const TermsOf<Sized>& terms, const SweptCapsule<Scalar>& cap
   return known_tilt(bounded, capsule, triangle);
 }
 
-template <typename Number, typename Scalar>
-SUREHIT_NOINLINE Verdict find_contact(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
+template <typename Number, typename Scalar, typename AnyTriangle>
+SUREHIT_NOINLINE Verdict find_contact(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle,
                                       std::optional<CoreTilt>& tilt, CapsuleContact& found) {
   TermsOf<Number> terms;
   set_terms(terms, capsule, triangle);
@@ -151,28 +149,37 @@ SUREHIT_NOINLINE Verdict find_contact(const SweptCapsule<Scalar>& capsule, const
 
 }  // namespace
 
-template <typename Scalar>
-Verdict bounded_contact(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, CapsuleContact& found) {
+template <typename Scalar, typename AnyTriangle>
+Verdict bounded_contact(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle, CapsuleContact& found) {
   std::optional<CoreTilt> tilt;
-  const Verdict verdict = find_contact<Sized>(capsule, triangle, tilt, found);
-  return verdict != Verdict::undecided ? verdict : find_contact<Bounded>(capsule, triangle, tilt, found);
+  if constexpr (has_short_sums<AnyTriangle>) {
+    const Verdict verdict = find_contact<Sized>(capsule, triangle, tilt, found);
+    if (verdict != Verdict::undecided) return verdict;
+  }
+  return find_contact<Bounded>(capsule, triangle, tilt, found);
 }
 
-template <typename Scalar>
-bool try_round(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const CapsuleContact& contact,
+template <typename Scalar, typename AnyTriangle>
+bool try_round(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle, const CapsuleContact& contact,
                ShapeHit<Scalar>& hit) {
   hit.t = static_cast<Scalar>(contact.t_lower);
   if (hit.t != static_cast<Scalar>(contact.t_upper)) return false;
   hit.u = contact.feature == Feature::corner_b ? Scalar{1} : Scalar{0};
   hit.v = contact.feature == Feature::corner_c ? Scalar{1} : Scalar{0};
   if (is_corner(contact.feature)) return true;
-  return try_round_weights<Sized>(capsule, triangle, contact, hit) ||
-         try_round_weights<Bounded>(capsule, triangle, contact, hit);
+  if constexpr (has_short_sums<AnyTriangle>) {
+    if (try_round_weights<Sized>(capsule, triangle, contact, hit)) return true;
+  }
+  return try_round_weights<Bounded>(capsule, triangle, contact, hit);
 }
 
-template Verdict bounded_contact(const SweptCapsule<float>&, const Triangle<float>&, CapsuleContact&);
-template Verdict bounded_contact(const SweptCapsule<double>&, const Triangle<double>&, CapsuleContact&);
-template bool try_round(const SweptCapsule<float>&, const Triangle<float>&, const CapsuleContact&, ShapeHit<float>&);
-template bool try_round(const SweptCapsule<double>&, const Triangle<double>&, const CapsuleContact&, ShapeHit<double>&);
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                      \
+  template Verdict bounded_contact(const SweptCapsule<Scalar>&, const AnyTriangle&, CapsuleContact&); \
+  template bool try_round(const SweptCapsule<Scalar>&, const AnyTriangle&, const CapsuleContact&, ShapeHit<Scalar>&);
+SUREHIT_INSTANTIATE(float, Triangle<float>)
+SUREHIT_INSTANTIATE(double, Triangle<double>)
+SUREHIT_INSTANTIATE(float, PlacedTriangle<float>)
+SUREHIT_INSTANTIATE(double, PlacedTriangle<double>)
+#undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit::detail

@@ -13,8 +13,8 @@ namespace {
 template <typename Number>
 using SphereTermsOf = SphereTerms<Number, Number>;
 
-template <typename Number, typename Scalar>
-SphereTermsOf<Number> terms_of(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
+template <typename Number, typename Scalar, typename AnyTriangle>
+SphereTermsOf<Number> terms_of(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle) {
   SphereTermsOf<Number> terms;
   set_terms(terms, sphere, triangle);
   return terms;
@@ -40,8 +40,8 @@ DoubleRange time_of(const SphereTermsOf<Number>& terms, Feature part) {
 }
 
 /// Rounds the weights of a contact that is not at a corner.
-template <typename Number, typename Scalar>
-SUREHIT_NOINLINE bool try_round_weights(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+template <typename Number, typename Scalar, typename AnyTriangle>
+SUREHIT_NOINLINE bool try_round_weights(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
                                         const SphereContact& contact, ShapeHit<Scalar>& hit) {
   const SphereTermsOf<Number> terms = terms_of<Number>(sphere, triangle);
   if (!has_usual_sizes(terms)) return false;
@@ -69,8 +69,8 @@ SUREHIT_NOINLINE bool try_round_weights(const SweptSphere<Scalar>& sphere, const
   return try_toward_start(hit.v);
 }
 
-template <typename Number, typename Scalar>
-SUREHIT_NOINLINE Verdict find_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+template <typename Number, typename Scalar, typename AnyTriangle>
+SUREHIT_NOINLINE Verdict find_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
                                       SphereContact& found) {
   const SphereTermsOf<Number> terms = terms_of<Number>(sphere, triangle);
   if (!has_usual_sizes(terms)) return Verdict::undecided;
@@ -95,27 +95,34 @@ SUREHIT_NOINLINE Verdict find_contact(const SweptSphere<Scalar>& sphere, const T
 
 }  // namespace
 
-template <typename Scalar>
-Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, SphereContact& found) {
-  const Verdict verdict = find_contact<Sized>(sphere, triangle, found);
-  return verdict != Verdict::undecided ? verdict : find_contact<Bounded>(sphere, triangle, found);
+template <typename Scalar, typename AnyTriangle>
+Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, SphereContact& found) {
+  if (has_usual_images(triangle)) {
+    const Verdict verdict = find_contact<Sized>(sphere, triangle, found);
+    if (verdict != Verdict::undecided) return verdict;
+  }
+  return find_contact<Bounded>(sphere, triangle, found);
 }
 
-template <typename Scalar>
-bool try_round(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, const SphereContact& contact,
+template <typename Scalar, typename AnyTriangle>
+bool try_round(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, const SphereContact& contact,
                ShapeHit<Scalar>& hit) {
   hit.t = static_cast<Scalar>(contact.t_lower);
   if (hit.t != static_cast<Scalar>(contact.t_upper)) return false;
   hit.u = contact.feature == Feature::corner_b ? Scalar{1} : Scalar{0};
   hit.v = contact.feature == Feature::corner_c ? Scalar{1} : Scalar{0};
   if (is_corner(contact.feature)) return true;
-  return try_round_weights<Sized>(sphere, triangle, contact, hit) ||
+  return (has_usual_images(triangle) && try_round_weights<Sized>(sphere, triangle, contact, hit)) ||
          try_round_weights<Bounded>(sphere, triangle, contact, hit);
 }
 
-template Verdict bounded_contact(const SweptSphere<float>&, const Triangle<float>&, SphereContact&);
-template Verdict bounded_contact(const SweptSphere<double>&, const Triangle<double>&, SphereContact&);
-template bool try_round(const SweptSphere<float>&, const Triangle<float>&, const SphereContact&, ShapeHit<float>&);
-template bool try_round(const SweptSphere<double>&, const Triangle<double>&, const SphereContact&, ShapeHit<double>&);
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                    \
+  template Verdict bounded_contact(const SweptSphere<Scalar>&, const AnyTriangle&, SphereContact&); \
+  template bool try_round(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, ShapeHit<Scalar>&);
+SUREHIT_INSTANTIATE(float, Triangle<float>)
+SUREHIT_INSTANTIATE(double, Triangle<double>)
+SUREHIT_INSTANTIATE(float, PlacedTriangle<float>)
+SUREHIT_INSTANTIATE(double, PlacedTriangle<double>)
+#undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit::detail

@@ -9,14 +9,14 @@ namespace surehit::detail {
 
 /// Decides a moving ball and a triangle in double, first with the sizes of all numbers, then with running error bounds.
 /// If it is a hit, sets `found`. The input must be finite, and the radius must not be negative. Triangles without a
-/// certain area are undecided.
-template <typename Scalar>
-[[nodiscard]] Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+/// certain area are undecided. `AnyTriangle` is `Triangle` or `PlacedTriangle`, here and below.
+template <typename Scalar, typename AnyTriangle>
+[[nodiscard]] Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
                                       SphereContact& found);
 
 /// Rounds t, u and v of a contact. Returns false if its bounds do not decide all of them.
-template <typename Scalar>
-[[nodiscard]] bool try_round(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+template <typename Scalar, typename AnyTriangle>
+[[nodiscard]] bool try_round(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
                              const SphereContact& contact, ShapeHit<Scalar>& hit);
 
 }  // namespace surehit::detail

@@ -1,14 +1,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "exact/scaled_double.hpp"
 #include "filter/bounded.hpp"
 #include "filter/sized.hpp"
+#include "scene/placement.hpp"
 #include "shape/sphere_terms.hpp"
 #include "surehit/path.hpp"
+#include "surehit/triangle.hpp"
 
 namespace surehit::detail {
 
@@ -29,6 +33,89 @@ template <typename Number, typename Scalar>
     set_difference(out[i], double{x[axis]}, double{y[axis]});
   }
   return out;
+}
+
+/// Sets the differences of a shape's terms.
+template <typename Number, typename Terms, typename Shape, typename Scalar>
+void set_differences(Terms& terms, const Shape& shape, const Triangle<Scalar>& triangle) {
+  const auto& [a, b, c] = triangle;
+  const auto of = [](const auto& x, const auto& y) { return difference<Number>(x, y); };
+  terms.from_corner = {of(shape.start, a), of(shape.start, b), of(shape.start, c)};
+  if constexpr (requires { terms.to_end; }) terms.to_end = {of(shape.end, a), of(shape.end, b), of(shape.end, c)};
+  terms.edge = {of(b, a), of(c, b), of(a, c)};
+  terms.step = of(shape.end, shape.start);
+}
+
+/// Returns the image of a vector of the mesh.
+template <typename Number, typename Scalar>
+[[nodiscard]] Vector<Number> image_of(const Pose<Scalar>& pose, const Vector<Number>& x) {
+  Vector<Number> image;
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto entry = [&](Eigen::Index column) {
+      Number number;
+      set_exact(number, double{pose.linear(static_cast<Eigen::Index>(row), column)});
+      return number;
+    };
+    image[row] = entry(0) * x[0] + entry(1) * x[1] + entry(2) * x[2];
+  }
+  return image;
+}
+
+/// Does the same for a placed triangle. The shape is seen from the instance, so its end is less by the motion.
+///
+/// Z3. A term of a difference has at most four roundings here: those of a product, of two sums, and of a difference. So
+///     no sum of SphereTouch has a term with more than 98 roundings, which Z1 allows. What values lose by underflow is
+///     far less than that.
+/// Proof. Let each difference have c of them. The longest sum is the square of a (outward·w) - b (outward·D). Each of
+///     these factors has 4 c + 7, so the sum has 2 (8 c + 16) + 2. By Z2, no size of a product is below 2^-960, so what
+///     a value loses by underflow is less than 2^-100 of its size.
+template <typename Number, typename Terms, typename Shape, typename Scalar>
+void set_differences(Terms& terms, const Shape& shape, const PlacedTriangle<Scalar>& triangle) {
+  const auto& [pose, motion_given, moves] = triangle.placement;
+  const auto& [a, b, c] = triangle.local;
+  const auto of = [](const auto& x, const auto& y) { return difference<Number>(x, y); };
+  const auto less = [](const Vector<Number>& x, const Vector<Number>& y) {
+    return Vector<Number>{x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+  };
+  const Vector3<Scalar> zero = Vector3<Scalar>::Zero();
+  const std::array<Vector<Number>, 3> corners = {image_of(pose, of(a, zero)), image_of(pose, of(b, zero)),
+                                                 image_of(pose, of(c, zero))};
+  const Vector<Number> start = of(shape.start, pose.translation);
+  Vector<Number> end = of(shape.end, pose.translation);
+  terms.step = of(shape.end, shape.start);
+  if (moves) {
+    const Vector<Number> motion = of(motion_given, zero);
+    end = less(end, motion);
+    terms.step = less(terms.step, motion);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    terms.from_corner[k] = less(start, corners[k]);
+    if constexpr (requires { terms.to_end; }) terms.to_end[k] = less(end, corners[k]);
+  }
+  terms.edge = {image_of(pose, of(b, a)), image_of(pose, of(c, b)), image_of(pose, of(a, c))};
+}
+
+/// True if the sums of boxes and capsules are short enough for Z1. Those of placed triangles have more roundings, and
+/// only running bounds hold for them.
+template <typename AnyTriangle>
+inline constexpr bool has_short_sums = true;
+template <typename Scalar>
+inline constexpr bool has_short_sums<PlacedTriangle<Scalar>> = false;
+
+/// Returns true if no product of a pose and a coordinate can underflow. Entries of a pose are at least 2^-64.
+template <typename Scalar>
+[[nodiscard]] bool has_usual_images(const Triangle<Scalar>&) {
+  return true;
+}
+template <typename Scalar>
+[[nodiscard]] bool has_usual_images(const PlacedTriangle<Scalar>& triangle) {
+  if constexpr (std::is_same_v<Scalar, float>) return true;
+  const auto& [a, b, c] = triangle.local;
+  bool is_usual = true;
+  for (const Vector3<Scalar>* corner : {&a, &b, &c}) {
+    for (const Scalar x : *corner) is_usual &= x == 0 || std::fabs(double{x}) >= 0x1p-500;
+  }
+  return is_usual;
 }
 
 [[nodiscard]] inline double error_of(const Bounded& x) { return x.radius; }

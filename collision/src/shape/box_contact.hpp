@@ -40,6 +40,10 @@ template <typename Scalar>
 /// Returns a box, and its way.
 template <typename Scalar>
 [[nodiscard]] SweptExtents swept_extents(const SweptBox<Scalar>& box);
+/// The t of the other axes follows from where a triangle begins or ends in the scene, or from its plane.
+[[nodiscard]] constexpr bool is_timed_by_shared_part(const BoxContact& contact) {
+  return contact.timed_by > normal_axis && contact.timed_by < axis_count;
+}
 /// Returns true if the same t follows for two triangles from the corners and edges that they share. Neighbours often
 /// share an edge, and the triangles of a flat floor share their height.
 template <typename Scalar>

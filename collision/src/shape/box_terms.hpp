@@ -12,6 +12,7 @@ namespace surehit::detail {
 
 /// The corners of a triangle that come first and last on each axis of coordinates.
 struct AxisExtremes {
+  AxisExtremes() = default;
   template <typename Scalar>
   explicit AxisExtremes(const Triangle<Scalar>& triangle) {
     const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
@@ -22,6 +23,19 @@ struct AxisExtremes {
         if ((*corners[k])[axis] > (*corners[highest[i]])[axis]) highest[i] = k;
       }
     }
+  }
+
+  /// Returns the same from the signs of the edges: `sign(k, i)` is that of edge k on axis i.
+  template <typename Sign>
+  [[nodiscard]] static AxisExtremes from_edges(const Sign& sign) {
+    AxisExtremes extremes;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (sign(0, i) < 0) extremes.lowest[i] = 1;
+      if (sign(0, i) > 0) extremes.highest[i] = 1;
+      if (extremes.lowest[i] == 0 ? sign(2, i) > 0 : sign(1, i) < 0) extremes.lowest[i] = 2;
+      if (extremes.highest[i] == 0 ? sign(2, i) < 0 : sign(1, i) > 0) extremes.highest[i] = 2;
+    }
+    return extremes;
   }
 
   std::array<std::size_t, 3> lowest = {0, 0, 0};   ///< The first of the lowest corners on each axis.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "exact/exact_scale.hpp"
+#include "shape/exact_differences.hpp"
 #include "shape/outline.hpp"
 #include "shape/shape_contact.hpp"
 #include "shape/touched_point.hpp"
@@ -16,10 +16,9 @@ namespace surehit::detail {
 namespace {
 
 /// The numbers of bits of the exact terms. A sum of k terms adds k - 1 to the bits of its terms.
-template <typename Scalar>
+template <typename AnyTriangle>
 struct BoxBits {
-  static constexpr int coordinate = AnySize<Scalar>::coordinate;
-  static constexpr int difference = coordinate + 1;
+  static constexpr int difference = DifferenceBits<AnyTriangle>::value;
   static constexpr int cross = 2 * difference + 1;
   static constexpr int volume = cross + difference + 2;  ///< Of n·w, of D·n and of the reach of a box.
   static constexpr int time = volume + 1;                ///< Of both parts of a t.
@@ -27,9 +26,9 @@ struct BoxBits {
 };
 
 /// The integers that `TouchedPoint` computes with.
-template <typename Scalar>
+template <typename AnyTriangle>
 struct ExactNumbers {
-  using Bits = BoxBits<Scalar>;
+  using Bits = BoxBits<AnyTriangle>;
   static constexpr int square = 2 * Bits::difference + 2;
   static constexpr int slope = Bits::cross + Bits::difference + 2;
   using Difference = WideInt<Bits::difference>;
@@ -46,42 +45,38 @@ struct ExactNumbers {
 };
 
 /// The centre is outside of one side of K at t if gap - t approach > 0 (B1).
-template <typename Scalar>
+template <typename AnyTriangle>
 struct Side {
-  WideInt<BoxBits<Scalar>::time> gap;
-  WideInt<BoxBits<Scalar>::volume> approach;
+  WideInt<BoxBits<AnyTriangle>::time> gap;
+  WideInt<BoxBits<AnyTriangle>::volume> approach;
   std::size_t axis;
   bool is_above;
 };
 
-template <typename Scalar>
+/// A box and a triangle in integers. `AnyTriangle` is `Triangle` or `PlacedTriangle`.
+template <typename Scalar, typename AnyTriangle>
 class ExactBox {
-  using Bits = BoxBits<Scalar>;
+  using Bits = BoxBits<AnyTriangle>;
   using Int = WideInt<Bits::time>;
 
  public:
   using Time = Ratio<Int>;
 
-  ExactBox(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle)
-      : terms_{{}, {}, {}, {}, AxisExtremes(triangle)}, extremes_(triangle) {
-    const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
+  ExactBox(const SweptBox<Scalar>& box, const AnyTriangle& triangle) : extremes_(local_corners(triangle)) {
     BinaryUnit unit;
-    unit.include(box.start);
-    unit.include(box.end);
+    include(unit, box, triangle);
     unit.include(box.half_extents);
-    unit.include(triangle);
     if (unit.is_empty()) unit.exponent = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      set_difference(terms_.from_corner[k], box.start, *corners[k], unit);
-      set_difference(terms_.edge[k], *corners[next(k)], *corners[k], unit);
-      set_integer(terms_.half_extents[k], box.half_extents[static_cast<Eigen::Index>(k)], unit);
+    set_differences(terms_, box, triangle, unit);
+    for (std::size_t i = 0; i < 3; ++i) {
+      set_integer(terms_.half_extents[i], box.half_extents[static_cast<Eigen::Index>(i)], unit);
     }
-    set_difference(terms_.step, box.end, box.start, unit);
+    terms_.extremes = AxisExtremes::from_edges([&](std::size_t k, std::size_t i) { return terms_.edge[k][i].sign(); });
     normal_ = cross(terms_.edge[0], terms_.edge[1]);
   }
 
   [[nodiscard]] std::optional<BoxContact> find() const {
-    std::array<Side<Scalar>, 2 * axis_count> sides;
+    std::array<Side<AnyTriangle>, 2 * axis_count> sides;
     std::size_t count = 0;
     const auto add = [&](std::size_t axis, bool is_above, const auto& gap, const auto& approach) {
       sides[count].gap = gap;
@@ -92,9 +87,9 @@ class ExactBox {
     take_all(add);
     BoxContact contact;
     // The side that is passed last, if the centre begins outside of any (B4).
-    const Side<Scalar>* last = nullptr;
+    const Side<AnyTriangle>* last = nullptr;
     for (std::size_t i = 0; i < count; ++i) {
-      const Side<Scalar>& side = sides[i];
+      const Side<AnyTriangle>& side = sides[i];
       if (side.gap.sign() <= 0) continue;
       // The centre must pass this side, and not after the end.
       if (side.approach.sign() <= 0 || side.gap.compare_magnitude(side.approach) > 0) return std::nullopt;
@@ -181,7 +176,7 @@ class ExactBox {
   }
 
  private:
-  using Numbers = ExactNumbers<Scalar>;
+  using Numbers = ExactNumbers<AnyTriangle>;
   using Point = typename TouchedPoint<Numbers>::Point;
   using Difference = typename Numbers::Difference;
   using Moved = typename Numbers::Moved;
@@ -263,59 +258,63 @@ class ExactBox {
     hit.v = weights[2];
   }
 
-  BoxTerms<Difference, WideInt<Bits::coordinate>> terms_;
+  BoxTerms<Difference, WideInt<Bits::difference>> terms_;
   IntVector<WideInt<Bits::cross>> normal_;
+  /// Of a placed triangle, those in the mesh. The images have the same order or the opposite one, and the same
+  /// extremes.
   ExtremeCorners extremes_;
 };
 
 }  // namespace
 
-template <typename Scalar>
-std::optional<BoxContact> exact_contact(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle) {
-  return ExactBox<Scalar>(box, triangle).find();
+template <typename Scalar, typename AnyTriangle>
+std::optional<BoxContact> exact_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle) {
+  return ExactBox<Scalar, AnyTriangle>(box, triangle).find();
 }
 
-template <typename Scalar>
-int compare_times(const SweptBox<Scalar>& box, const Triangle<Scalar>& x_triangle, const BoxContact& x,
-                  const Triangle<Scalar>& y_triangle, const BoxContact& y) {
+template <typename Scalar, typename AnyTriangle>
+int compare_times(const SweptBox<Scalar>& box, const AnyTriangle& x_triangle, const BoxContact& x,
+                  const AnyTriangle& y_triangle, const BoxContact& y) {
   if (x.at_start || y.at_start) return static_cast<int>(y.at_start) - static_cast<int>(x.at_start);
-  const auto x_time = ExactBox<Scalar>(box, x_triangle).time(x);
-  return compare(x_time, ExactBox<Scalar>(box, y_triangle).time(y));
+  const auto x_time = ExactBox<Scalar, AnyTriangle>(box, x_triangle).time(x);
+  return compare(x_time, ExactBox<Scalar, AnyTriangle>(box, y_triangle).time(y));
 }
 
-template <typename Scalar>
-int compare_time(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const BoxContact& contact,
-                 Scalar limit) {
+template <typename Scalar, typename AnyTriangle>
+int compare_time(const SweptBox<Scalar>& box, const AnyTriangle& triangle, const BoxContact& contact, Scalar limit) {
   if (contact.at_start) return limit > 0 ? -1 : 0;
-  return Limit<Scalar>(limit, 0).compare(ExactBox<Scalar>(box, triangle).time(contact));
+  return Limit<Scalar>(limit, 0).compare(ExactBox<Scalar, AnyTriangle>(box, triangle).time(contact));
 }
 
-template <typename Scalar>
-int sign_along(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle) {
-  return ExactBox<Scalar>(box, triangle).sign_along();
+template <typename Scalar, typename AnyTriangle>
+int sign_along(const SweptBox<Scalar>& box, const AnyTriangle& triangle) {
+  return ExactBox<Scalar, AnyTriangle>(box, triangle).sign_along();
 }
 
-template <typename Scalar>
-void round_exactly(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const BoxContact& contact,
+template <typename Scalar, typename AnyTriangle>
+void round_exactly(const SweptBox<Scalar>& box, const AnyTriangle& triangle, const BoxContact& contact,
                    ShapeHit<Scalar>& hit) {
-  ExactBox<Scalar>(box, triangle).round(contact, hit);
+  ExactBox<Scalar, AnyTriangle>(box, triangle).round(contact, hit);
 }
 
-template <typename Scalar>
-Direction exact_direction(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const BoxContact& contact) {
-  return ExactBox<Scalar>(box, triangle).direction(contact);
+template <typename Scalar, typename AnyTriangle>
+Direction exact_direction(const SweptBox<Scalar>& box, const AnyTriangle& triangle, const BoxContact& contact) {
+  return ExactBox<Scalar, AnyTriangle>(box, triangle).direction(contact);
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                                    \
-  template std::optional<BoxContact> exact_contact(const SweptBox<Scalar>&, const Triangle<Scalar>&);                  \
-  template int compare_times(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&,                      \
-                             const Triangle<Scalar>&, const BoxContact&);                                              \
-  template int compare_time(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&, Scalar);              \
-  template int sign_along(const SweptBox<Scalar>&, const Triangle<Scalar>&);                                           \
-  template void round_exactly(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&, ShapeHit<Scalar>&); \
-  template Direction exact_direction(const SweptBox<Scalar>&, const Triangle<Scalar>&, const BoxContact&);
-SUREHIT_INSTANTIATE(float)
-SUREHIT_INSTANTIATE(double)
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                                 \
+  template std::optional<BoxContact> exact_contact(const SweptBox<Scalar>&, const AnyTriangle&);                 \
+  template int compare_times(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, const AnyTriangle&, \
+                             const BoxContact&);                                                                 \
+  template int compare_time(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, Scalar);             \
+  template int sign_along(const SweptBox<Scalar>&, const AnyTriangle&);                                          \
+  template void round_exactly(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, ShapeHit<Scalar>&);
+SUREHIT_INSTANTIATE(float, Triangle<float>)
+SUREHIT_INSTANTIATE(double, Triangle<double>)
+SUREHIT_INSTANTIATE(float, PlacedTriangle<float>)
+SUREHIT_INSTANTIATE(double, PlacedTriangle<double>)
+template Direction exact_direction(const SweptBox<float>&, const Triangle<float>&, const BoxContact&);
+template Direction exact_direction(const SweptBox<double>&, const Triangle<double>&, const BoxContact&);
 #undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit::detail

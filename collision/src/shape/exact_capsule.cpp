@@ -4,10 +4,10 @@
 #include <array>
 #include <cstddef>
 
-#include "exact/exact_scale.hpp"
 #include "shape/bounded_approach.hpp"
 #include "shape/capsule_touch.hpp"
 #include "shape/exact_approach.hpp"
+#include "shape/exact_differences.hpp"
 #include "shape/exact_sphere.hpp"
 #include "shape/outline.hpp"
 #include "support/rounding_flags.hpp"
@@ -16,50 +16,34 @@ namespace surehit::detail {
 namespace {
 
 /// The numbers of bits of the exact terms. A sum of k terms adds k - 1 to the bits of its terms.
-template <typename Scalar>
+template <typename AnyTriangle>
 struct CapsuleBits {
-  static constexpr int coordinate = AnySize<Scalar>::coordinate;
-  static constexpr int difference = coordinate + 2;     ///< Of an end of the core less a corner.
+  static constexpr int difference = DifferenceBits<AnyTriangle>::value + 1;  ///< Of an end of the core less a corner.
   static constexpr int quadratic = 6 * difference + 8;  ///< Of (n·w)² - r² n·n, the longest coefficient.
   static constexpr int volume = 4 * difference + 5;     ///< Of n·(w × e) and of e·e.
 };
 
-template <typename Scalar>
-using IntTerms = CapsuleTerms<WideInt<CapsuleBits<Scalar>::coordinate + 1>, WideInt<CapsuleBits<Scalar>::coordinate>>;
-template <typename Scalar>
-using Root = QuadraticRoot<CapsuleBits<Scalar>::quadratic>;
+template <typename AnyTriangle>
+using IntTerms = CapsuleTerms<WideInt<DifferenceBits<AnyTriangle>::value>, WideInt<DifferenceBits<AnyTriangle>::value>>;
+template <typename AnyTriangle>
+using Root = QuadraticRoot<CapsuleBits<AnyTriangle>::quadratic>;
 
-/// A capsule and a triangle in integers. `unit` is their unit, or that of a larger set of numbers.
-template <typename Scalar>
+/// A capsule and a triangle in integers. `AnyTriangle` is `Triangle` or `PlacedTriangle`.
+template <typename Scalar, typename AnyTriangle>
 class ExactCapsule {
  public:
-  ExactCapsule(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const BinaryUnit& unit)
+  ExactCapsule(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle)
       : capsule_(capsule), triangle_(triangle) {
-    const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
-    for (std::size_t k = 0; k < 3; ++k) {
-      set_difference(terms_.from_corner[k], capsule.start, *corners[k], unit);
-      set_difference(terms_.to_end[k], capsule.end, *corners[k], unit);
-      set_difference(terms_.edge[k], *corners[k == 2 ? 0 : k + 1], *corners[k], unit);
-    }
-    set_difference(terms_.step, capsule.end, capsule.start, unit);
+    BinaryUnit unit;
+    include(unit, capsule, triangle);
+    unit.include(capsule.half_axis);
+    unit.include<Scalar>({capsule.radius, 0, 0});
+    if (unit.is_empty()) unit.exponent = 0;
+    set_differences(terms_, capsule, triangle, unit);
     const Vector3<Scalar> zero = {0, 0, 0};
     set_difference(terms_.half_axis, capsule.half_axis, zero, unit);
     set_integer(terms_.radius, capsule.radius, unit);
-    if (is_zero(normal_of(terms_))) outline_ = outline_without_area(triangle);
-  }
-  ExactCapsule(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle)
-      : ExactCapsule(capsule, triangle, unit_of(capsule, triangle)) {}
-
-  template <typename... Triangles>
-  static BinaryUnit unit_of(const SweptCapsule<Scalar>& capsule, const Triangles&... triangles) {
-    BinaryUnit unit;
-    unit.include(capsule.start);
-    unit.include(capsule.end);
-    unit.include(capsule.half_axis);
-    unit.include<Scalar>({capsule.radius, 0, 0});
-    (unit.include(triangles), ...);
-    if (unit.is_empty()) unit.exponent = 0;
-    return unit;
+    if (is_zero(normal_of(terms_))) outline_ = outline_without_area(local_corners(triangle));
   }
 
   [[nodiscard]] SUREHIT_NOINLINE CoreTilt tilt() const {
@@ -80,7 +64,7 @@ class ExactCapsule {
   }
 
   /// Returns the equation of the t at which two parts come within the radius (C5).
-  [[nodiscard]] SUREHIT_NOINLINE Root<Scalar> root(const CapsuleContact& contact) const {
+  [[nodiscard]] SUREHIT_NOINLINE Root<AnyTriangle> root(const CapsuleContact& contact) const {
     const auto rr = terms_.radius * terms_.radius;
     const auto& d = terms_.step;
     constexpr int bits = Bits::quadratic;
@@ -128,13 +112,13 @@ class ExactCapsule {
     hit.u = contact.feature == Feature::corner_b ? Scalar{1} : Scalar{0};
     hit.v = contact.feature == Feature::corner_c ? Scalar{1} : Scalar{0};
     if (contact.at_start) return round_weights(contact, nullptr, hit);
-    const Root<Scalar> t = root(contact);
+    const Root<AnyTriangle> t = root(contact);
     hit.t = t.template rounded<Scalar>();
     round_weights(contact, &t, hit);
   }
 
  private:
-  using Bits = CapsuleBits<Scalar>;
+  using Bits = CapsuleBits<AnyTriangle>;
   using Volume = WideInt<Bits::volume>;
 
   [[nodiscard]] auto from_corner(std::size_t corner, CorePart core) const {
@@ -150,7 +134,7 @@ class ExactCapsule {
   }
 
   /// Sets the weights of b and c at the touched point, unless it is a corner (C7).
-  void round_weights(const CapsuleContact& contact, const Root<Scalar>* t, ShapeHit<Scalar>& hit) const {
+  void round_weights(const CapsuleContact& contact, const Root<AnyTriangle>* t, ShapeHit<Scalar>& hit) const {
     if (is_edge(contact.feature)) return round_weights_of_edge(contact, t, hit);
     if (contact.feature != Feature::face) return;
     const auto n = normal_of(terms_);
@@ -169,7 +153,7 @@ class ExactCapsule {
     hit.u = weight(terms_.edge[2]);
     hit.v = weight(terms_.edge[0]);
   }
-  SUREHIT_NOINLINE void round_weights_of_edge(const CapsuleContact& contact, const Root<Scalar>* t,
+  SUREHIT_NOINLINE void round_weights_of_edge(const CapsuleContact& contact, const Root<AnyTriangle>* t,
                                               ShapeHit<Scalar>& hit) const {
     const std::size_t edge = index_of(contact.feature);
     const auto& e = terms_.edge[edge];
@@ -203,72 +187,75 @@ class ExactCapsule {
   }
 
   const SweptCapsule<Scalar>& capsule_;
-  const Triangle<Scalar>& triangle_;
-  IntTerms<Scalar> terms_;
+  const AnyTriangle& triangle_;
+  IntTerms<AnyTriangle> terms_;
   Outline outline_;
 };
 
 }  // namespace
 
-template <typename Scalar>
-std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
-  return ExactCapsule<Scalar>(capsule, triangle).find();
+template <typename Scalar, typename AnyTriangle>
+std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle) {
+  return ExactCapsule<Scalar, AnyTriangle>(capsule, triangle).find();
 }
 
-template <typename Scalar>
-CoreTilt exact_tilt(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
-  return ExactCapsule<Scalar>(capsule, triangle).tilt();
+template <typename Scalar, typename AnyTriangle>
+CoreTilt exact_tilt(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle) {
+  return ExactCapsule<Scalar, AnyTriangle>(capsule, triangle).tilt();
 }
 
-template <typename Scalar>
-int compare_times(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& x_triangle, const CapsuleContact& x,
-                  const Triangle<Scalar>& y_triangle, const CapsuleContact& y) {
+template <typename Scalar, typename AnyTriangle>
+int compare_times(const SweptCapsule<Scalar>& capsule, const AnyTriangle& x_triangle, const CapsuleContact& x,
+                  const AnyTriangle& y_triangle, const CapsuleContact& y) {
   if (x.at_start || y.at_start) return static_cast<int>(y.at_start) - static_cast<int>(x.at_start);
-  const BinaryUnit unit = ExactCapsule<Scalar>::unit_of(capsule, x_triangle, y_triangle);
-  const Root<Scalar> x_root = ExactCapsule<Scalar>(capsule, x_triangle, unit).root(x);
-  const Root<Scalar> y_root = ExactCapsule<Scalar>(capsule, y_triangle, unit).root(y);
+  // Each equation has a unit of its own. Its coefficients have one degree, so another unit has the same root.
+  const Root<AnyTriangle> x_root = ExactCapsule<Scalar, AnyTriangle>(capsule, x_triangle).root(x);
+  const Root<AnyTriangle> y_root = ExactCapsule<Scalar, AnyTriangle>(capsule, y_triangle).root(y);
   return RootOrder(x_root, y_root).sign();
 }
 
-template <typename Scalar>
-int compare_time(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const CapsuleContact& contact,
+template <typename Scalar, typename AnyTriangle>
+int compare_time(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle, const CapsuleContact& contact,
                  Scalar limit) {
   if (contact.at_start) return limit > 0 ? -1 : 0;
   if (!(limit > 0)) return 1;
   const Decomposed<Scalar> parts(limit);
-  const Root<Scalar> root = ExactCapsule<Scalar>(capsule, triangle).root(contact);
+  const Root<AnyTriangle> root = ExactCapsule<Scalar, AnyTriangle>(capsule, triangle).root(contact);
   return root.template compare<Scalar>({parts.significand, parts.exponent});
 }
 
-template <typename Scalar>
-int sign_along(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
+template <typename Scalar, typename AnyTriangle>
+int sign_along(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle) {
   return sign_along(SweptSphere<Scalar>{capsule.start, capsule.end, capsule.radius}, triangle);
 }
 
-template <typename Scalar>
-void round_exactly(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle, const CapsuleContact& contact,
+template <typename Scalar, typename AnyTriangle>
+void round_exactly(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle, const CapsuleContact& contact,
                    ShapeHit<Scalar>& hit) {
-  ExactCapsule<Scalar>(capsule, triangle).round(contact, hit);
+  ExactCapsule<Scalar, AnyTriangle>(capsule, triangle).round(contact, hit);
 }
 
-template <typename Scalar>
-Direction exact_direction(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle,
+template <typename Scalar, typename AnyTriangle>
+Direction exact_direction(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle,
                           const CapsuleContact& contact) {
-  return ExactCapsule<Scalar>(capsule, triangle).direction(contact);
+  return ExactCapsule<Scalar, AnyTriangle>(capsule, triangle).direction(contact);
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                               \
-  template std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>&, const Triangle<Scalar>&);     \
-  template CoreTilt exact_tilt(const SweptCapsule<Scalar>&, const Triangle<Scalar>&);                             \
-  template int compare_times(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&,         \
-                             const Triangle<Scalar>&, const CapsuleContact&);                                     \
-  template int compare_time(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&, Scalar); \
-  template int sign_along(const SweptCapsule<Scalar>&, const Triangle<Scalar>&);                                  \
-  template void round_exactly(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&,        \
-                              ShapeHit<Scalar>&);                                                                 \
-  template Direction exact_direction(const SweptCapsule<Scalar>&, const Triangle<Scalar>&, const CapsuleContact&);
-SUREHIT_INSTANTIATE(float)
-SUREHIT_INSTANTIATE(double)
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                             \
+  template std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>&, const AnyTriangle&);     \
+  template CoreTilt exact_tilt(const SweptCapsule<Scalar>&, const AnyTriangle&);                             \
+  template int compare_times(const SweptCapsule<Scalar>&, const AnyTriangle&, const CapsuleContact&,         \
+                             const AnyTriangle&, const CapsuleContact&);                                     \
+  template int compare_time(const SweptCapsule<Scalar>&, const AnyTriangle&, const CapsuleContact&, Scalar); \
+  template int sign_along(const SweptCapsule<Scalar>&, const AnyTriangle&);                                  \
+  template void round_exactly(const SweptCapsule<Scalar>&, const AnyTriangle&, const CapsuleContact&,        \
+                              ShapeHit<Scalar>&);
+SUREHIT_INSTANTIATE(float, Triangle<float>)
+SUREHIT_INSTANTIATE(double, Triangle<double>)
+SUREHIT_INSTANTIATE(float, PlacedTriangle<float>)
+SUREHIT_INSTANTIATE(double, PlacedTriangle<double>)
 #undef SUREHIT_INSTANTIATE
+template Direction exact_direction(const SweptCapsule<float>&, const Triangle<float>&, const CapsuleContact&);
+template Direction exact_direction(const SweptCapsule<double>&, const Triangle<double>&, const CapsuleContact&);
 
 }  // namespace surehit::detail

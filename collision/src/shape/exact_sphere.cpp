@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 
-#include "exact/exact_scale.hpp"
 #include "shape/exact_approach.hpp"
+#include "shape/exact_differences.hpp"
 #include "shape/outline.hpp"
 #include "shape/sphere_touch.hpp"
 #include "support/inlining.hpp"
@@ -14,46 +14,31 @@ namespace surehit::detail {
 namespace {
 
 /// The numbers of bits of the exact terms. A sum of k terms adds k - 1 to the bits of its terms.
-template <typename Scalar>
+template <typename AnyTriangle>
 struct SphereBits {
-  static constexpr int coordinate = AnySize<Scalar>::coordinate;
-  static constexpr int difference = coordinate + 1;
+  static constexpr int difference = DifferenceBits<AnyTriangle>::value;
   static constexpr int quadratic = 6 * difference + 8;  ///< Of (n·w)² - r² n·n, the longest coefficient.
   static constexpr int volume = 4 * difference + 4;     ///< Of n·(w × e) and of e·e.
 };
 
-template <typename Scalar>
-using SphereIntTerms = SphereTerms<WideInt<SphereBits<Scalar>::difference>, WideInt<SphereBits<Scalar>::coordinate>>;
-template <typename Scalar>
-using SphereRoot = QuadraticRoot<SphereBits<Scalar>::quadratic>;
+template <typename AnyTriangle>
+using SphereIntTerms =
+    SphereTerms<WideInt<SphereBits<AnyTriangle>::difference>, WideInt<SphereBits<AnyTriangle>::difference>>;
+template <typename AnyTriangle>
+using SphereRoot = QuadraticRoot<SphereBits<AnyTriangle>::quadratic>;
 
-/// A ball and a triangle in integers. `unit` is their unit, or that of a larger set of numbers.
-template <typename Scalar>
+/// A ball and a triangle in integers. `AnyTriangle` is `Triangle` or `PlacedTriangle`.
+template <typename Scalar, typename AnyTriangle>
 class ExactSphere {
  public:
-  ExactSphere(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, const BinaryUnit& unit) {
-    const std::array<const Vector3<Scalar>*, 3> corners = {&triangle.a, &triangle.b, &triangle.c};
-    for (std::size_t k = 0; k < 3; ++k) {
-      set_difference(terms_.from_corner[k], sphere.start, *corners[k], unit);
-      set_difference(terms_.to_end[k], sphere.end, *corners[k], unit);
-      set_difference(terms_.edge[k], *corners[k == 2 ? 0 : k + 1], *corners[k], unit);
-    }
-    set_difference(terms_.step, sphere.end, sphere.start, unit);
-    set_integer(terms_.radius, sphere.radius, unit);
-    if (is_zero(normal_of(terms_))) outline_ = outline_without_area(triangle);
-  }
-  ExactSphere(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle)
-      : ExactSphere(sphere, triangle, unit_of(sphere, triangle)) {}
-
-  template <typename... Triangles>
-  static BinaryUnit unit_of(const SweptSphere<Scalar>& sphere, const Triangles&... triangles) {
+  ExactSphere(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle) {
     BinaryUnit unit;
-    unit.include(sphere.start);
-    unit.include(sphere.end);
+    include(unit, sphere, triangle);
     unit.include<Scalar>({sphere.radius, 0, 0});
-    (unit.include(triangles), ...);
     if (unit.is_empty()) unit.exponent = 0;
-    return unit;
+    set_differences(terms_, sphere, triangle, unit);
+    set_integer(terms_.radius, sphere.radius, unit);
+    if (is_zero(normal_of(terms_))) outline_ = outline_without_area(local_corners(triangle));
   }
 
   [[nodiscard]] std::optional<SphereContact> find() const {
@@ -72,7 +57,7 @@ class ExactSphere {
   [[nodiscard]] int sign_along() const { return dot(normal_of(terms_), terms_.step).sign(); }
 
   /// Returns the equation of the t at which the ball comes to a part (S3).
-  [[nodiscard]] SUREHIT_NOINLINE SphereRoot<Scalar> root(Feature part) const {
+  [[nodiscard]] SUREHIT_NOINLINE SphereRoot<AnyTriangle> root(Feature part) const {
     constexpr int bits = Bits::quadratic;
     const auto rr = terms_.radius * terms_.radius;
     const auto& d = terms_.step;
@@ -129,7 +114,7 @@ class ExactSphere {
   }
 
  private:
-  using Bits = SphereBits<Scalar>;
+  using Bits = SphereBits<AnyTriangle>;
   using Volume = WideInt<Bits::volume + 1>;
 
   /// Returns (x + t y) / z, rounded once. It is in [0, 1], and z is positive.
@@ -137,71 +122,73 @@ class ExactSphere {
                                                        const Volume& z) const {
     constexpr int bits = Bits::quadratic;
     if (contact.at_start) return detail::rounded_weight<Scalar, bits>(nullptr, x, y, z);
-    const SphereRoot<Scalar> t = root(contact.timed_by);
+    const SphereRoot<AnyTriangle> t = root(contact.timed_by);
     return detail::rounded_weight<Scalar>(&t, x, y, z);
   }
 
-  SphereIntTerms<Scalar> terms_;
+  SphereIntTerms<AnyTriangle> terms_;
   Outline outline_;
 };
 
 }  // namespace
 
-template <typename Scalar>
-std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
-  return ExactSphere<Scalar>(sphere, triangle).find();
+template <typename Scalar, typename AnyTriangle>
+std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle) {
+  return ExactSphere<Scalar, AnyTriangle>(sphere, triangle).find();
 }
 
-template <typename Scalar>
-int compare_times(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x_triangle, const SphereContact& x,
-                  const Triangle<Scalar>& y_triangle, const SphereContact& y) {
+template <typename Scalar, typename AnyTriangle>
+int compare_times(const SweptSphere<Scalar>& sphere, const AnyTriangle& x_triangle, const SphereContact& x,
+                  const AnyTriangle& y_triangle, const SphereContact& y) {
   if (x.at_start || y.at_start) return static_cast<int>(y.at_start) - static_cast<int>(x.at_start);
-  const BinaryUnit unit = ExactSphere<Scalar>::unit_of(sphere, x_triangle, y_triangle);
-  const SphereRoot<Scalar> x_root = ExactSphere<Scalar>(sphere, x_triangle, unit).root(x.timed_by);
-  const SphereRoot<Scalar> y_root = ExactSphere<Scalar>(sphere, y_triangle, unit).root(y.timed_by);
+  // Each equation has a unit of its own. Its coefficients have one degree, so another unit has the same root.
+  const SphereRoot<AnyTriangle> x_root = ExactSphere<Scalar, AnyTriangle>(sphere, x_triangle).root(x.timed_by);
+  const SphereRoot<AnyTriangle> y_root = ExactSphere<Scalar, AnyTriangle>(sphere, y_triangle).root(y.timed_by);
   return RootOrder(x_root, y_root).sign();
 }
 
-template <typename Scalar>
-int compare_time(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, const SphereContact& contact,
+template <typename Scalar, typename AnyTriangle>
+int compare_time(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, const SphereContact& contact,
                  Scalar limit) {
   if (contact.at_start) return limit > 0 ? -1 : 0;
   if (!(limit > 0)) return 1;
   const Decomposed<Scalar> parts(limit);
-  const SphereRoot<Scalar> root = ExactSphere<Scalar>(sphere, triangle).root(contact.timed_by);
+  const SphereRoot<AnyTriangle> root = ExactSphere<Scalar, AnyTriangle>(sphere, triangle).root(contact.timed_by);
   return root.template compare<Scalar>({parts.significand, parts.exponent});
 }
 
-template <typename Scalar>
-int sign_along(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
-  return ExactSphere<Scalar>(sphere, triangle).sign_along();
+template <typename Scalar, typename AnyTriangle>
+int sign_along(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle) {
+  return ExactSphere<Scalar, AnyTriangle>(sphere, triangle).sign_along();
 }
 
-template <typename Scalar>
-void round_exactly(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, const SphereContact& contact,
+template <typename Scalar, typename AnyTriangle>
+void round_exactly(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, const SphereContact& contact,
                    ShapeHit<Scalar>& hit) {
-  const ExactSphere<Scalar> exact(sphere, triangle);
+  const ExactSphere<Scalar, AnyTriangle> exact(sphere, triangle);
   hit.t = contact.at_start ? Scalar{0} : exact.root(contact.timed_by).template rounded<Scalar>();
   exact.round_weights(contact, hit.u, hit.v);
 }
 
-template <typename Scalar>
-Direction exact_direction(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+template <typename Scalar, typename AnyTriangle>
+Direction exact_direction(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
                           const SphereContact& contact) {
-  return ExactSphere<Scalar>(sphere, triangle).direction(contact);
+  return ExactSphere<Scalar, AnyTriangle>(sphere, triangle).direction(contact);
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                             \
-  template std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>&, const Triangle<Scalar>&);     \
-  template int compare_times(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&,         \
-                             const Triangle<Scalar>&, const SphereContact&);                                    \
-  template int compare_time(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&, Scalar); \
-  template int sign_along(const SweptSphere<Scalar>&, const Triangle<Scalar>&);                                 \
-  template void round_exactly(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&,        \
-                              ShapeHit<Scalar>&);                                                               \
-  template Direction exact_direction(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const SphereContact&);
-SUREHIT_INSTANTIATE(float)
-SUREHIT_INSTANTIATE(double)
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                                       \
+  template std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>&, const AnyTriangle&);                 \
+  template int compare_times(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, const AnyTriangle&, \
+                             const SphereContact&);                                                                    \
+  template int compare_time(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, Scalar);             \
+  template int sign_along(const SweptSphere<Scalar>&, const AnyTriangle&);                                             \
+  template void round_exactly(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, ShapeHit<Scalar>&);
+SUREHIT_INSTANTIATE(float, Triangle<float>)
+SUREHIT_INSTANTIATE(double, Triangle<double>)
+SUREHIT_INSTANTIATE(float, PlacedTriangle<float>)
+SUREHIT_INSTANTIATE(double, PlacedTriangle<double>)
+template Direction exact_direction(const SweptSphere<float>&, const Triangle<float>&, const SphereContact&);
+template Direction exact_direction(const SweptSphere<double>&, const Triangle<double>&, const SphereContact&);
 #undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit::detail

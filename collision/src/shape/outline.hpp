@@ -33,7 +33,9 @@ struct ExtremeCorners {
   std::size_t last = 0;
 };
 
-/// Returns the outline of a triangle without area: the edge between its extreme corners, or the first corner.
+/// Returns the outline of a triangle without area: the edge between its extreme corners, or the first corner. A placed
+/// triangle has the outline that it has in the mesh: along a line, the images are in the same order or in the opposite
+/// one.
 template <typename Scalar>
 [[nodiscard]] Outline outline_without_area(const Triangle<Scalar>& triangle) {
   const ExtremeCorners extremes(triangle);

@@ -16,6 +16,13 @@ using ScalarOf = typename ShapeTypes<Shape>::Scalar;
 template <typename Shape>
 using ContactOf = typename ShapeTypes<Shape>::Contact;
 
+/// Returns true if the t of a contact follows from a corner or an edge of the triangle. Where it is in the mesh, it
+/// then is the same for all triangles that share this part, wherever the mesh is placed.
+template <typename Contact>
+[[nodiscard]] constexpr bool is_timed_by_shared_part(const Contact&) {
+  return true;
+}
+
 [[nodiscard]] constexpr Feature edge_feature(std::size_t edge) {
   return static_cast<Feature>(static_cast<std::size_t>(Feature::edge_ab) + edge);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -56,5 +57,17 @@ class ShapeFilter {
   void set(Core any_core, const Vector3<Scalar>& any_start, const Vector3<Scalar>& any_end,
            const Vector3<Scalar>& any_half, Scalar any_radius);
 };
+
+/// Returns the lane with the lowest time, among the lanes of these bits. There must be one. Of several, it is the
+/// lowest lane.
+template <typename Times>
+[[nodiscard]] std::size_t first_to_enter(std::uint64_t lanes, const Times& enters) {
+  auto first = static_cast<std::size_t>(std::countr_zero(lanes));
+  for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    if (enters[lane] < enters[first]) first = lane;
+  }
+  return first;
+}
 
 }  // namespace surehit::detail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "scene/placed_shape_candidate.hpp"
 #include "shape/bounded_box.hpp"
 #include "shape/bounded_capsule.hpp"
 #include "shape/bounded_sphere.hpp"
@@ -13,13 +14,13 @@
 
 namespace surehit::detail {
 
-template <typename Shape>
-ShapeNarrowphase<Shape>::ShapeNarrowphase(const Shape& shape, const ShapeQueryOptions<Scalar>& options,
-                                          QueryStatistics& statistics)
+template <typename Shape, typename Candidate>
+ShapeNarrowphase<Shape, Candidate>::ShapeNarrowphase(const Shape& shape, const Options& options,
+                                                     QueryStatistics& statistics)
     : shape_(shape), options_(options), statistics_(statistics) {}
 
-template <typename Shape>
-bool ShapeNarrowphase<Shape>::admits(const Triangle<Scalar>& triangle, const ContactOf<Shape>& contact) const {
+template <typename Shape, typename Candidate>
+bool ShapeNarrowphase<Shape, Candidate>::admits(const AnyTriangle& triangle, const ContactOf<Shape>& contact) const {
   if (options_.ignore_start_contact && contact.at_start) return false;
   if (contact.t_upper > double{options_.max_t}) {
     if (contact.t_lower > double{options_.max_t}) return false;
@@ -31,9 +32,9 @@ bool ShapeNarrowphase<Shape>::admits(const Triangle<Scalar>& triangle, const Con
   return options_.culling == Culling::back ? along < 0 : along > 0;
 }
 
-template <typename Shape>
-bool ShapeNarrowphase<Shape>::find_contact(const Triangle<Scalar>& triangle, double limit,
-                                           ContactOf<Shape>& found) const {
+template <typename Shape, typename Candidate>
+bool ShapeNarrowphase<Shape, Candidate>::find_contact(const AnyTriangle& triangle, double limit,
+                                                      ContactOf<Shape>& found) const {
   switch (bounded_contact(shape_, triangle, found)) {
     case Verdict::miss:
       return false;
@@ -48,45 +49,48 @@ bool ShapeNarrowphase<Shape>::find_contact(const Triangle<Scalar>& triangle, dou
   return found.t_lower <= limit && admits(triangle, found);
 }
 
-template <typename Shape>
-bool ShapeNarrowphase<Shape>::comes_before(const ShapeCandidate<Shape>& x, const ShapeCandidate<Shape>& y) const {
+template <typename Shape, typename Candidate>
+bool ShapeNarrowphase<Shape, Candidate>::comes_before(const Candidate& x, const Candidate& y) const {
   if (x.contact.t_upper < y.contact.t_lower) return true;
   if (y.contact.t_upper < x.contact.t_lower) return false;
-  if (x.id == y.id) return false;
-  if (x.contact.at_start && y.contact.at_start) return x.id < y.id;
-  if (are_timed_alike(x.triangle, x.contact, y.triangle, y.contact)) return x.id < y.id;
+  if (x.ids() == y.ids()) return false;
+  const bool has_lower_ids = x.ids() < y.ids();
+  if ((x.contact.at_start && y.contact.at_start) || x.is_timed_like(y)) return has_lower_ids;
   ++statistics_.exact_orders;
-  const int order = compare_times(shape_, x.triangle, x.contact, y.triangle, y.contact);
-  return order != 0 ? order < 0 : x.id < y.id;
+  const int order = compare_times(shape_, x.whole_triangle(), x.contact, y.whole_triangle(), y.contact);
+  return order != 0 ? order < 0 : has_lower_ids;
 }
 
-template <typename Shape>
-void ShapeNarrowphase<Shape>::sort(std::vector<ShapeCandidate<Shape>>& found) const {
-  using Candidate = ShapeCandidate<Shape>;
-  std::sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) { return x.id < y.id; });
-  const auto is_same = [](const Candidate& x, const Candidate& y) { return x.id == y.id; };
+template <typename Shape, typename Candidate>
+void ShapeNarrowphase<Shape, Candidate>::sort(std::vector<Candidate>& found) const {
+  std::sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) { return x.ids() < y.ids(); });
+  const auto is_same = [](const Candidate& x, const Candidate& y) { return x.ids() == y.ids(); };
   found.erase(std::unique(found.begin(), found.end(), is_same), found.end());
   std::sort(found.begin(), found.end(), [&](const Candidate& x, const Candidate& y) { return comes_before(x, y); });
 }
 
-template <typename Shape>
-ShapeHit<ScalarOf<Shape>> ShapeNarrowphase<Shape>::hit(const ShapeCandidate<Shape>& candidate) const {
+template <typename Shape, typename Candidate>
+ShapeHit<ScalarOf<Shape>> ShapeNarrowphase<Shape, Candidate>::hit(const Candidate& candidate) const {
   ShapeHit<Scalar> hit;
   hit.triangle = candidate.id;
   if constexpr (requires { candidate.contact.feature; }) hit.feature = candidate.contact.feature;
   hit.started_touching = candidate.contact.at_start;
-  if (!try_round(shape_, candidate.triangle, candidate.contact, hit)) {
+  if (!try_round(shape_, candidate.whole_triangle(), candidate.contact, hit)) {
     ++statistics_.exact_roundings;
-    round_exactly(shape_, candidate.triangle, candidate.contact, hit);
+    round_exactly(shape_, candidate.whole_triangle(), candidate.contact, hit);
   }
   return hit;
 }
 
-template class ShapeNarrowphase<SweptBox<float>>;
-template class ShapeNarrowphase<SweptBox<double>>;
-template class ShapeNarrowphase<SweptSphere<float>>;
-template class ShapeNarrowphase<SweptSphere<double>>;
-template class ShapeNarrowphase<SweptCapsule<float>>;
-template class ShapeNarrowphase<SweptCapsule<double>>;
+#define SUREHIT_INSTANTIATE(Shape)        \
+  template class ShapeNarrowphase<Shape>; \
+  template class ShapeNarrowphase<Shape, PlacedShapeCandidate<Shape>>;
+SUREHIT_INSTANTIATE(SweptBox<float>)
+SUREHIT_INSTANTIATE(SweptBox<double>)
+SUREHIT_INSTANTIATE(SweptSphere<float>)
+SUREHIT_INSTANTIATE(SweptSphere<double>)
+SUREHIT_INSTANTIATE(SweptCapsule<float>)
+SUREHIT_INSTANTIATE(SweptCapsule<double>)
+#undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit::detail

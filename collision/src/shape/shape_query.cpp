@@ -6,6 +6,7 @@
 
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
+#include "shape/recent_triangles.hpp"
 #include "shape/shape_filter.hpp"
 #include "shape/shape_narrowphase.hpp"
 #include "shape/sphere_contact.hpp"
@@ -14,23 +15,6 @@
 
 namespace surehit::detail {
 namespace {
-
-/// Remembers the last triangles that a shape was tested against, since most triangles are in the lists of several
-/// cells.
-class Recent {
- public:
-  Recent() { ids_.fill(no_triangle); }
-  /// Returns true if the triangle is still remembered. Remembers it.
-  [[nodiscard]] bool has(std::uint32_t id) {
-    std::uint32_t& place = ids_[id % ids_.size()];
-    const bool is_there = place == id;
-    place = id;
-    return is_there;
-  }
-
- private:
-  std::array<std::uint32_t, 64> ids_;
-};
 
 /// Gives the triangles of the lists that a walk visits to `Keep`. This keeps the hits that its query wants.
 template <typename Shape, typename Keep>
@@ -53,7 +37,7 @@ class ShapeVisitor {
       if (counting - from < 64) found &= (std::uint64_t{1} << (counting - from)) - 1;
       while (found != 0) {
         // The triangle that may be touched first comes first. Its hit may lower the limit below all others.
-        const std::size_t lane = first_to_enter(found);
+        const std::size_t lane = first_to_enter(found, enters_);
         if (enters_[lane] > keep_.limit) break;
         found &= ~(std::uint64_t{1} << lane);
         const std::uint32_t id = query_.grid.entries()[first + from + lane];
@@ -75,15 +59,6 @@ class ShapeVisitor {
   [[nodiscard]] const ShapeNarrowphase<Shape>& narrowphase() const { return narrowphase_; }
 
  private:
-  /// Returns the lane that the shape may touch first, among the lanes of these bits. Of several, it is the lowest lane.
-  [[nodiscard]] std::size_t first_to_enter(std::uint64_t lanes) const {
-    auto first = static_cast<std::size_t>(std::countr_zero(lanes));
-    for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      if (enters_[lane] < enters_[first]) first = lane;
-    }
-    return first;
-  }
   void take(std::uint32_t id, const Triangle<Scalar>& triangle) {
     if (!query_.takes_part(id)) return;
     ShapeCandidate<Shape> candidate{id, triangle, {}};
@@ -96,7 +71,7 @@ class ShapeVisitor {
   ShapeFilter<Scalar> filter_;
   typename ShapeFilter<Scalar>::Times enters_;
   ShapeNarrowphase<Shape> narrowphase_;
-  Recent recent_;
+  RecentTriangles recent_;
   Keep keep_;
 };
 
