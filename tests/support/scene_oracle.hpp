@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "support/dyadic.hpp"
@@ -16,6 +18,9 @@
 #include "surehit/pose.hpp"
 #include "surehit/scene_hit.hpp"
 #include "surehit/scene_query_options.hpp"
+#include "surehit/scene_shape_hit.hpp"
+#include "surehit/scene_shape_options.hpp"
+#include "surehit/swept_sphere.hpp"
 #include "surehit/triangle.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 
@@ -53,6 +58,12 @@ class SceneOracle {
   [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
                                                 const SceneQueryOptions<Scalar>& options = {},
                                                 const Filter& filter = {}) const;
+
+  /// Says what is wrong with the hits of a moving ball, which are to be all of them in order. Returns nothing if they
+  /// are right in every field.
+  [[nodiscard]] std::optional<std::string> find_error(const SweptSphere<Scalar>& sphere,
+                                                      const SceneShapeQueryOptions<Scalar>& options,
+                                                      const std::vector<SceneShapeHit<Scalar>>& hits) const;
 
   /// Returns the exact corners of a placed triangle at t = 0.
   [[nodiscard]] std::array<std::array<mpq_class, 3>, 3> corners(InstanceId id, std::uint32_t triangle) const;

@@ -19,23 +19,16 @@ namespace {
 
 using namespace oracle;
 
-/// A ball and a triangle in numbers of one kind.
-template <typename Number>
-struct Pair {
-  Vec<Number> start, step, a, b, c;
-  Number rr;
-};
-
-template <typename Number, typename Scalar>
-Pair<Number> convert(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
-  const Number r(double{sphere.radius});
-  const auto start = vector_of<Number>(sphere.start);
+template <typename Scalar>
+RationalPair rational(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle) {
+  const mpq_class r(double{sphere.radius});
+  const auto start = vector_of<mpq_class>(sphere.start);
   return {start,
-          vector_of<Number>(sphere.end) - start,
-          vector_of<Number>(triangle.a),
-          vector_of<Number>(triangle.b),
-          vector_of<Number>(triangle.c),
-          Number(r * r)};
+          vector_of<mpq_class>(sphere.end) - start,
+          vector_of<mpq_class>(triangle.a),
+          vector_of<mpq_class>(triangle.b),
+          vector_of<mpq_class>(triangle.c),
+          mpq_class(r * r)};
 }
 
 /// The squared distance between two segments.
@@ -64,7 +57,7 @@ mpq_class distance_of_segments(const Vec<mpq_class>& p, const Vec<mpq_class>& q,
 }
 
 /// The squared distance between the first part of the way, up to t, and the triangle.
-mpq_class distance_until(const Pair<mpq_class>& pair, const mpq_class& t) {
+mpq_class distance_until(const RationalPair& pair, const mpq_class& t) {
   const auto end = along(pair.start, t, pair.step);
   const auto n = cross(pair.b - pair.a, pair.c - pair.a);
   const mpq_class rate = dot(n, end - pair.start);
@@ -81,7 +74,7 @@ mpq_class distance_until(const Pair<mpq_class>& pair, const mpq_class& t) {
                    distance_of_segments(pair.start, end, pair.c, pair.a)});
 }
 
-bool touches_before(const Pair<mpq_class>& pair, const mpq_class& t) {
+bool touches_before(const RationalPair& pair, const mpq_class& t) {
   mpz_class fine = 1;
   fine <<= 400;
   return distance_until(pair, t * (1 - mpq_class(mpz_class(1), fine))) <= pair.rr;
@@ -89,7 +82,7 @@ bool touches_before(const Pair<mpq_class>& pair, const mpq_class& t) {
 
 /// What is known of t: it is in the interval that rounds to `t`, with ties to even.
 template <typename Scalar>
-std::optional<std::string> find_error_of_t(const Pair<mpq_class>& pair, Scalar t) {
+std::optional<std::string> find_error_of_t(const RationalPair& pair, Scalar t) {
   const bool is_even =
       (std::bit_cast<std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>>(t) & 1) == 0;
   const mpq_class exact(double{t});
@@ -106,7 +99,7 @@ std::optional<std::string> find_error_of_t(const Pair<mpq_class>& pair, Scalar t
 }
 
 /// All t at which the centre comes to a distance of the radius from the plane, the line of an edge, or a corner.
-std::vector<Float> roots(const Pair<Float>& pair, const Float& tiny) {
+std::vector<Float> roots(const PairOf<Float>& pair, const Float& tiny) {
   std::vector<Float> all;
   const auto add = [&](const Float& a, const Float& b, const Float& c) {
     if (const auto root = lower_root(a, b, c, tiny)) all.push_back(*root);
@@ -149,8 +142,15 @@ Float tiny_number() {
   return tiny;
 }
 
+/// Floats of the default precision. They hold all numbers of a pair.
+Vec<Float> to_floats(const Vec<mpq_class>& x) { return {Float(x[0]), Float(x[1]), Float(x[2])}; }
+PairOf<Float> to_floats(const RationalPair& pair) {
+  return {to_floats(pair.start), to_floats(pair.step), to_floats(pair.a),
+          to_floats(pair.b),     to_floats(pair.c),    Float(pair.rr)};
+}
+
 /// The t of the first contact, if the ball does not begin with it.
-std::optional<Float> first_time(const Pair<Float>& pair, const Float& tiny) {
+std::optional<Float> first_time(const PairOf<Float>& pair, const Float& tiny) {
   std::optional<Float> first;
   const Float slack = tiny * (pair.rr + tiny * dot(pair.step, pair.step));
   for (const Float& root : roots(pair, tiny)) {
@@ -163,10 +163,9 @@ std::optional<Float> first_time(const Pair<Float>& pair, const Float& tiny) {
 
 /// The weights and the feature at the exact t.
 template <typename Scalar>
-std::optional<std::string> find_error_of_point(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
-                                               const ShapeHit<Scalar>& hit) {
+std::optional<std::string> find_error_of_point(const RationalPair& exact, const ShapeHit<Scalar>& hit) {
   const Float tiny = tiny_number<Scalar>();
-  const auto pair = convert<Float>(sphere, triangle);
+  const PairOf<Float> pair = to_floats(exact);
   Float t(0);
   if (!hit.started_touching) {
     const std::optional<Float> first = first_time(pair, tiny);
@@ -186,9 +185,7 @@ std::optional<std::string> find_error_of_point(const SweptSphere<Scalar>& sphere
 }  // namespace
 
 template <typename Scalar>
-std::optional<std::string> find_error(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
-                                      const std::optional<ShapeHit<Scalar>>& answer) {
-  const auto pair = convert<mpq_class>(sphere, triangle);
+std::optional<std::string> find_error(const RationalPair& pair, const std::optional<ShapeHit<Scalar>>& answer) {
   if (distance_until(pair, 1) > pair.rr) {
     return answer ? std::optional<std::string>("a hit, but they do not touch") : std::nullopt;
   }
@@ -200,7 +197,26 @@ std::optional<std::string> find_error(const SweptSphere<Scalar>& sphere, const T
     if (!(answer->t >= 0 && answer->t <= 1)) return "t is not in [0, 1]";
     if (const auto error = find_error_of_t(pair, answer->t)) return error;
   }
-  return find_error_of_point(sphere, triangle, *answer);
+  return find_error_of_point(pair, *answer);
+}
+
+template <typename Scalar>
+std::optional<std::string> find_error(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                      const std::optional<ShapeHit<Scalar>>& answer) {
+  return find_error(rational(sphere, triangle), answer);
+}
+
+bool touches_until(const RationalPair& pair, const mpq_class& t) { return distance_until(pair, t) <= pair.rr; }
+
+template <typename Scalar>
+mpf_class first_time(const RationalPair& pair) {
+  const Float tiny = tiny_number<Scalar>();
+  return first_time(to_floats(pair), tiny).value();
+}
+
+template <typename Scalar>
+bool is_before(const mpf_class& x, const mpf_class& y) {
+  return x < y - tiny_number<Scalar>() * x;
 }
 
 template <typename Scalar>
@@ -208,7 +224,7 @@ std::optional<std::string> find_error_of_normal(const SweptSphere<Scalar>& spher
                                                 const ShapeHit<Scalar>& hit, const Vector3<Scalar>& normal,
                                                 double allowed) {
   const Float tiny = tiny_number<Scalar>();
-  const auto pair = convert<Float>(sphere, triangle);
+  const PairOf<Float> pair = to_floats(rational(sphere, triangle));
   const Float t = hit.started_touching ? Float(0) : first_time(pair, tiny).value();
   const auto centre = along(pair.start, t, pair.step);
   const auto nearest = nearest_on_triangle(centre, pair);
@@ -219,9 +235,7 @@ std::optional<std::string> find_error_of_normal(const SweptSphere<Scalar>& spher
 
 template <typename Scalar>
 bool comes_before(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x, const Triangle<Scalar>& y) {
-  const Float tiny = tiny_number<Scalar>();
-  const Float of_x = first_time(convert<Float>(sphere, x), tiny).value();
-  return of_x < first_time(convert<Float>(sphere, y), tiny).value() - tiny * of_x;
+  return is_before<Scalar>(first_time<Scalar>(rational(sphere, x)), first_time<Scalar>(rational(sphere, y)));
 }
 
 #define SUREHIT_INSTANTIATE(Scalar)                                                                                  \
@@ -229,6 +243,9 @@ bool comes_before(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x, 
                                                  const std::optional<ShapeHit<Scalar>>&);                            \
   template std::optional<std::string> find_error_of_normal(const SweptSphere<Scalar>&, const Triangle<Scalar>&,      \
                                                            const ShapeHit<Scalar>&, const Vector3<Scalar>&, double); \
+  template std::optional<std::string> find_error(const RationalPair&, const std::optional<ShapeHit<Scalar>>&);       \
+  template mpf_class first_time<Scalar>(const RationalPair&);                                                        \
+  template bool is_before<Scalar>(const mpf_class&, const mpf_class&);                                               \
   template bool comes_before(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const Triangle<Scalar>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

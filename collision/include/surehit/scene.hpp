@@ -22,6 +22,9 @@
 #include "surehit/query_statistics.hpp"
 #include "surehit/scene_hit.hpp"
 #include "surehit/scene_query_options.hpp"
+#include "surehit/scene_shape_hit.hpp"
+#include "surehit/scene_shape_options.hpp"
+#include "surehit/swept_shape.hpp"
 #include "surehit/triangle.hpp"
 
 namespace surehit {
@@ -53,8 +56,8 @@ struct SUREHIT_API DeleteSceneState {
 /// costs what has changed: no triangle is looked at.
 ///
 /// Queries are const and may run in many threads at the same time. All except `all_hits` are noexcept and allocate
-/// nothing. They use less than 64 KiB of stack. No query may run while the scene commits, or while one of its colliders
-/// changes.
+/// nothing. Those of paths use less than 64 KiB of stack. No query may run while the scene commits, or while one of its
+/// colliders changes.
 ///
 /// A collider is shared by the instances that have it, and by its maker. It may be rebuilt. Then no query may run until
 /// the next commit, which sees the new mesh.
@@ -218,6 +221,49 @@ class SUREHIT_API Scene {
   [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
                                                 SceneHitFilter<Scalar> filter,
                                                 const SceneQueryOptions<Scalar>& options = {}) const noexcept;
+
+  // Shapes that move. Distances are those of the scene, whatever the poses are. While a shape moves, instances with a
+  // motion move too. Order, ids and options are those of paths. A query uses less than 64 KiB of stack in float, and
+  // less than 320 KiB in double.
+
+  /// Returns the hit with the lowest exact t, or nothing if the shape touches nothing.
+  ///
+  /// Adds its work to `statistics`, unless this is null.
+  [[nodiscard]] std::optional<SceneShapeHit<Scalar>> first_hit(const SweptShape<Scalar>& shape,
+                                                               const SceneShapeQueryOptions<Scalar>& options = {},
+                                                               QueryStatistics* statistics = nullptr) const noexcept;
+  /// Returns the first hit among those that the filter accepts.
+  [[nodiscard]] std::optional<SceneShapeHit<Scalar>> first_hit(const SweptShape<Scalar>& shape,
+                                                               SceneShapeHitFilter<Scalar> filter,
+                                                               const SceneShapeQueryOptions<Scalar>& options = {},
+                                                               QueryStatistics* statistics = nullptr) const noexcept;
+  /// Returns true if the shape touches any triangle.
+  [[nodiscard]] bool any_hit(const SweptShape<Scalar>& shape, const SceneShapeQueryOptions<Scalar>& options = {},
+                             QueryStatistics* statistics = nullptr) const noexcept;
+  /// Returns true if the filter accepts any hit of the shape.
+  [[nodiscard]] bool any_hit(const SweptShape<Scalar>& shape, SceneShapeHitFilter<Scalar> filter,
+                             const SceneShapeQueryOptions<Scalar>& options = {},
+                             QueryStatistics* statistics = nullptr) const noexcept;
+  /// Returns true if the shape touches any triangle at its start, see `Collider::overlaps`.
+  [[nodiscard]] bool overlaps(const SweptShape<Scalar>& shape, const SceneShapeQueryOptions<Scalar>& options = {},
+                              QueryStatistics* statistics = nullptr) const noexcept;
+  /// Sets `hits` to one hit for each placed triangle that the shape touches, in order. May throw std::bad_alloc.
+  void all_hits(const SweptShape<Scalar>& shape, std::vector<SceneShapeHit<Scalar>>& hits,
+                const SceneShapeQueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const;
+  /// Sets `hits` to all hits that the filter accepts, in the same order.
+  void all_hits(const SweptShape<Scalar>& shape, std::vector<SceneShapeHit<Scalar>>& hits,
+                SceneShapeHitFilter<Scalar> filter, const SceneShapeQueryOptions<Scalar>& options = {},
+                QueryStatistics* statistics = nullptr) const;
+  /// Sets `hits[i]` to the first hit of shape i. A miss is a default hit. Lengths are as in `Collider::first_hits`.
+  void first_hits(const SweptShapeSpan<Scalar>& shapes, std::span<SceneShapeHit<Scalar>> hits,
+                  const SceneShapeBatchOptions<Scalar>& options = {}) const noexcept;
+  /// Sets `blocked[i]` to 1 if shape i has a hit, and to 0 otherwise.
+  void any_hits(const SweptShapeSpan<Scalar>& shapes, std::span<std::uint8_t> blocked,
+                const SceneShapeBatchOptions<Scalar>& options = {}) const noexcept;
+  /// Returns the greatest t at which the shape has not touched the triangle of a hit, see `Collider::last_free_t`. If
+  /// the instance moves, it is then at its pose plus t times its motion. `hit` must be one of the shape's hits in this
+  /// scene.
+  [[nodiscard]] Scalar last_free_t(const SweptShape<Scalar>& shape, const SceneShapeHit<Scalar>& hit) const noexcept;
 
  private:
 #if defined(__cpp_exceptions)

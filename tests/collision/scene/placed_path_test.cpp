@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "collision/filter/on_every_instruction_set.hpp"
+#include "exact_matrix.hpp"
 #include "place_lanes_on_targets.hpp"
 #include "support/case_count.hpp"
 #include "support/random.hpp"
@@ -25,47 +26,8 @@ namespace {
 
 using detail::InstanceFrame;
 using detail::PathRange;
-using ExactVector = std::array<mpq_class, 3>;
-using ExactMatrix = std::array<ExactVector, 3>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-template <typename Vector>
-ExactVector exact(const Vector& x) {
-  return {mpq_class(double{x[0]}), mpq_class(double{x[1]}), mpq_class(double{x[2]})};
-}
-
-ExactVector operator+(const ExactVector& x, const ExactVector& y) { return {x[0] + y[0], x[1] + y[1], x[2] + y[2]}; }
-ExactVector operator-(const ExactVector& x, const ExactVector& y) { return {x[0] - y[0], x[1] - y[1], x[2] - y[2]}; }
-ExactVector operator*(const mpq_class& t, const ExactVector& x) { return {t * x[0], t * x[1], t * x[2]}; }
-ExactVector operator*(const ExactMatrix& m, const ExactVector& x) {
-  ExactVector y;
-  for (std::size_t i = 0; i < 3; ++i) y[i] = m[i][0] * x[0] + m[i][1] * x[1] + m[i][2] * x[2];
-  return y;
-}
-
-ExactMatrix inverse(const ExactMatrix& m) {
-  ExactMatrix n;
-  mpq_class det;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const ExactVector& x = m[(i + 1) % 3];
-    const ExactVector& y = m[(i + 2) % 3];
-    for (std::size_t j = 0; j < 3; ++j) n[j][i] = x[(j + 1) % 3] * y[(j + 2) % 3] - x[(j + 2) % 3] * y[(j + 1) % 3];
-    if (i == 0) det = m[0][0] * n[0][0] + m[0][1] * n[1][0] + m[0][2] * n[2][0];
-  }
-  for (ExactVector& row : n) row = (1 / det) * row;
-  return n;
-}
-
-/// Returns the share of a bound that an error takes up.
-double share_of(const mpq_class& error, double bound) {
-  if (error == 0 || bound == infinity) return 0;
-  return bound > 0 ? mpq_class(abs(error) / mpq_class(bound)).get_d() : infinity;
-}
-
-double largest_share(const ExactVector& error, double bound) {
-  return std::max({share_of(error[0], bound), share_of(error[1], bound), share_of(error[2], bound)});
-}
 
 /// A path, an instance and the box of its mesh. All of their numbers are exact.
 template <typename Scalar>

@@ -98,6 +98,24 @@ TYPED_TEST(SceneAllocation, none_in_queries) {
   }
 }
 
+TYPED_TEST(SceneAllocation, none_in_queries_of_balls) {
+  const SweptSphere<TypeParam> ball{{0, 0, 100}, {TypeParam(0.3), 0, -100}, TypeParam{0.5}};
+  const std::vector<SweptSphere<TypeParam>> balls(64, ball);
+  std::vector<SceneShapeHit<TypeParam>> hits(balls.size());
+  std::vector<std::uint8_t> blocked(balls.size());
+  const auto odd = [](const SceneShapeHit<TypeParam>& hit) { return hit.instance.index % 2 == 1; };
+  EXPECT_EQ(allocations_of([&] {
+              const auto hit = this->scene.first_hit(ball);
+              ASSERT_TRUE(hit);
+              static_cast<void>(this->scene.any_hit(ball, odd));
+              static_cast<void>(this->scene.overlaps(ball));
+              static_cast<void>(this->scene.last_free_t(ball, *hit));
+              this->scene.first_hits(balls, hits, {.filter = odd});
+              this->scene.any_hits(balls, blocked);
+            }),
+            0U);
+}
+
 TYPED_TEST(SceneAllocation, all_hits_keeps_the_capacity_of_its_vector) {
   std::vector<SceneHit<TypeParam>> hits;
   hits.reserve(1000);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +10,10 @@
 #include <vector>
 
 #include "collision/painted_stack.hpp"
+#include "support/case_count.hpp"
+#include "support/random.hpp"
 #include "support/scalars.hpp"
+#include "support/sphere_families.hpp"
 #include "unit_scenes.hpp"
 
 #if defined(SUREHIT_TEST_PROMISES_STACK)
@@ -112,6 +116,53 @@ TYPED_TEST(SceneStack, of_batches) {
   blocked.resize(along.size());
   this->expect_within_promise("first_hits_of_many", [&] { this->scene_.first_hits(along, hits); });
   this->expect_within_promise("any_hits_of_many", [&] { this->scene_.any_hits(along, blocked); });
+}
+
+/// The integers of moving shapes are longer, since their coefficients have a degree of six.
+template <typename Scalar>
+constexpr std::size_t promised_bytes_of_shapes = (sizeof(Scalar) == 4 ? 64 : 320) * 1024;
+
+/// The longest integers are those of hits that are certain of nothing: twice the same triangles, at sizes of all kinds.
+TYPED_TEST(SceneStack, of_moving_shapes) {
+  using Scalar = TypeParam;
+  PaintedStack stack;
+  std::size_t deepest = 0;
+  const auto measure = [&](const auto& call) { deepest = std::max(deepest, stack.bytes_used_by(call)); };
+  const auto measure_all = [&](const Scene<Scalar>& scene, const SweptShape<Scalar>& shape) {
+    std::vector<SceneShapeHit<Scalar>> hits(1);
+    measure([&] { static_cast<void>(scene.first_hit(shape)); });
+    measure([&] { static_cast<void>(scene.any_hit(shape, {.max_t = Scalar(0.5), .culling = Culling::back})); });
+    measure([&] { scene.all_hits(shape, hits); });
+    if (!hits.empty()) measure([&] { static_cast<void>(scene.last_free_t(shape, hits.back())); });
+  };
+  for (const auto& [start, end] : this->segments()) {
+    for (const Scalar size : {this->huge / 3, Scalar(0.25), this->tiny, Scalar(0)}) {
+      measure_all(this->scene_, SweptSphere<Scalar>{start, end, size});
+      measure_all(this->scene_, SweptBox<Scalar>{start, end, {size, this->tiny, size / 3}});
+      measure_all(this->scene_, SweptCapsule<Scalar>{start, end, {size, this->tiny, -size}, size});
+    }
+  }
+  for (const SphereFamily family : all_sphere_families) {
+    Random random(41 + static_cast<std::uint64_t>(family));
+    for (std::size_t i = case_count(4); i > 0; --i) {
+      const auto [ball, triangle] = draw_sphere_pair<Scalar>(family, random);
+      GeneratedMesh<Scalar> mesh;
+      mesh.add(triangle);
+      mesh.add({triangle.b, triangle.c, triangle.a});
+      const auto collider = std::make_shared<Collider<Scalar>>(mesh.view());
+      Scene<Scalar> scene;
+      for (int k = 0; k < 2; ++k) scene.add(collider);
+      scene.commit();
+      const Vector3<Scalar> axis = (triangle.b - triangle.a) / 2;
+      measure_all(scene, ball);
+      measure_all(scene, SweptBox<Scalar>{ball.start, ball.end, {ball.radius, ball.radius, ball.radius}});
+      measure_all(scene, SweptCapsule<Scalar>{ball.start, ball.end, axis, ball.radius});
+    }
+  }
+  testing::Test::RecordProperty("bytes", std::to_string(deepest));
+  EXPECT_LT(deepest, promised_bytes_of_shapes<Scalar>);
+  // The longest integers are among the cases.
+  EXPECT_GT(deepest, promised_bytes_of_shapes<Scalar> / 4);
 }
 
 TYPED_TEST(SceneStack, of_triangles_and_normals) {

@@ -1,0 +1,180 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "support/case_count.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/scalars.hpp"
+#include "support/scene_drawer.hpp"
+#include "surehit/collider.hpp"
+#include "surehit/intersect.hpp"
+#include "surehit/scene.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// Scenes of few digits: all placed corners are floats. So each pair can be asked about by `intersect`, which has
+/// judges of its own.
+template <typename Scalar>
+class SceneShapes : public testing::Test {
+ protected:
+  using Shape = SweptShape<Scalar>;
+  using Hits = std::vector<SceneShapeHit<Scalar>>;
+  using Point = Vector3<Scalar>;
+  struct Placed {
+    InstanceId id;
+    Point motion;
+    std::vector<Triangle<Scalar>> triangles;
+  };
+
+  Scalar eighths(int reach) { return static_cast<Scalar>(random.between(-8 * reach, 8 * reach)) / 8; }
+  Point point_of_eighths(int reach) {
+    const Scalar x = eighths(reach);
+    const Scalar y = eighths(reach);
+    return {x, y, eighths(reach)};
+  }
+
+  void draw_scene(bool has_motion) {
+    GeneratedMesh<Scalar> mesh;
+    for (int i = 0; i < 12; ++i) {
+      const Point a = point_of_eighths(2);
+      const Point b = random.one_in(8) ? a : point_of_eighths(2);
+      mesh.add({a, b, point_of_eighths(2)});
+    }
+    const auto collider = std::make_shared<Collider<Scalar>>(mesh.view());
+    scene = Scene<Scalar>();
+    placed.clear();
+    for (int i = 0; i < 4; ++i) {
+      // Now and then two instances are at the same place, so that all of their times are equal.
+      const bool is_copy = i == 3 && random.one_in(4);
+      const Pose<Scalar> pose =
+          is_copy ? scene.pose(placed[0].id) : Pose<Scalar>{matrix_of_eighths<Scalar>(random), point_of_eighths(3)};
+      placed.push_back({scene.add(collider, pose), Point::Zero(), {}});
+      if (has_motion) placed.back().motion = random.one_in(4) ? Point::Zero() : point_of_eighths(2);
+      scene.set_motion(placed.back().id, placed.back().motion);
+      const auto image = [&](const Point& x) -> Point { return pose.linear * x + pose.translation; };
+      for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
+        const Triangle<Scalar> local = mesh.view().triangle(k);
+        placed.back().triangles.push_back({image(local.a), image(local.b), image(local.c)});
+      }
+    }
+    scene.commit();
+  }
+
+  Shape draw_shape() {
+    const Point start = point_of_eighths(6);
+    const Point end = random.one_in(8) ? start : Point(start + point_of_eighths(6));
+    const auto size = [&] { return random.one_in(8) ? Scalar{0} : std::fabs(eighths(1)) * (random.one_in(4) ? 4 : 1); };
+    switch (random.below(3)) {
+      case 0:
+        return SweptSphere<Scalar>{start, end, size()};
+      case 1: {
+        const Scalar x = size();
+        const Scalar y = size();
+        return SweptBox<Scalar>{start, end, {x, y, size()}};
+      }
+      default:
+        return SweptCapsule<Scalar>{start, end, random.one_in(8) ? Point::Zero() : point_of_eighths(1), size()};
+    }
+  }
+
+  static std::string kind_of(const Shape& shape) {
+    constexpr const char* kinds[] = {"ball", "box", "capsule"};
+    return kinds[shape.index()];
+  }
+
+  /// All that other queries answer follows from all hits.
+  void expect_the_same(const Shape& shape, const Hits& all) const {
+    const SceneShapeHit<Scalar> none;
+    const auto first = scene.first_hit(shape);
+    ASSERT_EQ(first.value_or(none), all.empty() ? none : all.front());
+    ASSERT_EQ(scene.any_hit(shape), !all.empty());
+    ASSERT_EQ(scene.overlaps(shape), !all.empty() && all.front().started_touching);
+    if (!first || first->started_touching) return;
+    const Scalar free = scene.last_free_t(shape, *first);
+    ASSERT_FALSE(scene.any_hit(shape, {.max_t = free}));
+    ASSERT_TRUE(scene.any_hit(shape, {.max_t = std::nextafter(free, Scalar{2})}));
+  }
+
+  Random random{20261126};
+  Scene<Scalar> scene;
+  std::vector<Placed> placed;
+};
+TYPED_TEST_SUITE(SceneShapes, Scalars, ScalarNames);
+
+TYPED_TEST(SceneShapes, of_placed_instances_have_the_bits_of_one_collider) {
+  using Scalar = TypeParam;
+  std::size_t touched = 0;
+  for (std::size_t i = case_count(60); i > 0; --i) {
+    this->draw_scene(false);
+    GeneratedMesh<Scalar> all_triangles;
+    for (const auto& instance : this->placed) {
+      for (const auto& triangle : instance.triangles) all_triangles.add(triangle);
+    }
+    const Collider<Scalar> flat(all_triangles.view());
+    const std::size_t count = this->placed[0].triangles.size();
+    for (int k = 0; k < 15; ++k) {
+      const auto shape = this->draw_shape();
+      std::vector<SceneShapeHit<Scalar>> hits;
+      std::vector<ShapeHit<Scalar>> expected;
+      const auto culling = static_cast<Culling>(this->random.below(3));
+      this->scene.all_hits(shape, hits, {.culling = culling});
+      flat.all_hits(shape, expected, {.culling = culling});
+      ASSERT_EQ(hits.size(), expected.size()) << this->kind_of(shape);
+      for (std::size_t h = 0; h < hits.size(); ++h) {
+        SceneShapeHit<Scalar> one{expected[h], this->placed[expected[h].triangle / count].id};
+        one.triangle %= static_cast<std::uint32_t>(count);
+        ASSERT_EQ(hits[h], one) << this->kind_of(shape) << ", scene " << i << ", hit " << h;
+      }
+      touched += hits.size();
+      if (culling != Culling::none) continue;
+      ASSERT_NO_FATAL_FAILURE(this->expect_the_same(shape, hits));
+    }
+  }
+  EXPECT_GE(touched, case_count(900));
+}
+
+TYPED_TEST(SceneShapes, meet_moving_instances_as_they_see_them) {
+  using Scalar = TypeParam;
+  std::size_t touched = 0;
+  for (std::size_t i = case_count(60); i > 0; --i) {
+    this->draw_scene(true);
+    for (int k = 0; k < 15; ++k) {
+      const auto shape = this->draw_shape();
+      std::vector<SceneShapeHit<Scalar>> expected;
+      for (const auto& [id, motion, triangles] : this->placed) {
+        auto seen = shape;
+        std::visit([&, &by = motion](auto& any) { any.end -= by; }, seen);
+        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+          const auto hit = intersect(seen, triangles[t]);
+          if (!hit) continue;
+          expected.push_back({*hit, id});
+          expected.back().triangle = t;
+        }
+      }
+      std::vector<SceneShapeHit<Scalar>> hits;
+      this->scene.all_hits(shape, hits);
+      for (std::size_t h = 1; h < hits.size(); ++h) ASSERT_LE(hits[h - 1].t, hits[h].t);
+      const auto by_ids = [](const auto& x, const auto& y) {
+        return std::tie(x.instance, x.triangle) < std::tie(y.instance, y.triangle);
+      };
+      auto sorted = hits;
+      std::sort(sorted.begin(), sorted.end(), by_ids);
+      ASSERT_EQ(sorted, expected) << this->kind_of(shape) << ", scene " << i;
+      touched += hits.size();
+      ASSERT_NO_FATAL_FAILURE(this->expect_the_same(shape, hits));
+    }
+  }
+  EXPECT_GE(touched, case_count(900));
+}
+
+}  // namespace
+}  // namespace surehit::test
