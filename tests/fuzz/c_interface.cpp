@@ -370,6 +370,9 @@ class CInterfaceCase {
     checked(C::shape_overlaps(asked, &moving, given, or_none(&statistics), or_null(&answer)));
     const typename C::Triangle triangle = {vector(), vector(), vector()};
     checked(C::shape_intersect(or_null(&triangle), &moving, given, &hits[0]));
+    typename C::Vector contact;
+    checked(C::contact_point(or_null(&triangle), &hit, &contact));
+    checked(C::contact_normal(or_null(&triangle), &moving, or_null(&contact)));
     if (!is_hit) return;
     if (bytes_.one_in(4)) hit.triangle = value(triangle_count);
     Scalar t = 0;

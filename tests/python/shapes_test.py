@@ -73,6 +73,9 @@ class ShapesTest(unittest.TestCase):
                       surehit.SweptCapsule((6, 4, 4), (6, 4, 0), (0, 0, 1), 1)):
             self.assertEqual(floor.first_hit(shape), (0.5, np.float32(0.2), np.float32(0.4), 0,
                                                       surehit.Feature.FACE, False))
+            touched = floor.triangle(0)
+            self.assertEqual(surehit.contact_normal(shape, touched).tolist(), [0, 0, 1])
+            np.testing.assert_allclose(surehit.contact_point(touched, floor.first_hit(shape)), [6, 4, 0], atol=1e-5)
         self.assertTrue(floor.overlaps(surehit.SweptBox((11, 5, 0.5), (11, 5, 9), (1, 0, 1))))
         self.assertEqual(repr(shape), "SweptCapsule((6, 4, 4), (6, 4, 0), (0, 0, 1), 1)")
 

@@ -55,12 +55,7 @@ surehit_status normal_of(const char* function, const typename Structs<Scalar>::T
                          typename Structs<Scalar>::Vector3* result) {
   Arguments arguments(function);
   arguments.check_pointer(triangle, "triangle");
-  if (arguments.are_valid()) {
-    const Triangle<Scalar> corners = from_c(*triangle);
-    if (!corners.a.allFinite() || !corners.b.allFinite() || !corners.c.allFinite()) {
-      arguments.refuse(SUREHIT_INVALID_VALUE, 0, "a corner of the triangle is not finite");
-    }
-  }
+  check_corners<Scalar>(arguments, triangle);
   return tell_result(arguments, result, "normal", [&] { return to_c(normal(from_c(*triangle))); });
 }
 

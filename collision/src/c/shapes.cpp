@@ -52,6 +52,30 @@ surehit_status intersect_shape(const char* function, const typename Structs<Scal
   });
 }
 
+template <typename Scalar>
+surehit_status contact_point_of(const char* function, const typename Structs<Scalar>::Triangle* triangle,
+                                const typename ShapeStructs<Scalar>::Hit* hit,
+                                typename Structs<Scalar>::Vector3* point) {
+  Arguments arguments(function);
+  arguments.check_pointer(triangle, "triangle");
+  arguments.check_pointer(hit, "hit");
+  check_corners<Scalar>(arguments, triangle);
+  arguments.check_pointer(point, "point");
+  return arguments.then(
+      [&] { *point = to_c(contact_point<Scalar>(from_c(*triangle), Asked<Shapes<Scalar>>::from_c(*hit))); });
+}
+
+template <typename Scalar>
+surehit_status contact_normal_of(const char* function, const typename Structs<Scalar>::Triangle* triangle,
+                                 const typename ShapeStructs<Scalar>::Shape* shape,
+                                 typename Structs<Scalar>::Vector3* normal) {
+  Arguments arguments(function);
+  arguments.check_pointer(triangle, "triangle");
+  check_shape(arguments, shape);
+  arguments.check_pointer(normal, "normal");
+  return arguments.then([&] { *normal = to_c(contact_normal<Scalar>(shape_of<Scalar>(*shape), from_c(*triangle))); });
+}
+
 }  // namespace
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
@@ -110,6 +134,14 @@ surehit_status intersect_shape(const char* function, const typename Structs<Scal
       const surehit_triangle##s* triangle, const surehit_swept_shape##s* shape,                                      \
       const surehit_shape_query_options##s* options, surehit_shape_hit##s* hit) {                                    \
     return intersect_shape<Scalar>(__func__, triangle, shape, options, hit);                                         \
+  }                                                                                                                  \
+  SUREHIT_C_API surehit_status surehit_triangle##s##_shape_contact_point(                                            \
+      const surehit_triangle##s* triangle, const surehit_shape_hit##s* hit, surehit_vector3##s* point) {             \
+    return contact_point_of<Scalar>(__func__, triangle, hit, point);                                                 \
+  }                                                                                                                  \
+  SUREHIT_C_API surehit_status surehit_triangle##s##_shape_contact_normal(                                           \
+      const surehit_triangle##s* triangle, const surehit_swept_shape##s* shape, surehit_vector3##s* normal) {        \
+    return contact_normal_of<Scalar>(__func__, triangle, shape, normal);                                             \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 extern "C" {

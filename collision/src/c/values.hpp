@@ -67,6 +67,16 @@ void check_path(Arguments& arguments, const CPath* path, const char* name) {
   if (arguments.are_valid()) arguments.check_value(path->kind, 3, 0, "the kind of the path");
 }
 
+/// Fails if a corner of the triangle is not finite.
+template <typename Scalar>
+void check_corners(Arguments& arguments, const typename Structs<Scalar>::Triangle* triangle) {
+  if (!arguments.are_valid()) return;
+  const Triangle<Scalar> corners = from_c(*triangle);
+  if (!corners.a.allFinite() || !corners.b.allFinite() || !corners.c.allFinite()) {
+    arguments.refuse(SUREHIT_INVALID_VALUE, 0, "a corner of the triangle is not finite");
+  }
+}
+
 /// Adds the work of a call to what the caller has. `statistics` may be null.
 inline void add_work(const QueryStatistics& work, surehit_statistics* statistics) {
   if (statistics == nullptr) return;

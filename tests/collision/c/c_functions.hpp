@@ -89,6 +89,8 @@ struct CFunctions;
     static constexpr auto shape_overlaps = surehit_collider##s##_shape_overlaps;            \
     static constexpr auto shape_last_free_t = surehit_collider##s##_shape_last_free_t;      \
     static constexpr auto shape_intersect = surehit_triangle##s##_shape_intersect;          \
+    static constexpr auto contact_point = surehit_triangle##s##_shape_contact_point;        \
+    static constexpr auto contact_normal = surehit_triangle##s##_shape_contact_normal;      \
                                                                                             \
     /* Scenes. */                                                                           \
     static constexpr auto create_scene = surehit_scene##s##_create;                         \

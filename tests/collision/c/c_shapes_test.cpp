@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 #include <variant>
@@ -110,6 +111,11 @@ class CShapes : public testing::Test {
     const auto triangle = in_c(cpp.triangle(hit.triangle));
     ASSERT_EQ(C::shape_intersect(&triangle, &given, &given_options, &c_hit), SUREHIT_OK);
     EXPECT_EQ(in_cpp(c_hit), intersect(shape, cpp.triangle(hit.triangle), options).value_or(ShapeHit<Scalar>{}));
+    typename C::Vector vector;
+    ASSERT_EQ(C::contact_point(&triangle, &c_hit, &vector), SUREHIT_OK);
+    EXPECT_EQ(in_cpp(vector), contact_point(cpp.triangle(hit.triangle), in_cpp(c_hit)));
+    ASSERT_EQ(C::contact_normal(&triangle, &given, &vector), SUREHIT_OK);
+    EXPECT_EQ(in_cpp(vector), contact_normal(shape, cpp.triangle(hit.triangle)));
   }
 
   /// Expects a failure whose message names what is wrong.
@@ -230,6 +236,12 @@ TYPED_TEST(CShapes, that_are_wrong_are_refused) {
   refused(C::shape_overlaps(collider, &shape, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER, "touches is");
   refused(C::shape_last_free_t(collider, &shape, &hit, nullptr), SUREHIT_NULL_POINTER, "t is");
   refused(C::shape_intersect(nullptr, &shape, nullptr, &hit), SUREHIT_NULL_POINTER, "triangle is");
+  typename C::Triangle triangle = {{0, 0, 0}, {1, 0, 0}, {0, std::numeric_limits<TypeParam>::infinity(), 0}};
+  typename C::Vector vector;
+  refused(C::contact_point(&triangle, nullptr, &vector), SUREHIT_NULL_POINTER, "hit is");
+  refused(C::contact_point(&triangle, &hit, &vector), SUREHIT_INVALID_VALUE, "a corner of the triangle");
+  refused(C::contact_normal(&triangle, nullptr, &vector), SUREHIT_NULL_POINTER, "shape is");
+  refused(C::contact_normal(&triangle, &shape, nullptr), SUREHIT_NULL_POINTER, "normal is");
   const typename C::ShapeFilter no_filter = {nullptr, nullptr};
   refused(C::shape_any_hit(collider, &shape, nullptr, &no_filter, nullptr, &blocked), SUREHIT_NULL_POINTER, "accept");
 

@@ -17,7 +17,7 @@ from .errors import Error, InvalidInstance, InvalidMesh, InvalidValue, OutOfMemo
 from .explanation import (CellFinding, DecidedBy, ExplainedCandidate, ExplainedCell, ExplainedHit, Explanation,
                           FilterNumber, FilterNumbers, FilterVerdict, OrderedBy, PairOutcome, Walk)
 from .hits import Feature, Hit, Hits, InstanceId, SceneHit, ShapeHit, Side
-from .pair import distance, intersect, point
+from .pair import contact_normal, contact_point, distance, intersect, point
 from .paths import Line, Lines, Path, Paths, Ray, Rays, Segment, Segments
 from .scene import Scene, rigid_pose, translation_pose
 from .shapes import (SweptBox, SweptBoxes, SweptCapsule, SweptCapsules, SweptShape, SweptShapes, SweptSphere,
@@ -30,4 +30,4 @@ __all__ = [
     "OrderedBy", "OutOfMemory", "OutOfRange", "PairOutcome", "Path", "Paths", "Ray", "Rays", "Scene", "SceneHit",
     "SceneOptions", "Segment", "Segments", "ShapeHit", "ShapeOptions", "Side", "Statistics", "SweptBox", "SweptBoxes",
     "SweptCapsule", "SweptCapsules", "SweptShape", "SweptShapes", "SweptSphere", "SweptSpheres", "Walk", "__version__",
-    "distance", "intersect", "point", "rigid_pose", "translation_pose"]
+    "contact_normal", "contact_point", "distance", "intersect", "point", "rigid_pose", "translation_pose"]

@@ -39,7 +39,8 @@ _OF_SCENES: dict[str, list[Any]] = {
     "any_hits": [_P] * 4, "last_free_point": [_P] * 6}
 _OF_OTHERS: dict[str, list[Any]] = {
     "triangle{}_intersect": [_P] * 4, "triangle{}_max_t_keeping": [_P] * 4, "triangle{}_normal": [_P, _P],
-    "triangle{}_shape_intersect": [_P] * 4, "path{}_point": [_P] * 3, "path{}_distance": [_P] * 3}
+    "triangle{}_shape_intersect": [_P] * 4,
+    "triangle{}_shape_contact_point": [_P] * 3, "triangle{}_shape_contact_normal": [_P] * 3, "path{}_point": [_P] * 3, "path{}_distance": [_P] * 3}
 
 
 def _path() -> str:

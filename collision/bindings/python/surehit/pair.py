@@ -33,9 +33,7 @@ def intersect(path: Path | SweptShape, triangle: ArrayLike, *, dtype: DTypeLike 
     A triangle of float32 asks in float, and every other one in double, unless ``dtype`` says which.
     """
     layouts = layouts_of(wished_dtype(triangle) if dtype is None else dtype)
-    corners = np.ascontiguousarray(converted(triangle, layouts.dtype, "triangle"))
-    if corners.shape != (3, 3):
-        raise ValueError(f"triangle must have the shape (3, 3), and not {corners.shape}")
+    corners = _corners(triangle, layouts)
     is_shape = isinstance(path, SweptShape)
     kind = layouts.shape if is_shape else layouts.collider
     asked = AskedOptions(layouts, kind).single(options)
@@ -43,6 +41,33 @@ def intersect(path: Path | SweptShape, triangle: ArrayLike, *, dtype: DTypeLike 
     check(function(f"triangle{layouts.suffix}_{kind.owner}intersect")(
         corners.ctypes.data, byref(path.struct(layouts)), None if asked is None else byref(asked), byref(hit)))
     return None if hit.triangle == NO_TRIANGLE else (shape_hit_of if is_shape else hit_of)(hit)
+
+
+def contact_point(triangle: ArrayLike, hit: ShapeHit, dtype: DTypeLike | None = None) -> NDArray[Any]:
+    """Returns the touched point of a triangle, a + u (b - a) + v (c - a), within 4 ulp of its largest coordinate."""
+    layouts = layouts_of(wished_dtype(triangle) if dtype is None else dtype)
+    struct = layouts.shape.Hit(hit.t, hit.u, hit.v, hit.triangle, int(hit.feature), hit.started_touching)
+    result = np.empty(3, layouts.dtype)
+    check(function(f"triangle{layouts.suffix}_shape_contact_point")(
+        _corners(triangle, layouts).ctypes.data, byref(struct), result.ctypes.data))
+    return result
+
+
+def contact_normal(shape: SweptShape, triangle: ArrayLike, dtype: DTypeLike | None = None) -> NDArray[Any]:
+    """Returns the unit direction in which a triangle pushes a shape where they first touch. It is zero if none is told.
+    """
+    layouts = layouts_of(wished_dtype(triangle) if dtype is None else dtype)
+    result = np.empty(3, layouts.dtype)
+    check(function(f"triangle{layouts.suffix}_shape_contact_normal")(
+        _corners(triangle, layouts).ctypes.data, byref(shape.struct(layouts)), result.ctypes.data))
+    return result
+
+
+def _corners(triangle: ArrayLike, layouts: Layouts) -> NDArray[Any]:
+    corners = np.ascontiguousarray(converted(triangle, layouts.dtype, "triangle"))
+    if corners.shape != (3, 3):
+        raise ValueError(f"triangle must have the shape (3, 3), and not {corners.shape}")
+    return corners
 
 
 def point(path: Path, hit: Hit | SceneHit, dtype: DTypeLike = np.float64) -> NDArray[Any]:
