@@ -1,6 +1,7 @@
 #pragma once
 
-// What compilers are told in ways of their own: which functions to inline, and which memory is read soon.
+// What compilers are told in ways of their own: which functions to inline, which ones are rare or take a format, and
+// which memory is read soon.
 
 #if defined(_MSC_VER) && !defined(__clang__)
 
@@ -8,17 +9,29 @@
 #define SUREHIT_ALWAYS_INLINE [[msvc::forceinline]]
 /// The function is rarely called, so it is kept out of its callers.
 #define SUREHIT_NOINLINE [[msvc::noinline]]
+/// The function is called only where something has failed.
+#define SUREHIT_COLD
 
 #elif defined(__GNUC__) && !defined(SUREHIT_PORTABLE_CODE)
 
 #define SUREHIT_ALWAYS_INLINE [[gnu::always_inline]]
 #define SUREHIT_NOINLINE [[gnu::noinline]]
+#define SUREHIT_COLD [[gnu::cold]]
 
 #else
 
 #define SUREHIT_ALWAYS_INLINE
 #define SUREHIT_NOINLINE
+#define SUREHIT_COLD
 
+#endif
+
+/// Lets the compiler compare the format in parameter `text` with the arguments from parameter `first` on. Windows has
+/// formats of its own.
+#if defined(__GNUC__) && !defined(SUREHIT_PORTABLE_CODE) && !defined(_WIN32)
+#define SUREHIT_FORMAT(text, first) [[gnu::format(printf, text, first)]]
+#else
+#define SUREHIT_FORMAT(text, first)
 #endif
 
 namespace surehit::detail {

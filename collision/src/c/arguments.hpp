@@ -11,14 +11,8 @@
 #include <type_traits>
 
 #include "c/handle.hpp"
+#include "support/inlining.hpp"
 #include "surehit/c/status.h"
-
-// Lets the compiler compare a format with its arguments, where the system has the formats of C99.
-#if defined(_WIN32)
-#define SUREHIT_FORMAT(text, first)
-#else
-#define SUREHIT_FORMAT(text, first) [[gnu::format(printf, text, first)]]
-#endif
 
 namespace surehit::c {
 
@@ -40,7 +34,7 @@ class Arguments {
 
   /// Fails, unless something has failed before. The message is made as by printf.
   SUREHIT_FORMAT(4, 5)
-  [[gnu::cold]] void refuse(surehit_status status, std::size_t element, const char* format, ...) noexcept;
+  SUREHIT_COLD void refuse(surehit_status status, std::size_t element, const char* format, ...) noexcept;
 
   /// Fails if the address is null, or is none that a T can have.
   template <typename T>
