@@ -52,7 +52,7 @@ class PaintedStack {
 
   static constexpr std::uint64_t paint = 0x5aa5c33c0ff0a55a;
   static inline const std::function<void()>* current = nullptr;
-  std::vector<std::uint64_t> stack_ = std::vector<std::uint64_t>(256 * 1024 / sizeof paint);
+  std::vector<std::uint64_t> stack_ = std::vector<std::uint64_t>(1024 * 1024 / sizeof paint);
 };
 
 }  // namespace surehit::test

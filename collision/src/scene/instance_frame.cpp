@@ -1,6 +1,7 @@
 #include "scene/instance_frame.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -134,7 +135,7 @@ InstanceFrame InstanceFrame::of(const Placement<Scalar>& placement, const Box<do
     frame.is_mirrored = ExactMatrix<Scalar>(placement.pose.linear).det().sign() < 0;
     invert_exactly<Scalar>(placement.pose.linear, inverse);
   }
-  double farthest = 0;
+  std::array<double, 3> reaches = {};
   for (std::size_t row = 0; row < 3; ++row) {
     const Doubles& entries = inverse[row];
     for (std::size_t column = 0; column < 3; ++column) frame.inverse[column][row] = entries[column];
@@ -169,14 +170,18 @@ InstanceFrame InstanceFrame::of(const Placement<Scalar>& placement, const Box<do
     frame.largest_placed_anchor_error = std::max(frame.largest_placed_anchor_error, error);
     // I3
     reach = (reach + error) * (1 + 0x1p-48) + std::numeric_limits<double>::min();
-    farthest += reach * reach;
+    reaches[row] = reach;
     const double motion = placement.moves ? double{placement.motion[i]} : 0;
     const double margin = (size + reach + std::fabs(motion)) * 0x1p-50;
     frame.low[row] = frame.placed_anchor[row] - reach - margin + std::min(motion, 0.0);
     frame.high[row] = frame.placed_anchor[row] + reach + margin + std::max(motion, 0.0);
     frame.is_usable &= std::isfinite(frame.low[row]) && std::isfinite(frame.high[row]);
   }
-  frame.radius = std::sqrt(farthest) * (1 + 0x1p-48);
+  // In units of the largest one, no square underflows that counts.
+  const double largest = std::max({reaches[0], reaches[1], reaches[2]});
+  double squares = 0;
+  for (const double reach : reaches) squares += reach / largest * (reach / largest);
+  frame.radius = largest * std::sqrt(squares) * (1 + 0x1p-48);
   frame.is_usable &= frame.radius <= 0x1p400;
   if (!frame.is_usable) {
     for (std::size_t row = 0; row < 3; ++row) {

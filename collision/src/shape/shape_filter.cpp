@@ -71,6 +71,10 @@ struct LanePrecision<float> {
 /// and S be inside, or S be 0. In double, the products of all sizes are above 2^-1000. In float, a product that
 /// underflows is off by at most 2^-149, and the root of a sum of squares by at most 2^-73. All terms with u are larger:
 /// 256 u E² r is the least one that has to cover a root of n·n, and 256 u S E r one of f·f.
+///
+/// On the axes of coordinates, a product with one over the step takes the place of a quotient. Where the step or its
+/// inverse might be infinite, the inverse is a NaN. Then only a constant distance counts. A time that is above 0 is at
+/// least 2^-50, so none underflows: its height is more than 8 u W above the reach, and falls by at most 2 W.
 template <typename Scalar, typename Number, Core core>
 class FilterLanes {
   using Tag = hn::ScalableTag<Number>;
@@ -279,6 +283,8 @@ HWY_EXPORT(find_doubles);
 template <typename Scalar>
 void ShapeFilter<Scalar>::set(Core any_core, const Vector3<Scalar>& any_start, const Vector3<Scalar>& any_end,
                               const Vector3<Scalar>& any_half, Scalar any_radius) {
+  // The inverse of a smaller step might not be finite, in float or in double.
+  const double least = std::is_same_v<Scalar, float> ? 0x1p-100 : 0x1p-1000;
   core = any_core;
   radius = any_radius;
   size_of_half = size_of_step = 0;
@@ -289,7 +295,8 @@ void ShapeFilter<Scalar>::set(Core any_core, const Vector3<Scalar>& any_start, c
     end[i] = any_end[axis];
     half[i] = any_half[axis];
     step[i] = end[i] - start[i];
-    inverse_step[i] = 1 / step[i];
+    const double size = std::fabs(step[i]);
+    inverse_step[i] = size >= least && size <= 0x1p1000 ? 1 / step[i] : std::numeric_limits<double>::quiet_NaN();
     size_of_half = std::max(size_of_half, std::fabs(half[i]));
     size_of_step = std::max(size_of_step, std::fabs(step[i]));
     largest = std::max({largest, std::fabs(start[i]), std::fabs(end[i]), std::fabs(half[i])});

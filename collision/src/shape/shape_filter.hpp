@@ -44,7 +44,7 @@ class ShapeFilter {
   std::array<double, 3> start;         ///< The centre at t = 0.
   std::array<double, 3> end;           ///< The centre at t = 1.
   std::array<double, 3> step;          ///< The difference of the two, rounded.
-  std::array<double, 3> inverse_step;  ///< One over each component of the step.
+  std::array<double, 3> inverse_step;  ///< One over each component of the step, or NaN.
   std::array<double, 3> half;          ///< The half extents of a box, or half of a segment. A point has zeros.
   double radius;                       ///< The radius.
   double size_of_half;                 ///< The largest component of `half`.

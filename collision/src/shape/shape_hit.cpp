@@ -1,5 +1,7 @@
 #include "surehit/shape_hit.hpp"
 
+#include <algorithm>
+
 #include "path_range.hpp"
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
@@ -53,17 +55,21 @@ Vector3<Scalar> normal_of_contact(const Shape& shape, const Triangle<Scalar>& tr
   return detail::sign_along(shape, triangle) > 0 ? Vector3<Scalar>(-n) : n;
 }
 
-/// Returns a + u (b - a) + v (c - a) on one axis. In double, a float has no roundings that count.
+/// Returns a + u (b - a) + v (c - a) on one axis. In double, a float has no roundings that count. Rounded weights may
+/// have a sum above 1, so the result is kept between the corners.
 template <typename Scalar>
 Scalar weighted(Scalar a, Scalar b, Scalar c, const ShapeHit<Scalar>& hit) {
+  double sum = 0;
   if constexpr (std::is_same_v<Scalar, float>) {
     const double first = a;
-    return static_cast<float>(first + (hit.u * (b - first) + hit.v * (c - first)));
+    sum = first + (hit.u * (b - first) + hit.v * (c - first));
   } else {
-    // A half of each number keeps differences from overflowing.
-    const Scalar half = a / 2;
-    return 2 * (half + (hit.u * (b / 2 - half) + hit.v * (c / 2 - half)));
+    // A quarter of each number keeps differences from overflowing.
+    const double first = a / 4;
+    sum = 4 * (first + (hit.u * (b / 4 - first) + hit.v * (c / 4 - first)));
   }
+  const auto [low, high] = std::minmax({double{a}, double{b}, double{c}});
+  return static_cast<Scalar>(std::clamp(sum, low, high));
 }
 
 }  // namespace

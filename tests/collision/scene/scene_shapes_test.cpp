@@ -176,5 +176,23 @@ TYPED_TEST(SceneShapes, meet_moving_instances_as_they_see_them) {
   EXPECT_GE(touched, case_count(900));
 }
 
+// The corners of such a mesh are off by more than what the square of its size can hold.
+TEST(SceneShapesOfDoubles, touch_triangles_whose_size_has_no_square) {
+  for (const int exponent : {0, -300, -530, -560, -700, -900}) {
+    const double s = std::ldexp(1.0, exponent);
+    GeneratedMesh<double> mesh;
+    mesh.add({{3 * s, s, -s}, {3 * s, s, s}, {-3 * s, -s, 0}});
+    Scene<double> scene;
+    Pose<double>::Matrix3 turned;
+    turned << 1.0 / 3, -1, 0, 0, 1, 0, 0, 0, 1;
+    scene.add(std::make_shared<const Collider<double>>(mesh.view()), Pose<double>{turned, Vector3d::Zero()});
+    scene.commit();
+    // At y = s / 2, the exact image of the triangle has this x, since 1.0 / 3 is below 1/3.
+    const Vector3d centre = {std::ldexp(-s, -55), 0, 0};
+    EXPECT_TRUE(scene.any_hit(SweptBox<double>{centre, centre, {0, s, s}})) << exponent;
+    EXPECT_TRUE(scene.any_hit(SweptCapsule<double>{centre, centre, {0, s, 0}, 0})) << exponent;
+  }
+}
+
 }  // namespace
 }  // namespace surehit::test

@@ -163,6 +163,28 @@ TYPED_TEST(ColliderSpheres, FindAllThatIsThereFromAfarAndWithAnySize) {
 }
 
 // The lists of a smooth mesh have slabs, far thinner than these balls, whose centres stay outside of them.
+// One over such a step is not a number of the lanes, or the step itself is not.
+TYPED_TEST(ColliderSpheres, FindContactsInStepsThatNearlyVanishOrOverflow) {
+  using Scalar = TypeParam;
+  const auto expect_hit = [](const Triangle<Scalar>& triangle, const SweptSphere<Scalar>& sphere) {
+    GeneratedMesh<Scalar> mesh;
+    mesh.add(triangle);
+    const auto expected = intersect(sphere, triangle);
+    ASSERT_TRUE(expected.has_value());
+    EXPECT_EQ(Collider<Scalar>(mesh.view()).first_hit(sphere), expected);
+  };
+  const Triangle<Scalar> wall = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Scalar tiny = std::numeric_limits<Scalar>::min() / 8;
+  expect_hit(wall, {{tiny, Scalar(0.25), Scalar(0.25)}, {-tiny, Scalar(0.5), Scalar(0.25)}, 0});
+  expect_hit(wall, {{tiny, Scalar(0.25), Scalar(0.25)}, {-tiny, Scalar(0.25), Scalar(0.25)}, 0});
+  const Scalar large = std::numeric_limits<Scalar>::max();
+  const Triangle<Scalar> floor = {
+      {-large / 1000, -large / 1000, 0}, {large / 1000, -large / 1000, 0}, {0, large / 1000, 0}};
+  expect_hit(floor, {{large * Scalar(-0.75), large / 8, large / 10000},
+                     {large * Scalar(0.75), large / -8, large / 10000},
+                     large / 100});
+}
+
 TYPED_TEST(ColliderSpheres, TouchASmoothMeshFromOutsideOfItsSlabs) {
   using Scalar = TypeParam;
   const GeneratedMesh<Scalar> mesh = smooth_bowl<Scalar>(60);

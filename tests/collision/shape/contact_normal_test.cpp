@@ -126,6 +126,10 @@ TYPED_TEST(ContactNormal, BelongsToAPointThatIsNearTheTouchedOne) {
   hit.v = Scalar(0.5);
   EXPECT_EQ(contact_point(triangle, hit), (Vector3<Scalar>{2, 6, 5}));
   const Scalar large = std::numeric_limits<Scalar>::max();
+  ShapeHit<Scalar> above_one;  // Weights are rounded, so their sum may be above 1.
+  above_one.u = std::nextafter(Scalar(0.75), Scalar{1});
+  above_one.v = Scalar(0.25);
+  EXPECT_EQ(contact_point({{-large, 0, 0}, {large, 0, 0}, {large, 1, 0}}, above_one)[0], large);
   EXPECT_EQ(contact_point({{-large, 0, 0}, {large, 0, 0}, {0, large, 0}}, hit), (Vector3<Scalar>{0, large / 2, 0}));
 }
 
