@@ -24,7 +24,7 @@ bool ask() {
 }
 int main() { return ask<float>() || ask<double>() ? 0 : 1; }
 ")
-execute_process(COMMAND "${COMPILER}" ${include_flags} -E "${TEST_FOLDER}/user.cpp"
+execute_process(COMMAND "${COMPILER}" ${include_flags} -E -P -DNDEBUG "${TEST_FOLDER}/user.cpp"  # without the paths of headers
   OUTPUT_VARIABLE preprocessed COMMAND_ERROR_IS_FATAL ANY)
 file(GLOB_RECURSE internal_headers RELATIVE "${SOURCE_FOLDER}"
   "${SOURCE_FOLDER}/broadphase/src/*.hpp" "${SOURCE_FOLDER}/collision/src/*.hpp")
