@@ -109,6 +109,8 @@ template <typename Number>
 /// Returns (x + t y) / z, where the result is at least 0 and z is positive.
 template <typename Number>
 [[nodiscard]] DoubleRange weight_of(const Number& x, const Number& y, const DoubleRange& t, const Number& z) {
+  // A smaller t might underflow in a product.
+  if (t.upper != 0 && t.lower < 0x1p-900) return {0, std::numeric_limits<double>::infinity()};
   // Each product with an end of t is off by what y is off, and the roundings here.
   const double products[2] = {t.lower * y.value, t.upper * y.value};
   const double error =
