@@ -34,7 +34,7 @@ class CapsulePairDrawer {
     CapsulePair<Scalar> pair = aimed(wall, Vector3<Scalar>(0, 0, random_.symmetric<Scalar>()), radius(), vector() * 2);
     if (random_.one_in(3)) std::swap(pair.triangle.a, pair.triangle.b);
     if (random_.one_in(3)) pair.capsule.end[2] = pair.capsule.start[2];
-    return pair;
+    return random_.one_in(4) ? beside(pair) : pair;
   }
   CapsulePair<Scalar> lying_on_floors() {
     Triangle<Scalar> floor = triangle();
@@ -46,7 +46,7 @@ class CapsulePairDrawer {
       pair.capsule.end[0] = pair.capsule.start[0];
       pair.capsule.end[1] = pair.capsule.start[1];
     }
-    return pair;
+    return random_.one_in(4) ? beside(pair) : pair;
   }
 
   /// A capsule whose core stays at the height of the radius above a feature, and passes straight over it.

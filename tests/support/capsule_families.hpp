@@ -14,8 +14,8 @@ namespace surehit::test {
 /// Kinds of moving capsules and triangles that are hard in different ways.
 enum class CapsuleFamily : std::uint8_t {
   general,
-  upright_at_walls,  ///< The axis is parallel to the triangle and to one of its edges.
-  lying_on_floors,   ///< The axis is parallel to the triangle.
+  upright_at_walls,  ///< The axis is parallel to the triangle and to one of its edges, or one ulp beside.
+  lying_on_floors,   ///< The axis is parallel to the triangle, or one ulp beside.
   tangent,           ///< grazes a face, an edge or a corner in whole numbers, turned by rational angles
   beside_tangent,    ///< the same with one number moved by one ulp
   in_plane,          ///< slides in the triangle's plane, or at the height of the radius above it

@@ -26,9 +26,9 @@ enum class Feature : std::uint8_t {
 /// to even.
 ///
 /// The touched point is a + u (b - a) + v (c - a): the triangle's point that is nearest to the shape at the exact t. A
-/// box may contain several points of the triangle. Then it is the one that is nearest to the box's centre. On a
-/// triangle without area, the weights are those of its two extreme corners, and the third corner has weight 0. If it is
-/// a point, the first corner is touched.
+/// box may contain several points of it, and several may be as near to a capsule. Then it is the one that is nearest to
+/// the shape's centre. On a triangle without area, the weights are those of its two extreme corners, and the third
+/// corner has weight 0. If it is a point, the first corner is touched.
 ///
 /// It is not promised that the shape at the rounded t touches the triangle, or that it does not reach into it. A
 /// default hit is a miss, and its other members mean nothing.

@@ -40,8 +40,8 @@ template <typename Scalar>
 /// Returns the box around a capsule, and its way.
 template <typename Scalar>
 [[nodiscard]] SweptExtents swept_extents(const SweptCapsule<Scalar>& capsule);
-/// Returns true if two triangles share the corner or the edge whose equation has t as a root, with the same part of the
-/// core. Neighbours often do. Then the capsule comes to both at the same time.
+/// Returns true if two triangles share the corner or the edge that has the touched point. Neighbours often do. Then the
+/// capsule comes to both at the same time, with the same part of its core or not.
 template <typename Scalar>
 [[nodiscard]] bool are_timed_alike(const Triangle<Scalar>& x_triangle, const CapsuleContact& x,
                                    const Triangle<Scalar>& y_triangle, const CapsuleContact& y);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -142,6 +143,29 @@ TYPED_TEST(CapsuleIntersect, TouchesThePointThatIsNearestToItsCentre) {
   }
 }
 
+TYPED_TEST(CapsuleIntersect, LiesOnFloorsOfAnySize) {
+  using Scalar = TypeParam;
+  // Products of two such numbers overflow in double, or those of four.
+  const int largest = std::numeric_limits<Scalar>::max_exponent * 3 / 5;
+  for (const int exponent : {-largest, -largest / 2, largest / 2, largest}) {
+    const Scalar unit = std::ldexp(Scalar{1}, exponent);
+    const Triangle<Scalar> ground{{0, 0, 0}, {8 * unit, 0, 0}, {0, 8 * unit, 0}};
+    const auto feature_below = [&](Scalar x, Scalar y, Scalar height) {
+      const SweptCapsule<Scalar> capsule{
+          {x * unit, y * unit, height * unit}, {x * unit, y * unit, -2 * unit}, {2 * unit, 0, 0}, unit};
+      return intersect(capsule, ground)->feature;
+    };
+    for (const Scalar height : {Scalar{0}, Scalar{4}}) {
+      EXPECT_EQ(feature_below(3, 2, height), Feature::face);
+      EXPECT_EQ(feature_below(-1, 2, height), Feature::edge_ca);
+      EXPECT_EQ(feature_below(7, 2, height), Feature::edge_bc);
+      EXPECT_EQ(feature_below(-1, 8, height), Feature::corner_c);
+      EXPECT_EQ(feature_below(3, 0, height), Feature::edge_ab);
+      EXPECT_EQ(feature_below(9, 0, height), Feature::corner_b);
+    }
+  }
+}
+
 TYPED_TEST(CapsuleIntersect, StandsAtAWall) {
   using Scalar = TypeParam;
   const Triangle<Scalar> wall{{0, 0, 0}, {0, 8, 0}, {0, 0, 8}};
@@ -159,6 +183,22 @@ TYPED_TEST(CapsuleIntersect, StandsAtAWall) {
   EXPECT_EQ(walks_at(2, -1)->feature, Feature::edge_ab);
   EXPECT_EQ(walks_at(2, 7)->feature, Feature::edge_bc);
   EXPECT_EQ(walks_at(0, 9)->feature, Feature::corner_c);
+}
+
+TYPED_TEST(CapsuleIntersect, TouchesAWallThatIsOneUlpOffWithAnEnd) {
+  using Scalar = TypeParam;
+  Random random(19);
+  for (std::size_t i = 0; i < case_count(100); ++i) {
+    const auto draw = [&] { return random.symmetric<Scalar>(); };
+    Triangle<Scalar> wall{{draw(), draw(), -2}, {draw(), draw(), draw()}, {0, 0, 2}};
+    wall.c[0] = std::nextafter(wall.a[0], Scalar(random.one_in(2) ? 2 : -2));
+    wall.c[1] = wall.a[1];
+    const Vector3<Scalar> middle = (wall.a + wall.b + wall.c) / 3;
+    const Vector3<Scalar> across = (wall.b - wall.a).cross(wall.c - wall.a);
+    const Vector3<Scalar> step = across + Vector3<Scalar>(draw(), draw(), draw()) / 8;
+    const SweptCapsule<Scalar> capsule{middle + step, middle - step, {0, 0, Scalar(0.125)}, Scalar(0.001)};
+    ASSERT_EQ(find_error(capsule, wall, intersect(capsule, wall)), std::nullopt) << i;
+  }
 }
 
 TYPED_TEST(CapsuleIntersect, CrossesATriangleAtItsStart) {
