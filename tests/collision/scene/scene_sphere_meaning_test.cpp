@@ -78,6 +78,22 @@ TYPED_TEST(SceneSphereMeaning, touch_in_one_point_is_found_wherever_the_tree_beg
   }
 }
 
+TYPED_TEST(SceneSphereMeaning, corner_is_touched_in_one_point_by_what_comes_from_far_away) {
+  Random random(4);
+  const auto eighths = [&] { return static_cast<TypeParam>(random.between(-800, 800)) / 8; };
+  const TypeParam far = sizeof(TypeParam) == 4 ? 0x1p12F : 0x1p44F;
+  for (std::size_t i = case_count(500); i > 0; --i) {
+    const TypeParam x = eighths();
+    const TypeParam y = eighths();
+    Scene<TypeParam> scene;
+    scene.add(this->floor, Pose<TypeParam>::translated({x, y, 0}));
+    const TypeParam other = 1000 * random.unit<TypeParam>();
+    scene.add(this->floor, Pose<TypeParam>::translated({-other, -other / 3, -other / 7}));
+    scene.commit();
+    EXPECT_TRUE(scene.any_hit(SweptSphere<TypeParam>{{x - far, y + far, 0}, {x + far, y - far, 0}, 0}));
+  }
+}
+
 // "While a shape moves, instances with a motion move too."
 
 TYPED_TEST(SceneSphereMeaning, moving_instance_comes_toward_the_ball) {
