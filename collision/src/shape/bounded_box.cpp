@@ -128,12 +128,10 @@ class Passage {
       leave(quotient_below(-gap.upper, -approach.lower),
             leaves ? quotient_above(-gap.lower, -approach.upper) : infinity);
     } else {
-      // Nothing is certain about the start.
+      // Nothing is certain about the start. If the centre is certainly inside at the end, it comes in until then.
       const bool enters = approach.lower > 0;
       enter(axis, enters ? quotient_above(gap.upper, approach.lower) : last.upper <= 0 ? 1 : infinity);
-      if (approach.lower >= 0) return;
-      const bool leaves = approach.upper < 0 && gap.lower <= 0;
-      leave(-1, leaves ? quotient_above(-gap.lower, -approach.upper) : infinity);
+      if (approach.upper < 0) leave(1, quotient_above(-gap.lower, -approach.upper));
     }
   }
 
