@@ -394,6 +394,24 @@ TYPED_TEST(ColliderSpheres, VisitFewCells) {
   EXPECT_LT(large.candidates, 200 * mesh.triangles.size() / 4);
 }
 
+// A fuzzer found the first one: one over the step on an axis is infinite.
+TYPED_TEST(ColliderSpheres, HitWithADenormalStepOnAnAxis) {
+  using Scalar = TypeParam;
+  const Scalar tiny = std::numeric_limits<Scalar>::denorm_min();
+  for (const Scalar height : {33 * tiny, -33 * tiny, tiny}) {
+    for (const Scalar radius : {Scalar{0}, tiny}) {
+      GeneratedMesh<Scalar> mesh;
+      mesh.add({{0, 0, -2}, {0, 0, -2}, {0, 0, -2}});
+      const Collider<Scalar> collider(mesh.view());
+      const SweptSphere<Scalar> down{{0, height, 4}, {0, 0, -2}, radius};
+      const SweptSphere<Scalar> up{down.end, down.start, radius};
+      EXPECT_EQ(collider.first_hit(down), intersect(down, collider.triangle(0)));
+      EXPECT_TRUE(collider.any_hit(down));
+      EXPECT_TRUE(collider.any_hit(up));
+    }
+  }
+}
+
 TYPED_TEST(ColliderSpheres, MissAColliderWithoutTriangles) {
   using Scalar = TypeParam;
   const Collider<Scalar> collider;
