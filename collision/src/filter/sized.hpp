@@ -23,9 +23,9 @@ struct Sized {
 ///
 /// Z2. This holds if every number that takes part is 0 or between 2^-60 and 2^50 in magnitude, and if no term has more
 ///     than 16 factors.
-/// Proof. Then no size is below 2^-960 or above 2^800, so none underflows or overflows. A value that has cancelled may be
-///     smaller than its size, and a product with it may lose 2^-1075. Later factors scale this as they scale the size, so
-///     it stays far below the 26 u of the size that Z1 leaves over.
+/// Proof. Then no size is below 2^-960 or above 2^800, so none underflows or overflows. A cancelled value may be
+///     smaller than its size, and a product with it may lose 2^-1075. Later factors scale this as they scale the size.
+///     So it stays far below the 26 u of the size that Z1 leaves over.
 inline constexpr double sized_error = 0x1p-46;
 inline constexpr double min_sized = 0x1p-60;
 inline constexpr double max_sized = 0x1p50;

@@ -24,7 +24,7 @@ TYPED_TEST(SphereIntersect, IsRightInEveryFieldForAllFamilies) {
   for (const SphereFamily family : all_sphere_families) {
     Random random(7 + static_cast<std::uint64_t>(family));
     std::size_t hits = 0;
-    const std::size_t count = case_count(sizeof(TypeParam) == 4 ? 1000 : 150);
+    const std::size_t count = case_count(sizeof(TypeParam) == 4 ? 2000 : 300);
     for (std::size_t i = 0; i < count; ++i) {
       const auto [sphere, triangle] = draw_sphere_pair<TypeParam>(family, random);
       const auto hit = intersect(sphere, triangle);
