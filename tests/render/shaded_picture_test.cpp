@@ -306,7 +306,7 @@ TEST(ShadedPicture, more_samples_are_a_mean) {
 }
 
 /// So many pixels that there are several batches.
-constexpr ShadingOptions several_batches{.width = 320, .height = 180, .samples = 1};
+constexpr ShadingOptions several_batches{.width = 192, .height = 108, .samples = 1};
 
 TEST(ShadedPicture, is_the_same_for_any_number_of_threads) {
   const Stage stage = exercise_stage();

@@ -4,23 +4,11 @@
 #include <string>
 #include <utility>
 
+#include "support/sanitizer.hpp"
 #include "visibility_bake_run.hpp"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // GCC
-#define SUREHIT_HAS_SANITIZER true
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SUREHIT_HAS_SANITIZER true
-#endif
-#endif
-#ifndef SUREHIT_HAS_SANITIZER
-#define SUREHIT_HAS_SANITIZER false
-#endif
 
 namespace surehit::test {
 namespace {
-
-constexpr bool has_sanitizer = SUREHIT_HAS_SANITIZER;
 
 /// Runs the program with mpirun on this machine, with more ranks than it may have cores.
 class RanksTest : public VisibilityBakeRun {
@@ -48,7 +36,7 @@ TEST_F(RanksTest, write_the_same_bytes_as_one_process) {
 }
 
 TEST_F(RanksTest, go_on_after_they_were_killed) {
-  const std::string arguments = "--spacing 2 --samples 255 --checkpoint-seconds 0.02 ";
+  const std::string arguments = "--spacing 2 " + samples_of_a_long_run() + "--checkpoint-seconds 0.02 ";
   ASSERT_EQ(run_.run(arguments + files("whole")).status, 0);
   // The child is mpirun, whose children are the ranks.
   const auto killed =

@@ -11,8 +11,7 @@ namespace {
 
 class VisibilityBakeProgram : public VisibilityBakeRun {
  protected:
-  /// Seconds of work. Most rows are still missing when the first checkpoint is seen.
-  const std::string long_run_ = "--spacing 2 --samples 255 --threads 1 --checkpoint-seconds 0.02 ";
+  const std::string long_run_ = "--spacing 2 " + samples_of_a_long_run() + "--threads 1 --checkpoint-seconds 0.02 ";
 
   void expect_bad_input(const std::string& arguments, const std::string& error) {
     const auto outcome = run_.run(arguments);

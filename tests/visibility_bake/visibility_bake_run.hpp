@@ -5,6 +5,7 @@
 #include <string>
 
 #include "support/program_run.hpp"
+#include "support/sanitizer.hpp"
 
 namespace surehit::test {
 
@@ -16,6 +17,11 @@ class VisibilityBakeRun : public testing::Test {
   /// The options for all three files.
   [[nodiscard]] static std::string files(const std::string& name) {
     return " -o " + name + ".pvs --csv " + name + ".csv --picture " + name + ".png ";
+  }
+
+  /// Seconds of work: a program is still far from its end when its first checkpoint is seen.
+  [[nodiscard]] static std::string samples_of_a_long_run() {
+    return has_sanitizer ? "--samples 60 " : "--samples 255 ";
   }
 
   /// Lets what was started as `child` go on in the background until it has written a checkpoint.
