@@ -44,7 +44,7 @@ class Colliders {
 
  private:
   static const void* address(const PendingInstance<Scalar>& instance) {
-    return instance.collider ? static_cast<const void*>(instance.collider.get()) : instance.float_collider.get();
+    return instance.collider != nullptr ? static_cast<const void*>(instance.collider) : instance.float_collider;
   }
 
   std::vector<InstanceMesh<Scalar>> all_;
@@ -216,8 +216,14 @@ class SceneReading {
     if (collider == no_collider) return true;
     if (collider >= colliders_.size()) return fault("there is no collider " + std::to_string(collider));
     colliders_[collider].is_used = true;
-    instance.collider = colliders_[collider].own;
-    instance.float_collider = colliders_[collider].floats;
+    const Loaded& loaded = colliders_[collider];
+    instance.collider = loaded.own.get();
+    instance.float_collider = loaded.floats.get();
+    if (loaded.own) {
+      instance.share = loaded.own;
+    } else {
+      instance.share = loaded.floats;
+    }
     instance.is_there = true;
     state_.note_change(index);
     ++state_.count;
@@ -262,17 +268,19 @@ class SceneReading {
 }  // namespace
 
 template <typename Scalar>
-std::optional<InvalidFile> load(std::span<const std::byte> bytes, const LoadOptions& options,
-                                SceneState<Scalar>& state) {
+std::optional<InvalidFile> load(std::span<const std::byte> bytes, const LoadOptions& options, SceneState<Scalar>& state,
+                                CommittedShare<Scalar>& committed) {
   if (auto invalid = find_invalid_head(bytes, FileKind::scene, sizeof(Scalar))) return invalid;
   if (auto invalid = SceneReading<Scalar>(body_of(bytes), options, state).read()) return invalid;
-  state.commit(address_of(options.executor));
+  state.commit(committed, address_of(options.executor));
   return std::nullopt;
 }
 
 template bool save(const SceneState<float>&, const ByteSink&);
 template bool save(const SceneState<double>&, const ByteSink&);
-template std::optional<InvalidFile> load(std::span<const std::byte>, const LoadOptions&, SceneState<float>&);
-template std::optional<InvalidFile> load(std::span<const std::byte>, const LoadOptions&, SceneState<double>&);
+template std::optional<InvalidFile> load(std::span<const std::byte>, const LoadOptions&, SceneState<float>&,
+                                         CommittedShare<float>&);
+template std::optional<InvalidFile> load(std::span<const std::byte>, const LoadOptions&, SceneState<double>&,
+                                         CommittedShare<double>&);
 
 }  // namespace surehit::detail

@@ -14,9 +14,9 @@ namespace surehit::detail {
 template <typename Scalar>
 [[nodiscard]] bool save(const SceneState<Scalar>& state, const ByteSink& sink);
 
-/// Loads a scene into a new state, and commits it. Returns what is wrong, or nothing.
+/// Loads a scene into new states, and commits it. Returns what is wrong, or nothing.
 template <typename Scalar>
 [[nodiscard]] std::optional<InvalidFile> load(std::span<const std::byte> bytes, const LoadOptions& options,
-                                              SceneState<Scalar>& state);
+                                              SceneState<Scalar>& state, CommittedShare<Scalar>& committed);
 
 }  // namespace surehit::detail

@@ -3,26 +3,20 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
-#include "exact/exact_contact.hpp"
 #include "file/scene_file.hpp"
-#include "query/answer_batch.hpp"
-#include "query/free_point.hpp"
+#include "scene/committed_scene.hpp"
+#include "scene/instance_triangle.hpp"
 #include "scene/invalid_pose.hpp"
 #include "scene/scene_state.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/in_parts.hpp"
 #include "support/rounding_flags.hpp"
-#include "unit_of_cross.hpp"
 
 namespace surehit {
 namespace {
-
-/// The number of paths in a task of a batch. Paths of a scene take longer than those of a collider.
-constexpr std::size_t scene_paths_in_a_task = 1024;
 
 template <typename Scalar>
 using SceneStateOf = detail::SceneState<Scalar>;
@@ -31,47 +25,6 @@ InvalidInstance stale(InstanceId id) {
   return {InvalidInstance::Reason::stale_id, id.index,
           "there is no instance with index " + std::to_string(id.index) + " and generation " +
               std::to_string(id.generation)};
-}
-
-/// A query of one path, with what it needs while it runs.
-template <typename Scalar>
-class SingleSceneQuery {
- public:
-  SingleSceneQuery(const SceneStateOf<Scalar>& state, const SceneQueryOptions<Scalar>& options,
-                   const SceneHitFilter<Scalar>* filter, QueryStatistics* statistics, Scalar share = 1)
-      : query_{state.committed, state.tree, options, filter, statistics != nullptr ? *statistics : unread_, 0, share} {}
-  [[nodiscard]] const detail::SceneQuery<Scalar>& get() const { return query_; }
-
- private:
-  FloatingPointEnvironment environment_;
-  QueryStatistics unread_;  ///< Counts if the caller has no statistics.
-  detail::SceneQuery<Scalar> query_;
-};
-
-/// Answers a batch in parts. `search` is one of the searches for batches.
-template <typename Scalar, typename Answer, typename Search>
-void answer_batch(const SceneStateOf<Scalar>& state, const PathSpan<Scalar>& paths, std::span<Answer> answers,
-                  const SceneBatchOptions<Scalar>& options, const Search& search) noexcept {
-  const SceneHitFilter<Scalar>* const filter = options.filter ? &*options.filter : nullptr;
-  const auto ask_part = [&](std::size_t first, std::size_t last, std::span<const SceneQueryOptions<Scalar>> own_options,
-                            QueryStatistics& statistics) {
-    const FloatingPointEnvironment environment;
-    const detail::SceneQuery<Scalar> part{state.committed, state.tree, options.options, filter, statistics, first};
-    search(part, paths.subspan(first, last - first), own_options, answers.subspan(first, last - first));
-  };
-  detail::answer_batch(std::min(paths.size(), answers.size()), options, scene_paths_in_a_task, ask_part);
-}
-
-/// The instances go the same share of their ways as the point.
-template <typename Scalar>
-Vector3<Scalar> find_free_point(const SceneStateOf<Scalar>& state, const Segment<Scalar>& segment,
-                                const SceneHit<Scalar>& hit, const SceneQueryOptions<Scalar>& options,
-                                const SceneHitFilter<Scalar>* filter) noexcept {
-  return detail::find_free_point(segment, hit.t, options,
-                                 [&](const Path<Scalar>& path, const SceneQueryOptions<Scalar>& shortened, Scalar s) {
-                                   const SingleSceneQuery<Scalar> query(state, shortened, filter, nullptr, s);
-                                   return state.searches->any(query.get(), path);
-                                 });
 }
 
 }  // namespace
@@ -103,7 +56,11 @@ InstanceResult Scene<Scalar>::add_instance(ColliderPointer collider,
     return InvalidInstance(InvalidInstance::Reason::no_collider, 0, "the pointer to the collider is null");
   }
   if (std::optional<InvalidInstance> invalid = detail::find_invalid(pose)) return *std::move(invalid);
-  if (!state_) state_ = StatePointer(new SceneStateOf<Scalar>);
+  if (!state_) {
+    StatePointer made(new SceneStateOf<Scalar>);
+    this->committed_ = detail::CommittedShare<Scalar>(new detail::CommittedScene<Scalar>);
+    state_ = std::move(made);
+  }
   auto& pending = state_->pending;
   if (state_->unused.empty()) {
     // An index is below the bit of the tree that marks an instance.
@@ -123,8 +80,13 @@ InstanceResult Scene<Scalar>::add_instance(ColliderPointer collider,
   const std::uint32_t index = state_->unused.back();
   state_->unused.pop_back();
   detail::PendingInstance<Scalar>& instance = pending[index];
-  instance.collider = std::move(collider);
-  instance.float_collider = std::move(float_collider);
+  instance.collider = collider.get();
+  instance.float_collider = float_collider.get();
+  if (collider) {
+    instance.share = std::move(collider);
+  } else {
+    instance.share = std::move(float_collider);
+  }
   instance.placement = {pose};
   instance.options = options;
   instance.is_there = true;
@@ -199,7 +161,7 @@ InstanceResult Scene<Scalar>::try_set_mask(InstanceId id, std::uint32_t mask) {
 template <FloatOrDouble Scalar>
 void Scene<Scalar>::commit(const std::optional<Executor>& executor) {
   const FloatingPointEnvironment environment;
-  if (state_) state_->commit(detail::address_of(executor));
+  if (state_) state_->commit(this->committed_, detail::address_of(executor));
 }
 
 template <FloatOrDouble Scalar>
@@ -211,8 +173,10 @@ template <FloatOrDouble Scalar>
 LoadResult Scene<Scalar>::try_load(std::span<const std::byte> bytes, const LoadOptions& options) {
   const FloatingPointEnvironment environment;
   StatePointer loaded(new SceneStateOf<Scalar>);
-  if (std::optional<InvalidFile> invalid = detail::load(bytes, options, *loaded)) return *std::move(invalid);
+  detail::CommittedShare<Scalar> committed(new detail::CommittedScene<Scalar>);
+  if (std::optional<InvalidFile> invalid = detail::load(bytes, options, *loaded, committed)) return *std::move(invalid);
   state_ = std::move(loaded);
+  this->committed_ = std::move(committed);
   return {};
 }
 
@@ -264,140 +228,27 @@ std::uint64_t Scene<Scalar>::user_data(InstanceId id) const noexcept {
 template <FloatOrDouble Scalar>
 std::size_t Scene<Scalar>::triangle_count(InstanceId id) const noexcept {
   assert(contains(id));
-  const auto* const instance = state().find(id);
-  return instance->collider ? instance->collider->triangle_count() : instance->float_collider->triangle_count();
-}
-
-template <FloatOrDouble Scalar>
-Box<Scalar> Scene<Scalar>::box() const noexcept {
-  const FloatingPointEnvironment environment;
-  Box<Scalar> box;
-  const detail::InstanceTree& tree = state().tree;
-  if (tree.is_empty()) return box;
-  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<Eigen::Index>(axis);
-    const auto low = static_cast<Scalar>(tree.box().low[axis]);
-    const auto high = static_cast<Scalar>(tree.box().high[axis]);
-    box.low[i] = double{low} <= tree.box().low[axis] ? low : std::nextafter(low, -infinity);
-    box.high[i] = double{high} >= tree.box().high[axis] ? high : std::nextafter(high, infinity);
-  }
-  return box;
+  return detail::triangle_count(state().find(id)->mesh());
 }
 
 template <FloatOrDouble Scalar>
 std::size_t Scene<Scalar>::memory_bytes() const noexcept {
   if (!state_) return 0;
-  const SceneStateOf<Scalar>& of = *state_;
-  return sizeof of + of.pending.capacity() * sizeof(of.pending[0]) +
-         (of.changed.capacity() + of.unused.capacity()) * sizeof(std::uint32_t) +
-         of.committed.capacity() * sizeof(of.committed[0]) + of.boxes.capacity() * sizeof(of.boxes[0]) +
-         of.tree.memory_bytes();
+  return state_->memory_bytes() + this->committed().memory_bytes();
 }
-
-namespace {
-
-/// Calls `use(triangle)` for a triangle of an instance, as a `PlacedTriangle` of the scene's Scalar.
-template <typename Scalar, typename Use>
-auto use_triangle(const detail::PendingInstance<Scalar>& instance, std::uint32_t triangle, const Use& use) {
-  const auto placed = [&](const auto& local) {
-    return use(detail::PlacedTriangle<Scalar>{
-        {local.a.template cast<Scalar>(), local.b.template cast<Scalar>(), local.c.template cast<Scalar>()},
-        instance.placement});
-  };
-  return instance.collider ? placed(instance.collider->triangle(triangle))
-                           : placed(instance.float_collider->triangle(triangle));
-}
-
-}  // namespace
 
 template <FloatOrDouble Scalar>
 Triangle<Scalar> Scene<Scalar>::triangle(InstanceId id, std::uint32_t triangle) const noexcept {
   assert(contains(id));
-  const FloatingPointEnvironment environment;
-  return use_triangle(*state().find(id), triangle,
-                      [](const auto& placed) -> Triangle<Scalar> { return detail::exact_corners(placed); });
+  const detail::PendingInstance<Scalar>& instance = *state().find(id);
+  return detail::placed_corners(instance.mesh(), instance.placement, triangle);
 }
 
 template <FloatOrDouble Scalar>
 Vector3<Scalar> Scene<Scalar>::normal(InstanceId id, std::uint32_t triangle) const noexcept {
   assert(contains(id));
-  const FloatingPointEnvironment environment;
-  return use_triangle(*state().find(id), triangle, [](const auto& placed) -> Vector3<Scalar> {
-    return detail::unit_of_cross<Scalar>(detail::exact_cross(placed));
-  });
-}
-
-template <FloatOrDouble Scalar>
-std::optional<SceneHit<Scalar>> Scene<Scalar>::first_hit(const Path<Scalar>& path,
-                                                         const SceneQueryOptions<Scalar>& options,
-                                                         QueryStatistics* statistics) const noexcept {
-  const SingleSceneQuery<Scalar> query(state(), options, nullptr, statistics);
-  return state().searches->first(query.get(), path);
-}
-
-template <FloatOrDouble Scalar>
-std::optional<SceneHit<Scalar>> Scene<Scalar>::first_hit(const Path<Scalar>& path, SceneHitFilter<Scalar> filter,
-                                                         const SceneQueryOptions<Scalar>& options,
-                                                         QueryStatistics* statistics) const noexcept {
-  const SingleSceneQuery<Scalar> query(state(), options, &filter, statistics);
-  return state().searches->first(query.get(), path);
-}
-
-template <FloatOrDouble Scalar>
-bool Scene<Scalar>::any_hit(const Path<Scalar>& path, const SceneQueryOptions<Scalar>& options,
-                            QueryStatistics* statistics) const noexcept {
-  const SingleSceneQuery<Scalar> query(state(), options, nullptr, statistics);
-  return state().searches->any(query.get(), path);
-}
-
-template <FloatOrDouble Scalar>
-bool Scene<Scalar>::any_hit(const Path<Scalar>& path, SceneHitFilter<Scalar> filter,
-                            const SceneQueryOptions<Scalar>& options, QueryStatistics* statistics) const noexcept {
-  const SingleSceneQuery<Scalar> query(state(), options, &filter, statistics);
-  return state().searches->any(query.get(), path);
-}
-
-template <FloatOrDouble Scalar>
-void Scene<Scalar>::all_hits(const Path<Scalar>& path, std::vector<SceneHit<Scalar>>& hits,
-                             const SceneQueryOptions<Scalar>& options, QueryStatistics* statistics) const {
-  const SingleSceneQuery<Scalar> query(state(), options, nullptr, statistics);
-  hits.clear();
-  state().searches->all(query.get(), path, hits);
-}
-
-template <FloatOrDouble Scalar>
-void Scene<Scalar>::all_hits(const Path<Scalar>& path, std::vector<SceneHit<Scalar>>& hits,
-                             SceneHitFilter<Scalar> filter, const SceneQueryOptions<Scalar>& options,
-                             QueryStatistics* statistics) const {
-  const SingleSceneQuery<Scalar> query(state(), options, &filter, statistics);
-  hits.clear();
-  state().searches->all(query.get(), path, hits);
-}
-
-template <FloatOrDouble Scalar>
-void Scene<Scalar>::first_hits(const PathSpan<Scalar>& paths, std::span<SceneHit<Scalar>> hits,
-                               const SceneBatchOptions<Scalar>& options) const noexcept {
-  answer_batch(state(), paths, hits, options, state().searches->each_first);
-}
-
-template <FloatOrDouble Scalar>
-void Scene<Scalar>::any_hits(const PathSpan<Scalar>& paths, std::span<std::uint8_t> blocked,
-                             const SceneBatchOptions<Scalar>& options) const noexcept {
-  answer_batch(state(), paths, blocked, options, state().searches->each_any);
-}
-
-template <FloatOrDouble Scalar>
-Vector3<Scalar> Scene<Scalar>::last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
-                                               const SceneQueryOptions<Scalar>& options) const noexcept {
-  return find_free_point<Scalar>(state(), segment, hit, options, nullptr);
-}
-
-template <FloatOrDouble Scalar>
-Vector3<Scalar> Scene<Scalar>::last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
-                                               SceneHitFilter<Scalar> filter,
-                                               const SceneQueryOptions<Scalar>& options) const noexcept {
-  return find_free_point(state(), segment, hit, options, &filter);
+  const detail::PendingInstance<Scalar>& instance = *state().find(id);
+  return detail::placed_normal(instance.mesh(), instance.placement, triangle);
 }
 
 template struct detail::DeleteSceneState<float>;

@@ -20,7 +20,7 @@
 
 #include "query/query_walk-inl.hpp"
 #include "scene/scene_narrowphase.hpp"
-#include "scene/scene_state.hpp"
+#include "scene/scene_query.hpp"
 #include "scene/tree_walk-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

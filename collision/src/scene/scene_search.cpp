@@ -1,4 +1,4 @@
-#include "scene/scene_state.hpp"
+#include "scene/scene_query.hpp"
 #include "support/rounding_flags.hpp"
 
 // Highway compiles this file once for each instruction set.

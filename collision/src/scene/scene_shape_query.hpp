@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/scene_state.hpp"
+#include "scene/committed_scene.hpp"
 #include "shape/shape_contact.hpp"
 #include "surehit/query_statistics.hpp"
 #include "surehit/scene_shape_hit.hpp"

@@ -4,16 +4,16 @@
 #include <variant>
 
 #include "query/answer_batch.hpp"
+#include "scene/committed_scene.hpp"
 #include "scene/scene_shape_query.hpp"
-#include "scene/scene_state.hpp"
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
 #include "shape/sphere_contact.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"
-#include "surehit/scene.hpp"
+#include "surehit/scene_queries.hpp"
 
-// The functions of a scene that take moving shapes.
+// The queries of a scene that take moving shapes.
 
 namespace surehit {
 namespace {
@@ -23,13 +23,13 @@ constexpr std::size_t scene_shapes_in_a_task = 256;
 
 /// Calls `search(query, shape)` with the query of one shape, in the floating-point environment of the library.
 template <typename Scalar, typename Search>
-decltype(auto) ask_scene(const detail::SceneState<Scalar>& state, const SweptShape<Scalar>& shape,
+decltype(auto) ask_scene(const detail::CommittedScene<Scalar>& scene, const SweptShape<Scalar>& shape,
                          const SceneShapeQueryOptions<Scalar>& options, const SceneShapeHitFilter<Scalar>* filter,
                          QueryStatistics* statistics, const Search& search) {
   const FloatingPointEnvironment environment;
   QueryStatistics unread;
   const detail::SceneShapeQuery<Scalar> query{
-      state.committed, state.tree, options, filter, statistics != nullptr ? *statistics : unread, 0};
+      scene.instances, scene.tree, options, filter, statistics != nullptr ? *statistics : unread, 0};
   return std::visit([&](const auto& any) { return search(query, any); }, shape);
 }
 
@@ -40,15 +40,16 @@ constexpr auto search_scene_any = [](const auto& query, const auto& shape) { ret
 
 /// Answers a batch. `search(query, shape, index)` answers one shape.
 template <typename Scalar, typename Search>
-void ask_scene_batch(const detail::SceneState<Scalar>& state, const SweptShapeSpan<Scalar>& shapes, std::size_t answers,
-                     const SceneShapeBatchOptions<Scalar>& options, const Search& search) noexcept {
+void ask_scene_batch(const detail::CommittedScene<Scalar>& scene, const SweptShapeSpan<Scalar>& shapes,
+                     std::size_t answers, const SceneShapeBatchOptions<Scalar>& options,
+                     const Search& search) noexcept {
   const SceneShapeHitFilter<Scalar>* const filter = options.filter ? &*options.filter : nullptr;
   const auto ask_all = [&](const auto& all) {
     const auto ask_part = [&](std::size_t first, std::size_t last, auto own_options, QueryStatistics& statistics) {
       const FloatingPointEnvironment environment;
       for (std::size_t i = first; i < last; ++i) {
         const SceneShapeQueryOptions<Scalar>& of_shape = own_options.empty() ? options.options : own_options[i - first];
-        search(detail::SceneShapeQuery<Scalar>{state.committed, state.tree, of_shape, filter, statistics, i}, all[i],
+        search(detail::SceneShapeQuery<Scalar>{scene.instances, scene.tree, of_shape, filter, statistics, i}, all[i],
                i);
       }
     };
@@ -60,35 +61,36 @@ void ask_scene_batch(const detail::SceneState<Scalar>& state, const SweptShapeSp
 }  // namespace
 
 template <FloatOrDouble Scalar>
-std::optional<SceneShapeHit<Scalar>> Scene<Scalar>::first_hit(const SweptShape<Scalar>& shape,
-                                                              const SceneShapeQueryOptions<Scalar>& options,
-                                                              QueryStatistics* statistics) const noexcept {
-  return ask_scene<Scalar>(state(), shape, options, nullptr, statistics, search_scene_first);
+std::optional<SceneShapeHit<Scalar>> SceneQueries<Scalar>::first_hit(const SweptShape<Scalar>& shape,
+                                                                     const SceneShapeQueryOptions<Scalar>& options,
+                                                                     QueryStatistics* statistics) const noexcept {
+  return ask_scene<Scalar>(committed(), shape, options, nullptr, statistics, search_scene_first);
 }
 
 template <FloatOrDouble Scalar>
-std::optional<SceneShapeHit<Scalar>> Scene<Scalar>::first_hit(const SweptShape<Scalar>& shape,
-                                                              SceneShapeHitFilter<Scalar> filter,
-                                                              const SceneShapeQueryOptions<Scalar>& options,
-                                                              QueryStatistics* statistics) const noexcept {
-  return ask_scene<Scalar>(state(), shape, options, &filter, statistics, search_scene_first);
+std::optional<SceneShapeHit<Scalar>> SceneQueries<Scalar>::first_hit(const SweptShape<Scalar>& shape,
+                                                                     SceneShapeHitFilter<Scalar> filter,
+                                                                     const SceneShapeQueryOptions<Scalar>& options,
+                                                                     QueryStatistics* statistics) const noexcept {
+  return ask_scene<Scalar>(committed(), shape, options, &filter, statistics, search_scene_first);
 }
 
 template <FloatOrDouble Scalar>
-bool Scene<Scalar>::any_hit(const SweptShape<Scalar>& shape, const SceneShapeQueryOptions<Scalar>& options,
-                            QueryStatistics* statistics) const noexcept {
-  return ask_scene<Scalar>(state(), shape, options, nullptr, statistics, search_scene_any);
+bool SceneQueries<Scalar>::any_hit(const SweptShape<Scalar>& shape, const SceneShapeQueryOptions<Scalar>& options,
+                                   QueryStatistics* statistics) const noexcept {
+  return ask_scene<Scalar>(committed(), shape, options, nullptr, statistics, search_scene_any);
 }
 
 template <FloatOrDouble Scalar>
-bool Scene<Scalar>::any_hit(const SweptShape<Scalar>& shape, SceneShapeHitFilter<Scalar> filter,
-                            const SceneShapeQueryOptions<Scalar>& options, QueryStatistics* statistics) const noexcept {
-  return ask_scene<Scalar>(state(), shape, options, &filter, statistics, search_scene_any);
+bool SceneQueries<Scalar>::any_hit(const SweptShape<Scalar>& shape, SceneShapeHitFilter<Scalar> filter,
+                                   const SceneShapeQueryOptions<Scalar>& options,
+                                   QueryStatistics* statistics) const noexcept {
+  return ask_scene<Scalar>(committed(), shape, options, &filter, statistics, search_scene_any);
 }
 
 template <FloatOrDouble Scalar>
-bool Scene<Scalar>::overlaps(const SweptShape<Scalar>& shape, const SceneShapeQueryOptions<Scalar>& options,
-                             QueryStatistics* statistics) const noexcept {
+bool SceneQueries<Scalar>::overlaps(const SweptShape<Scalar>& shape, const SceneShapeQueryOptions<Scalar>& options,
+                                    QueryStatistics* statistics) const noexcept {
   SceneShapeQueryOptions<Scalar> at_start = options;
   at_start.max_t = 0;
   at_start.ignore_start_contact = false;
@@ -98,72 +100,74 @@ bool Scene<Scalar>::overlaps(const SweptShape<Scalar>& shape, const SceneShapeQu
 }
 
 template <FloatOrDouble Scalar>
-void Scene<Scalar>::all_hits(const SweptShape<Scalar>& shape, std::vector<SceneShapeHit<Scalar>>& hits,
-                             const SceneShapeQueryOptions<Scalar>& options, QueryStatistics* statistics) const {
+void SceneQueries<Scalar>::all_hits(const SweptShape<Scalar>& shape, std::vector<SceneShapeHit<Scalar>>& hits,
+                                    const SceneShapeQueryOptions<Scalar>& options, QueryStatistics* statistics) const {
   hits.clear();
-  ask_scene<Scalar>(state(), shape, options, nullptr, statistics,
+  ask_scene<Scalar>(committed(), shape, options, nullptr, statistics,
                     [&](const auto& query, const auto& any) { detail::search_all(query, any, hits); });
 }
 
 template <FloatOrDouble Scalar>
-void Scene<Scalar>::all_hits(const SweptShape<Scalar>& shape, std::vector<SceneShapeHit<Scalar>>& hits,
-                             SceneShapeHitFilter<Scalar> filter, const SceneShapeQueryOptions<Scalar>& options,
-                             QueryStatistics* statistics) const {
+void SceneQueries<Scalar>::all_hits(const SweptShape<Scalar>& shape, std::vector<SceneShapeHit<Scalar>>& hits,
+                                    SceneShapeHitFilter<Scalar> filter, const SceneShapeQueryOptions<Scalar>& options,
+                                    QueryStatistics* statistics) const {
   hits.clear();
-  ask_scene<Scalar>(state(), shape, options, &filter, statistics,
+  ask_scene<Scalar>(committed(), shape, options, &filter, statistics,
                     [&](const auto& query, const auto& any) { detail::search_all(query, any, hits); });
 }
 
 template <FloatOrDouble Scalar>
-void Scene<Scalar>::first_hits(const SweptShapeSpan<Scalar>& shapes, std::span<SceneShapeHit<Scalar>> hits,
-                               const SceneShapeBatchOptions<Scalar>& options) const noexcept {
-  ask_scene_batch<Scalar>(state(), shapes, hits.size(), options,
+void SceneQueries<Scalar>::first_hits(const SweptShapeSpan<Scalar>& shapes, std::span<SceneShapeHit<Scalar>> hits,
+                                      const SceneShapeBatchOptions<Scalar>& options) const noexcept {
+  ask_scene_batch<Scalar>(committed(), shapes, hits.size(), options,
                           [&](const auto& query, const auto& shape, std::size_t i) {
                             hits[i] = detail::search_first(query, shape).value_or(SceneShapeHit<Scalar>{});
                           });
 }
 
 template <FloatOrDouble Scalar>
-void Scene<Scalar>::any_hits(const SweptShapeSpan<Scalar>& shapes, std::span<std::uint8_t> blocked,
-                             const SceneShapeBatchOptions<Scalar>& options) const noexcept {
-  ask_scene_batch<Scalar>(state(), shapes, blocked.size(), options,
+void SceneQueries<Scalar>::any_hits(const SweptShapeSpan<Scalar>& shapes, std::span<std::uint8_t> blocked,
+                                    const SceneShapeBatchOptions<Scalar>& options) const noexcept {
+  ask_scene_batch<Scalar>(committed(), shapes, blocked.size(), options,
                           [&](const auto& query, const auto& shape, std::size_t i) {
                             blocked[i] = detail::search_any(query, shape) ? 1 : 0;
                           });
 }
 
 template <FloatOrDouble Scalar>
-Scalar Scene<Scalar>::last_free_t(const SweptShape<Scalar>& shape, const SceneShapeHit<Scalar>& hit) const noexcept {
+Scalar SceneQueries<Scalar>::last_free_t(const SweptShape<Scalar>& shape,
+                                         const SceneShapeHit<Scalar>& hit) const noexcept {
   const FloatingPointEnvironment environment;
   if (hit.started_touching || !(hit.t > 0)) return 0;
-  const auto& instance = state().committed[hit.instance.index];
+  const auto& instance = committed().instances[hit.instance.index];
   const bool is_touched =
       std::visit([&](const auto& any) { return detail::touches(instance, hit.triangle, any, hit.t); }, shape);
   return is_touched ? std::nextafter(hit.t, Scalar{0}) : hit.t;
 }
 
 #define SUREHIT_INSTANTIATE(Scalar)                                                                                    \
-  template std::optional<SceneShapeHit<Scalar>> Scene<Scalar>::first_hit(                                              \
+  template std::optional<SceneShapeHit<Scalar>> SceneQueries<Scalar>::first_hit(                                       \
       const SweptShape<Scalar>&, const SceneShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept;              \
-  template std::optional<SceneShapeHit<Scalar>> Scene<Scalar>::first_hit(                                              \
+  template std::optional<SceneShapeHit<Scalar>> SceneQueries<Scalar>::first_hit(                                       \
       const SweptShape<Scalar>&, SceneShapeHitFilter<Scalar>, const SceneShapeQueryOptions<Scalar>&, QueryStatistics*) \
       const noexcept;                                                                                                  \
-  template bool Scene<Scalar>::any_hit(const SweptShape<Scalar>&, const SceneShapeQueryOptions<Scalar>&,               \
-                                       QueryStatistics*) const noexcept;                                               \
-  template bool Scene<Scalar>::any_hit(const SweptShape<Scalar>&, SceneShapeHitFilter<Scalar>,                         \
-                                       const SceneShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept;        \
-  template bool Scene<Scalar>::overlaps(const SweptShape<Scalar>&, const SceneShapeQueryOptions<Scalar>&,              \
-                                        QueryStatistics*) const noexcept;                                              \
-  template void Scene<Scalar>::all_hits(const SweptShape<Scalar>&, std::vector<SceneShapeHit<Scalar>>&,                \
-                                        const SceneShapeQueryOptions<Scalar>&, QueryStatistics*) const;                \
-  template void Scene<Scalar>::all_hits(const SweptShape<Scalar>&, std::vector<SceneShapeHit<Scalar>>&,                \
-                                        SceneShapeHitFilter<Scalar>, const SceneShapeQueryOptions<Scalar>&,            \
-                                        QueryStatistics*) const;                                                       \
-  template void Scene<Scalar>::first_hits(const SweptShapeSpan<Scalar>&, std::span<SceneShapeHit<Scalar>>,             \
-                                          const SceneShapeBatchOptions<Scalar>&) const noexcept;                       \
-  template void Scene<Scalar>::any_hits(const SweptShapeSpan<Scalar>&, std::span<std::uint8_t>,                        \
-                                        const SceneShapeBatchOptions<Scalar>&) const noexcept;                         \
-  template Scalar Scene<Scalar>::last_free_t(const SweptShape<Scalar>&, const SceneShapeHit<Scalar>&) const noexcept;
+  template bool SceneQueries<Scalar>::any_hit(const SweptShape<Scalar>&, const SceneShapeQueryOptions<Scalar>&,        \
+                                              QueryStatistics*) const noexcept;                                        \
+  template bool SceneQueries<Scalar>::any_hit(const SweptShape<Scalar>&, SceneShapeHitFilter<Scalar>,                  \
+                                              const SceneShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept; \
+  template bool SceneQueries<Scalar>::overlaps(const SweptShape<Scalar>&, const SceneShapeQueryOptions<Scalar>&,       \
+                                               QueryStatistics*) const noexcept;                                       \
+  template void SceneQueries<Scalar>::all_hits(const SweptShape<Scalar>&, std::vector<SceneShapeHit<Scalar>>&,         \
+                                               const SceneShapeQueryOptions<Scalar>&, QueryStatistics*) const;         \
+  template void SceneQueries<Scalar>::all_hits(const SweptShape<Scalar>&, std::vector<SceneShapeHit<Scalar>>&,         \
+                                               SceneShapeHitFilter<Scalar>, const SceneShapeQueryOptions<Scalar>&,     \
+                                               QueryStatistics*) const;                                                \
+  template void SceneQueries<Scalar>::first_hits(const SweptShapeSpan<Scalar>&, std::span<SceneShapeHit<Scalar>>,      \
+                                                 const SceneShapeBatchOptions<Scalar>&) const noexcept;                \
+  template void SceneQueries<Scalar>::any_hits(const SweptShapeSpan<Scalar>&, std::span<std::uint8_t>,                 \
+                                               const SceneShapeBatchOptions<Scalar>&) const noexcept;                  \
+  template Scalar SceneQueries<Scalar>::last_free_t(const SweptShape<Scalar>&, const SceneShapeHit<Scalar>&)           \
+      const noexcept;
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)
 #undef SUREHIT_INSTANTIATE

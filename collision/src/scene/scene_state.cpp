@@ -33,29 +33,41 @@ CommittedInstance<Scalar> made_of(const PendingInstance<Scalar>& instance) {
 }  // namespace
 
 template <FloatOrDouble Scalar>
-void SceneState<Scalar>::note_rebuilt_colliders() {
-  for (std::uint32_t index = 0; index < committed.size(); ++index) {
+std::size_t SceneState<Scalar>::memory_bytes() const noexcept {
+  std::size_t bytes = sizeof *this + pending.capacity() * sizeof(pending[0]) +
+                      (changed.capacity() + unused.capacity()) * sizeof(std::uint32_t) +
+                      changed_in.capacity() * sizeof(changed_in[0]) + boxes.capacity() * sizeof(boxes[0]) +
+                      former.capacity() * sizeof(former[0]);
+  for (const CommittedShare<Scalar>& scene : former) bytes += scene.get()->memory_bytes();
+  return bytes;
+}
+
+template <FloatOrDouble Scalar>
+void SceneState<Scalar>::note_rebuilt_colliders(const CommittedScene<Scalar>& before) {
+  for (std::uint32_t index = 0; index < before.instances.size(); ++index) {
     if (!pending[index].is_there || pending[index].has_changed) continue;
-    if (pending[index].mesh().version != committed[index].mesh.version) note_change(index);
+    if (pending[index].mesh().version != before.instances[index].mesh.version) note_change(index);
   }
 }
 
 template <FloatOrDouble Scalar>
-bool SceneState<Scalar>::keeps_tree(const std::vector<CommittedInstance<Scalar>>& made) const {
-  if (tree.is_worn()) return false;
+bool SceneState<Scalar>::keeps_tree(const CommittedScene<Scalar>& before,
+                                    const std::vector<CommittedInstance<Scalar>>& made) const {
+  if (before.tree.is_worn()) return false;
   for (std::size_t i = 0; i < changed.size(); ++i) {
-    const bool was_in_tree = changed[i] < committed.size() && committed[changed[i]].is_in_tree;
+    const bool was_in_tree = changed[i] < before.instances.size() && before.instances[changed[i]].is_in_tree;
     if (was_in_tree != made[i].is_in_tree) return false;
   }
   return true;
 }
 
 template <FloatOrDouble Scalar>
-InstanceTree SceneState<Scalar>::new_tree(const std::vector<CommittedInstance<Scalar>>& made) const {
+InstanceTree SceneState<Scalar>::new_tree(const CommittedScene<Scalar>& before,
+                                          const std::vector<CommittedInstance<Scalar>>& made) const {
   std::vector<InstanceBox> all_boxes = boxes;
   all_boxes.resize(pending.size());
   std::vector<std::uint8_t> is_in_tree(pending.size(), 0);
-  for (std::size_t i = 0; i < committed.size(); ++i) is_in_tree[i] = committed[i].is_in_tree ? 1 : 0;
+  for (std::size_t i = 0; i < before.instances.size(); ++i) is_in_tree[i] = before.instances[i].is_in_tree ? 1 : 0;
   for (std::size_t i = 0; i < changed.size(); ++i) {
     all_boxes[changed[i]] = made[i].box();
     is_in_tree[changed[i]] = made[i].is_in_tree ? 1 : 0;
@@ -64,9 +76,53 @@ InstanceTree SceneState<Scalar>::new_tree(const std::vector<CommittedInstance<Sc
   for (std::uint32_t i = 0; i < is_in_tree.size(); ++i) {
     if (is_in_tree[i] != 0) indices.push_back(i);
   }
-  InstanceTree built;
-  built.build(indices, all_boxes);
-  return built;
+  InstanceTree built_tree;
+  built_tree.build(indices, all_boxes);
+  return built_tree;
+}
+
+template <FloatOrDouble Scalar>
+CommittedShare<Scalar> SceneState<Scalar>::unshared(const CommittedShare<Scalar>& current) const {
+  if (!current.get()->is_shared()) return current;
+  // The last one has to catch up least.
+  for (auto scene = former.rbegin(); scene != former.rend(); ++scene) {
+    if (!scene->get()->is_shared()) return *scene;
+  }
+  return CommittedShare<Scalar>(new CommittedScene<Scalar>);
+}
+
+template <FloatOrDouble Scalar>
+void SceneState<Scalar>::catch_up(CommittedScene<Scalar>& next, const CommittedScene<Scalar>& before) const noexcept {
+  next.instances.resize(pending.size());
+  next.kept.resize(pending.size());
+  if (&next == &before) return;
+  for (std::size_t i = 0; i < before.instances.size(); ++i) {
+    if (changed_in[i] <= next.commit) continue;
+    next.instances[i] = before.instances[i];
+    next.kept[i] = before.kept[i];
+  }
+}
+
+template <FloatOrDouble Scalar>
+void SceneState<Scalar>::apply(CommittedScene<Scalar>& next, std::uint32_t index,
+                               const CommittedInstance<Scalar>& made) noexcept {
+  PendingInstance<Scalar>& instance = pending[index];
+  KeptInstance& kept = next.kept[index];
+  next.instances[index] = made;
+  boxes[index] = made.box();
+  changed_in[index] = commits;
+  if (!instance.is_there) {
+    kept = {};
+    return;
+  }
+  if (instance.share) kept.collider = std::move(instance.share);
+  kept.user_data = instance.options.user_data;
+}
+
+template <FloatOrDouble Scalar>
+void SceneState<Scalar>::forget_unshared(const CommittedScene<Scalar>* current) noexcept {
+  std::erase_if(
+      former, [&](const CommittedShare<Scalar>& scene) { return scene.get() == current || !scene.get()->is_shared(); });
 }
 
 template <FloatOrDouble Scalar>
@@ -75,39 +131,56 @@ void SceneState<Scalar>::end_changes() noexcept {
     PendingInstance<Scalar>& instance = pending[index];
     instance.has_changed = false;
     if (!instance.is_removed()) continue;
-    instance.collider.reset();
-    instance.float_collider.reset();
+    instance.collider = nullptr;
+    instance.float_collider = nullptr;
+    instance.share.reset();
     if (instance.has_next_generation()) unused.push_back(index);
   }
   changed.clear();
 }
 
 template <FloatOrDouble Scalar>
-void SceneState<Scalar>::commit(const Executor* executor) {
-  note_rebuilt_colliders();
-  if (changed.empty()) return;
+void SceneState<Scalar>::commit(CommittedShare<Scalar>& current, const Executor* executor) {
+  const CommittedScene<Scalar>& before = *current.get();
+  note_rebuilt_colliders(before);
+  if (changed.empty()) {
+    forget_unshared(nullptr);
+    return;
+  }
   // All that may throw comes first.
   std::vector<CommittedInstance<Scalar>> made(changed.size());
   in_parts(executor, changed.size(), instances_in_a_task, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) made[i] = made_of(pending[changed[i]]);
   });
-  const bool keeps = keeps_tree(made);
-  InstanceTree built = keeps ? InstanceTree() : new_tree(made);
-  committed.reserve(pending.capacity());
+  const CommittedShare<Scalar> share = unshared(current);
+  CommittedScene<Scalar>& next = *share.get();
+  const bool keeps = keeps_tree(before, made);
+  const bool has_this_tree = built <= next.commit;
+  InstanceTree other_tree = !keeps ? new_tree(before, made) : has_this_tree ? InstanceTree() : before.tree;
+  next.reserve(pending.capacity());
   boxes.reserve(pending.capacity());
+  changed_in.reserve(pending.capacity());
+  former.reserve(former.size() + 1);
 
   // Nothing below throws.
-  committed.resize(pending.size());
+  ++commits;
+  catch_up(next, before);
   boxes.resize(pending.size());
-  for (std::size_t i = 0; i < changed.size(); ++i) {
-    committed[changed[i]] = made[i];
-    boxes[changed[i]] = made[i].box();
-  }
+  changed_in.resize(pending.size());
+  for (std::size_t i = 0; i < changed.size(); ++i) apply(next, changed[i], made[i]);
+  if (!keeps || !has_this_tree) next.tree = std::move(other_tree);
   if (keeps) {
-    tree.refit(boxes);
+    next.tree.refit(boxes);
   } else {
-    tree = std::move(built);
+    built = commits;
   }
+  next.count = count;
+  next.commit = commits;
+  if (&next != &before) {
+    former.push_back(std::move(current));
+    current = share;
+  }
+  forget_unshared(&next);
   end_changes();
 }
 

@@ -220,5 +220,53 @@ TYPED_TEST(SceneAllocation, failed_commit_leaves_the_committed_state_as_it_was) 
   EXPECT_GT(failures, 8U);
 }
 
+TYPED_TEST(SceneAllocation, failed_commit_leaves_snapshots_as_they_were) {
+  using Hits = std::vector<SceneHit<TypeParam>>;
+  Random random(6);
+  std::size_t failures = 0;
+  std::vector<SceneSnapshot<TypeParam>> snapshots;
+  std::vector<Hits> expected;
+  const auto ask = [](const SceneSnapshot<TypeParam>& snapshot) {
+    Hits hits;
+    snapshot.all_hits(through_stack<TypeParam>(-1000, 1000), hits);
+    return hits;
+  };
+  for (int round = 0; round < 8; ++round) {
+    EXPECT_EQ(allocations_of([&] {
+                const auto snapshot = this->scene.snapshot();
+                auto copy = snapshot;
+                copy = snapshot;
+                ASSERT_TRUE(copy.any_hit(through_stack<TypeParam>(-1000, 1000)));
+              }),
+              0U);
+    snapshots.push_back(this->scene.snapshot());
+    expected.push_back(this->all());
+    // At times the last one stays alone, at times the one before it, so that the next commit copies or catches up.
+    if (round % 3 == 2) {
+      snapshots.erase(snapshots.begin(), snapshots.end() - 1);
+      expected.erase(expected.begin(), expected.end() - 1);
+    }
+    if (round % 2 == 1) this->ids.push_back(this->scene.add(this->stack, this->turned(round)));
+    for (int i = 0; i < 10; ++i) {
+      this->scene.set_pose(this->ids[random.below(this->ids.size())], this->turned(round * 100 + i));
+    }
+    for (std::size_t successes = 0; this->fails_after(successes, [&] { this->scene.commit(); }); ++successes) {
+      ++failures;
+      this->expect_same(this->all(), expected.back());
+      for (std::size_t i = 0; i < snapshots.size(); ++i) this->expect_same(ask(snapshots[i]), expected[i]);
+    }
+    for (std::size_t i = 0; i < snapshots.size(); ++i) this->expect_same(ask(snapshots[i]), expected[i]);
+    Scene<TypeParam> anew;
+    for (const InstanceId id : this->ids) {
+      anew.set_motion(anew.add(this->stack, this->scene.pose(id)), this->scene.motion(id));
+    }
+    anew.commit();
+    Hits hits;
+    anew.all_hits(through_stack<TypeParam>(-1000, 1000), hits);
+    this->expect_same(this->all(), hits);
+  }
+  EXPECT_GT(failures, 24U);
+}
+
 }  // namespace
 }  // namespace surehit::test
