@@ -10,21 +10,14 @@
 #include <vector>
 
 #include "surehit/attributes.hpp"
-#include "surehit/box.hpp"
 #include "surehit/byte_sink.hpp"
 #include "surehit/collider.hpp"
 #include "surehit/executor.hpp"
 #include "surehit/instance.hpp"
 #include "surehit/load_result.hpp"
-#include "surehit/path.hpp"
-#include "surehit/path_span.hpp"
 #include "surehit/pose.hpp"
-#include "surehit/query_statistics.hpp"
-#include "surehit/scene_hit.hpp"
-#include "surehit/scene_query_options.hpp"
-#include "surehit/scene_shape_hit.hpp"
-#include "surehit/scene_shape_options.hpp"
-#include "surehit/swept_shape.hpp"
+#include "surehit/scene_queries.hpp"
+#include "surehit/scene_snapshot.hpp"
 #include "surehit/triangle.hpp"
 
 namespace surehit {
@@ -55,14 +48,13 @@ struct SUREHIT_API DeleteSceneState {
 /// `add`, `remove` and the setters take effect with the next `commit`. Until then, queries answer as before. A commit
 /// costs what has changed: no triangle is looked at.
 ///
-/// Queries are const and may run in many threads at the same time. All except `all_hits` are noexcept and allocate
-/// nothing. Those of paths use less than 64 KiB of stack. No query may run while the scene commits, or while one of its
-/// colliders changes.
+/// Queries are const and may run in many threads at the same time. No query of the scene may run while it commits, or
+/// while one of its colliders changes. A query of a `snapshot` may run while the scene commits.
 ///
 /// A collider is shared by the instances that have it, and by its maker. It may be rebuilt. Then no query may run until
 /// the next commit, which sees the new mesh.
 template <FloatOrDouble Scalar>
-class SUREHIT_API Scene {
+class SUREHIT_API Scene : public SceneQueries<Scalar> {
  public:
   /// A shared collider of the scene's own Scalar.
   using ColliderPointer = std::shared_ptr<const Collider<Scalar>>;
@@ -72,7 +64,7 @@ class SUREHIT_API Scene {
 
   /// Makes a scene without instances. Every query misses. Allocates nothing.
   Scene() noexcept = default;
-  /// Frees all memory, and gives up its share of the colliders. No query may run.
+  /// Frees all memory, and gives up its share of the colliders. No query of the scene may run. Snapshots stay.
   ~Scene() = default;
   /// Takes over the other scene's instances, in constant time. The other scene is then empty.
   Scene(Scene&&) noexcept = default;
@@ -121,8 +113,15 @@ class SUREHIT_API Scene {
   /// work over threads, and the result is the same. May throw std::bad_alloc. Then the committed state is as before.
   ///
   /// Takes time linear in the changes, and in the instances with a small constant. After many changes it sorts the
-  /// instances anew.
+  /// instances anew. If a snapshot has the committed state, the next one takes its place elsewhere, see `snapshot`.
   void commit(const std::optional<Executor>& executor = {});
+
+  /// Returns the committed state as it is now. It stays the same while the scene changes and commits.
+  ///
+  /// Takes constant time and allocates nothing. It may run at the same time as queries, but not while the scene
+  /// commits. The first commit beside a snapshot copies all instances. Later ones use the memory of a state that no
+  /// snapshot has any more, and bring it up to date. A commit frees the other states that no snapshot has.
+  [[nodiscard]] SceneSnapshot<Scalar> snapshot() const noexcept { return SceneSnapshot<Scalar>(this->committed_); }
 
   /// Writes the scene to a sink, as it was set last: each collider once, and the instances. `collision/FORMAT.md`
   /// describes each byte.
@@ -165,9 +164,6 @@ class SUREHIT_API Scene {
   /// Returns the number of triangles of the instance's collider.
   [[nodiscard]] std::size_t triangle_count(InstanceId id) const noexcept;
 
-  /// Returns a box around all committed instances, and around their ways during the step. It holds the images of their
-  /// meshes' boxes, so it may be larger than needed for turned instances. It is empty if there are no triangles.
-  [[nodiscard]] Box<Scalar> box() const noexcept;
   /// Returns the memory that the scene has allocated, without its colliders, in bytes.
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
@@ -177,93 +173,6 @@ class SUREHIT_API Scene {
   /// Returns the unit normal of a placed triangle, as `surehit::normal` returns that of a triangle: within 2 ulp(1).
   /// It is that of the exact image, before any corner is rounded.
   [[nodiscard]] Vector3<Scalar> normal(InstanceId id, std::uint32_t triangle) const noexcept;
-
-  /// Returns the hit with the lowest exact t, or nothing if the path misses.
-  ///
-  /// Adds its work to `statistics`, unless this is null.
-  [[nodiscard]] std::optional<SceneHit<Scalar>> first_hit(const Path<Scalar>& path,
-                                                          const SceneQueryOptions<Scalar>& options = {},
-                                                          QueryStatistics* statistics = nullptr) const noexcept;
-  /// Returns the first hit among those that the filter accepts.
-  [[nodiscard]] std::optional<SceneHit<Scalar>> first_hit(const Path<Scalar>& path, SceneHitFilter<Scalar> filter,
-                                                          const SceneQueryOptions<Scalar>& options = {},
-                                                          QueryStatistics* statistics = nullptr) const noexcept;
-
-  /// Returns true if the path meets any triangle.
-  [[nodiscard]] bool any_hit(const Path<Scalar>& path, const SceneQueryOptions<Scalar>& options = {},
-                             QueryStatistics* statistics = nullptr) const noexcept;
-  /// Returns true if the filter accepts any hit of the path.
-  [[nodiscard]] bool any_hit(const Path<Scalar>& path, SceneHitFilter<Scalar> filter,
-                             const SceneQueryOptions<Scalar>& options = {},
-                             QueryStatistics* statistics = nullptr) const noexcept;
-
-  /// Sets `hits` to one hit for each placed triangle that the path meets, in order. May throw std::bad_alloc, see
-  /// `Collider::all_hits`.
-  void all_hits(const Path<Scalar>& path, std::vector<SceneHit<Scalar>>& hits,
-                const SceneQueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const;
-  /// Sets `hits` to all hits that the filter accepts, in the same order.
-  void all_hits(const Path<Scalar>& path, std::vector<SceneHit<Scalar>>& hits, SceneHitFilter<Scalar> filter,
-                const SceneQueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const;
-
-  /// Sets `hits[i]` to the first hit of path i, with the same bits as `first_hit`. A miss is a default hit. Lengths are
-  /// as in `Collider::first_hits`.
-  void first_hits(const PathSpan<Scalar>& paths, std::span<SceneHit<Scalar>> hits,
-                  const SceneBatchOptions<Scalar>& options = {}) const noexcept;
-  /// Sets `blocked[i]` to 1 if path i has a hit, and to 0 otherwise.
-  void any_hits(const PathSpan<Scalar>& paths, std::span<std::uint8_t> blocked,
-                const SceneBatchOptions<Scalar>& options = {}) const noexcept;
-
-  /// Returns where a point that moves along the segment may stop, in front of the hit, see `Collider::last_free_point`.
-  /// A moving instance goes the same share of its way: it moves by s times its motion while the point moves to s.
-  [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
-                                                const SceneQueryOptions<Scalar>& options = {}) const noexcept;
-  /// Returns the same for the hits that the filter accepts.
-  [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
-                                                SceneHitFilter<Scalar> filter,
-                                                const SceneQueryOptions<Scalar>& options = {}) const noexcept;
-
-  // Shapes that move. Distances are those of the scene, whatever the poses are. While a shape moves, instances with a
-  // motion move too. Order, ids and options are those of paths. A query uses less than 64 KiB of stack in float, and
-  // less than 320 KiB in double.
-
-  /// Returns the hit with the lowest exact t, or nothing if the shape touches nothing.
-  ///
-  /// Adds its work to `statistics`, unless this is null.
-  [[nodiscard]] std::optional<SceneShapeHit<Scalar>> first_hit(const SweptShape<Scalar>& shape,
-                                                               const SceneShapeQueryOptions<Scalar>& options = {},
-                                                               QueryStatistics* statistics = nullptr) const noexcept;
-  /// Returns the first hit among those that the filter accepts.
-  [[nodiscard]] std::optional<SceneShapeHit<Scalar>> first_hit(const SweptShape<Scalar>& shape,
-                                                               SceneShapeHitFilter<Scalar> filter,
-                                                               const SceneShapeQueryOptions<Scalar>& options = {},
-                                                               QueryStatistics* statistics = nullptr) const noexcept;
-  /// Returns true if the shape touches any triangle.
-  [[nodiscard]] bool any_hit(const SweptShape<Scalar>& shape, const SceneShapeQueryOptions<Scalar>& options = {},
-                             QueryStatistics* statistics = nullptr) const noexcept;
-  /// Returns true if the filter accepts any hit of the shape.
-  [[nodiscard]] bool any_hit(const SweptShape<Scalar>& shape, SceneShapeHitFilter<Scalar> filter,
-                             const SceneShapeQueryOptions<Scalar>& options = {},
-                             QueryStatistics* statistics = nullptr) const noexcept;
-  /// Returns true if the shape touches any triangle at its start, see `Collider::overlaps`.
-  [[nodiscard]] bool overlaps(const SweptShape<Scalar>& shape, const SceneShapeQueryOptions<Scalar>& options = {},
-                              QueryStatistics* statistics = nullptr) const noexcept;
-  /// Sets `hits` to one hit for each placed triangle that the shape touches, in order. May throw std::bad_alloc.
-  void all_hits(const SweptShape<Scalar>& shape, std::vector<SceneShapeHit<Scalar>>& hits,
-                const SceneShapeQueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const;
-  /// Sets `hits` to all hits that the filter accepts, in the same order.
-  void all_hits(const SweptShape<Scalar>& shape, std::vector<SceneShapeHit<Scalar>>& hits,
-                SceneShapeHitFilter<Scalar> filter, const SceneShapeQueryOptions<Scalar>& options = {},
-                QueryStatistics* statistics = nullptr) const;
-  /// Sets `hits[i]` to the first hit of shape i. A miss is a default hit. Lengths are as in `Collider::first_hits`.
-  void first_hits(const SweptShapeSpan<Scalar>& shapes, std::span<SceneShapeHit<Scalar>> hits,
-                  const SceneShapeBatchOptions<Scalar>& options = {}) const noexcept;
-  /// Sets `blocked[i]` to 1 if shape i has a hit, and to 0 otherwise.
-  void any_hits(const SweptShapeSpan<Scalar>& shapes, std::span<std::uint8_t> blocked,
-                const SceneShapeBatchOptions<Scalar>& options = {}) const noexcept;
-  /// Returns the greatest t at which the shape has not touched the triangle of a hit, see `Collider::last_free_t`. If
-  /// the instance moves, it is then at its pose plus t times its motion. `hit` must be one of the shape's hits in this
-  /// scene.
-  [[nodiscard]] Scalar last_free_t(const SweptShape<Scalar>& shape, const SceneShapeHit<Scalar>& hit) const noexcept;
 
  private:
 #if defined(__cpp_exceptions)

@@ -104,12 +104,17 @@ class SUREHIT_API SceneQueries {
 
   /// Returns where a point that moves along the segment may stop, in front of the hit, see `Collider::last_free_point`.
   /// A moving instance goes the same share of its way: it moves by s times its motion while the point moves to s.
+  ///
+  /// Sets `share` to this s, unless `share` is null. It is the parameter of the point before it is rounded, and 0 for
+  /// the start.
   [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
-                                                const SceneQueryOptions<Scalar>& options = {}) const noexcept;
+                                                const SceneQueryOptions<Scalar>& options = {},
+                                                Scalar* share = nullptr) const noexcept;
   /// Returns the same for the hits that the filter accepts.
   [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
                                                 SceneHitFilter<Scalar> filter,
-                                                const SceneQueryOptions<Scalar>& options = {}) const noexcept;
+                                                const SceneQueryOptions<Scalar>& options = {},
+                                                Scalar* share = nullptr) const noexcept;
 
   // Shapes that move. Distances are those of the scene, whatever the poses are. While a shape moves, instances with a
   // motion move too. Order, ids and options are those of paths. A query uses less than 64 KiB of stack in float, and

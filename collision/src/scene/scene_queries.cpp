@@ -50,12 +50,17 @@ void answer_batch(const detail::CommittedScene<Scalar>& scene, const PathSpan<Sc
 template <typename Scalar>
 Vector3<Scalar> find_free_point(const detail::CommittedScene<Scalar>& scene, const Segment<Scalar>& segment,
                                 const SceneHit<Scalar>& hit, const SceneQueryOptions<Scalar>& options,
-                                const SceneHitFilter<Scalar>* filter) noexcept {
-  return detail::find_free_point(segment, hit.t, options,
-                                 [&](const Path<Scalar>& path, const SceneQueryOptions<Scalar>& shortened, Scalar s) {
-                                   const SingleSceneQuery<Scalar> query(scene, shortened, filter, nullptr, s);
-                                   return scene.searches->any(query.get(), path);
-                                 });
+                                const SceneHitFilter<Scalar>* filter, Scalar* share) noexcept {
+  Scalar free_share = 0;
+  const auto is_blocked = [&](const Path<Scalar>& path, const SceneQueryOptions<Scalar>& shortened, Scalar s) {
+    const SingleSceneQuery<Scalar> query(scene, shortened, filter, nullptr, s);
+    if (scene.searches->any(query.get(), path)) return true;
+    free_share = s;
+    return false;
+  };
+  const Vector3<Scalar> point = detail::find_free_point(segment, hit.t, options, is_blocked);
+  if (share != nullptr) *share = free_share;
+  return point;
 }
 
 }  // namespace
@@ -152,15 +157,17 @@ void SceneQueries<Scalar>::any_hits(const PathSpan<Scalar>& paths, std::span<std
 
 template <FloatOrDouble Scalar>
 Vector3<Scalar> SceneQueries<Scalar>::last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
-                                                      const SceneQueryOptions<Scalar>& options) const noexcept {
-  return find_free_point<Scalar>(committed(), segment, hit, options, nullptr);
+                                                      const SceneQueryOptions<Scalar>& options,
+                                                      Scalar* share) const noexcept {
+  return find_free_point<Scalar>(committed(), segment, hit, options, nullptr, share);
 }
 
 template <FloatOrDouble Scalar>
 Vector3<Scalar> SceneQueries<Scalar>::last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
                                                       SceneHitFilter<Scalar> filter,
-                                                      const SceneQueryOptions<Scalar>& options) const noexcept {
-  return find_free_point(committed(), segment, hit, options, &filter);
+                                                      const SceneQueryOptions<Scalar>& options,
+                                                      Scalar* share) const noexcept {
+  return find_free_point(committed(), segment, hit, options, &filter, share);
 }
 
 template class SceneQueries<float>;

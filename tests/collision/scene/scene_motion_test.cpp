@@ -116,5 +116,31 @@ TYPED_TEST(SceneMotion, last_free_point_is_in_front_of_where_the_instance_is_by_
   EXPECT_EQ(this->scene.last_free_point(path, *hit)[2], TypeParam{0.5} + epsilon / 2);
 }
 
+TYPED_TEST(SceneMotion, share_of_a_last_free_point_is_where_the_instance_is_by_then) {
+  const auto id = this->add();
+  this->scene.set_motion(id, {0, 0, 1});
+  this->scene.commit();
+  const auto path = this->across(1, 0);
+  const auto hit = this->scene.first_hit(path);
+  ASSERT_TRUE(hit);
+  TypeParam share = 2;
+  const auto free = this->scene.last_free_point(path, *hit, {}, &share);
+  // The next Scalar below t = 0.5 is half as far away as the one above, and is not tried.
+  EXPECT_EQ(share, TypeParam{0.5} - std::numeric_limits<TypeParam>::epsilon() / 2);
+  EXPECT_EQ(free[2], 1 - share);
+  // The point may stay where it is, beside the instance as it is by then.
+  this->scene.set_pose(id, at_height<TypeParam>(share));
+  this->scene.set_motion(id, {0, 0, 0});
+  this->scene.commit();
+  EXPECT_FALSE(this->scene.any_hit(this->across(free[2], free[2])));
+  EXPECT_TRUE(this->scene.any_hit(this->across(free[2], share)));
+
+  // From a start on the instance, no point is free.
+  const auto from_it = this->across(share, 0);
+  EXPECT_EQ(this->scene.last_free_point(from_it, SceneHit<TypeParam>{{.t = TypeParam{0.5}}, {}}, {}, &share),
+            from_it.start);
+  EXPECT_EQ(share, 0);
+}
+
 }  // namespace
 }  // namespace surehit::test
