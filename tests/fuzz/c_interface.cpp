@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "byte_source.hpp"
+#include "c_argument_drawer.hpp"
 #include "collision/c/c_functions.hpp"
 #include "finding.hpp"
-#include "point_edits.hpp"
 
 namespace surehit::test {
 namespace {
@@ -23,9 +23,9 @@ namespace {
 using Handles = std::vector<void*>;
 
 template <typename Scalar>
-class CInterfaceCase {
+class CInterfaceCase : CArgumentDrawer<Scalar> {
  public:
-  CInterfaceCase(ByteSource& bytes, Handles& handles) : bytes_(bytes), handles_(handles) {
+  CInterfaceCase(ByteSource& bytes, Handles& handles) : Drawer(bytes), bytes_(bytes), handles_(handles) {
     for (std::size_t i = 0; i < 3 * vertex_count; ++i) vertices_.push_back(number());
     for (std::size_t i = 0; i < 3 * triangle_count; ++i) {
       indices_.push_back(static_cast<std::uint32_t>(bytes_.below(vertex_count + (bytes_.one_in(32) ? 1 : 0))));
@@ -46,7 +46,7 @@ class CInterfaceCase {
   CInterfaceCase& operator=(const CInterfaceCase&) = delete;
 
   void call() {
-    switch (bytes_.below(14)) {
+    switch (bytes_.below(16)) {
       case 0:
         return build();
       case 1:
@@ -73,6 +73,10 @@ class CInterfaceCase {
         return ask_about_shape();
       case 12:
         return ask_about_shapes_in_batch();
+      case 13:
+        return ask_scene_about_shape();
+      case 14:
+        return ask_scene_about_shapes_in_batch();
       default:
         return destroy();
     }
@@ -81,61 +85,29 @@ class CInterfaceCase {
  private:
   using C = CFunctions<Scalar>;
   using Collider = typename C::ColliderHandle;
-  static constexpr std::size_t vertex_count = 6;
-  static constexpr std::size_t triangle_count = 5;
-  static constexpr std::size_t path_count = 9;
-  static constexpr std::uint32_t shape_kinds = 3;
+  using Drawer = CArgumentDrawer<Scalar>;
+  using Drawer::checked;
+  using Drawer::choice_;
+  using Drawer::executor_;
+  using Drawer::expect_status;
+  using Drawer::number;
+  using Drawer::or_none;
+  using Drawer::or_null;
+  using Drawer::path;
+  using Drawer::path_count;
+  using Drawer::paths;
+  using Drawer::pose;
+  using Drawer::set_options;
+  using Drawer::set_size;
+  using Drawer::shape;
+  using Drawer::shapes;
+  using Drawer::size;
+  using Drawer::small_value;
+  using Drawer::triangle_count;
+  using Drawer::value;
+  using Drawer::vector;
+  using Drawer::vertex_count;
 
-  static void expect_status(surehit_status status, surehit_status expected) {
-    if (status != expected) stop_at(std::to_string(status) + ": " + surehit_last_error());
-  }
-  /// Stops unless a failure tells of itself, and leaves the result as it was.
-  template <typename Result>
-  static surehit_status checked(surehit_status status, const Result& result, const Result& before) {
-    if (status == SUREHIT_OK) return status;
-    if (surehit_last_error_status() != status || std::strncmp(surehit_last_error(), "surehit_", 8) != 0) {
-      stop_at(std::to_string(status) + " is not told: " + surehit_last_error());
-    }
-    if (status != SUREHIT_STOPPED && std::memcmp(&result, &before, sizeof result) != 0) {
-      stop_at(std::string("a failure has changed its result: ") + surehit_last_error());
-    }
-    if (status == SUREHIT_INTERNAL_ERROR) stop_at(surehit_last_error());
-    return status;
-  }
-  static surehit_status checked(surehit_status status) { return checked(status, 0, 0); }
-
-  Scalar number() { return read_number<Scalar>(bytes_); }
-  typename C::Vector vector() {
-    typename C::Vector result;
-    result.x = number();
-    result.y = number();
-    result.z = number();
-    return result;
-  }
-  /// A value below the count, or now and then any value.
-  std::uint32_t value(std::uint32_t count) {
-    return bytes_.one_in(16) ? bytes_.take<std::uint32_t>() : static_cast<std::uint32_t>(bytes_.below(count));
-  }
-  std::uint8_t small_value(std::uint32_t count) { return static_cast<std::uint8_t>(value(count)); }
-  /// The count or less, or one whose bytes overflow.
-  std::size_t size(std::size_t count) {
-    if (bytes_.one_in(16)) return SIZE_MAX - bytes_.below(8);
-    if (bytes_.one_in(16)) return SIZE_MAX / 4 + bytes_.below(8);
-    return bytes_.below(count + 1);
-  }
-  template <typename T>
-  T* or_null(T* pointer) {
-    return bytes_.one_in(16) ? nullptr : pointer;
-  }
-  template <typename T>
-  T* or_none(T* pointer) {
-    return bytes_.one_in(2) ? nullptr : pointer;
-  }
-  /// Sets the size of a struct that has one.
-  template <typename Struct>
-  void set_size(Struct& to) {
-    to.size = bytes_.one_in(16) ? bytes_.take<std::uint16_t>() % sizeof to : sizeof to;
-  }
   /// A collider, or now and then another handle as if it were one.
   Collider* collider() {
     if (bytes_.one_in(8)) return static_cast<Collider*>(handles_[bytes_.below(handles_.size())]);
@@ -150,40 +122,6 @@ class CInterfaceCase {
   surehit_instance_id id() {
     if (ids_.empty() || bytes_.one_in(8)) return {value(4), value(2)};
     return ids_[bytes_.below(ids_.size())];
-  }
-
-  typename C::Path path() {
-    typename C::Path result = {};
-    result.start = vector();
-    result.toward = vector();
-    result.kind = value(3);
-    return result;
-  }
-  template <typename Options>
-  void set_options(Options& options) {
-    if constexpr (requires { options.min_t; }) {
-      if (bytes_.one_in(4)) options.min_t = number();
-    }
-    if (bytes_.one_in(4)) options.max_t = number();
-    if (bytes_.one_in(4)) options.culling = small_value(3);
-    if (bytes_.one_in(4)) options.mask = bytes_.take<std::uint8_t>();
-    if (bytes_.one_in(4)) options.ignored_triangle = value(triangle_count);
-    if (bytes_.one_in(4)) options.ignore_start_contact = small_value(2);
-    if constexpr (requires { options.ignore_end_contact; }) {
-      if (bytes_.one_in(4)) options.ignore_end_contact = small_value(2);
-    }
-  }
-  template <typename Hit>
-  static std::int32_t accept(void* user, std::size_t path, const Hit* hit) {
-    const auto choice = *static_cast<const std::uint8_t*>(user);
-    return choice > 250                                       ? SUREHIT_STOP
-           : (hit->triangle + path) % (1U + choice % 4U) == 0 ? SUREHIT_ACCEPT
-                                                              : SUREHIT_REJECT;
-  }
-  /// Leaves out tasks, does some of them again, and some that are not there.
-  static void run(void* user, std::size_t count, surehit_task task, void* work) {
-    const auto choice = *static_cast<const std::uint8_t*>(user);
-    for (std::size_t i = choice % 3; i < count + choice % 5; i += 1 + choice % 2) task(work, i);
   }
 
   void build() {
@@ -235,7 +173,7 @@ class CInterfaceCase {
     const auto way = path();
     auto options = C::default_options();
     set_options(options);
-    const typename C::Filter filter = {accept<typename C::Hit>, &choice_};
+    const typename C::Filter filter = {Drawer::template accept<typename C::Hit>, &choice_};
     choice_ = bytes_.take<std::uint8_t>();
     surehit_statistics statistics = {};
     set_size(statistics);
@@ -278,25 +216,13 @@ class CInterfaceCase {
     checked(C::explain(asked, &way, given, or_null(&explainer), or_null(&walk)), walk, std::uint32_t{9});
   }
 
-  typename C::Paths paths() {
-    numbers_.clear();
-    for (std::size_t i = 0; i < 6 * path_count; ++i) numbers_.push_back(number());
-    typename C::Paths result = {or_null(numbers_.data()), nullptr, size(path_count), 0, 0, value(3)};
-    if (bytes_.one_in(4)) result.start_stride = bytes_.below(6 * sizeof(Scalar) + 1);
-    if (bytes_.one_in(4)) {
-      result.towards = numbers_.data() + 3;
-      result.toward_stride = bytes_.below(6 * sizeof(Scalar) + 1);
-    }
-    return result;
-  }
-
   template <typename Filter, typename Batch, typename Options, typename Hit, typename Ways, typename FirstHits,
             typename AnyHits>
   void ask_in_batch(const void* asked, const Ways& ways, const Options& defaults, FirstHits first_hits,
                     AnyHits any_hits) {
     std::vector<Options> own(path_count, defaults);
     for (auto& one : own) set_options(one);
-    const Filter filter = {accept<Hit>, &choice_};
+    const Filter filter = {Drawer::template accept<Hit>, &choice_};
     choice_ = bytes_.take<std::uint8_t>();
     surehit_statistics statistics = {};
     set_size(statistics);
@@ -331,21 +257,12 @@ class CInterfaceCase {
         [](const void* asked, auto... rest) { return C::scene_any_hits(static_cast<const Scene*>(asked), rest...); });
   }
 
-  typename C::Shape shape() {
-    typename C::Shape result = {};
-    result.start = vector();
-    result.end = bytes_.one_in(8) ? result.start : vector();
-    result.half = vector();
-    result.radius = number();
-    result.kind = value(shape_kinds);
-    return result;
-  }
   void ask_about_shape() {
     const auto* const asked = collider();
     const auto moving = shape();
     auto options = C::default_shape_options();
     set_options(options);
-    const typename C::ShapeFilter filter = {accept<typename C::ShapeHit>, &choice_};
+    const typename C::ShapeFilter filter = {Drawer::template accept<typename C::ShapeHit>, &choice_};
     choice_ = bytes_.take<std::uint8_t>();
     surehit_statistics statistics = {};
     set_size(statistics);
@@ -379,20 +296,63 @@ class CInterfaceCase {
     checked(C::shape_last_free_t(asked, &moving, &hit, or_null(&t)));
   }
   void ask_about_shapes_in_batch() {
-    numbers_.clear();
-    for (std::size_t i = 0; i < sizeof(typename C::Capsule) / sizeof(Scalar) * path_count; ++i) {
-      numbers_.push_back(number());
-    }
-    const typename C::Shapes shapes = {or_null(numbers_.data()), size(path_count), value(shape_kinds)};
     ask_in_batch<typename C::ShapeFilter, typename C::ShapeBatchOptions, typename C::ShapeOptions,
                  typename C::ShapeHit>(
-        collider(), shapes, C::default_shape_options(),
+        collider(), shapes(), C::default_shape_options(),
         [](const void* asked, auto... rest) {
           return C::shape_first_hits(static_cast<const Collider*>(asked), rest...);
         },
         [](const void* asked, auto... rest) {
           return C::shape_any_hits(static_cast<const Collider*>(asked), rest...);
         });
+  }
+  void ask_scene_about_shapes_in_batch() {
+    commit_all();
+    using Scene = typename C::SceneHandle;
+    ask_in_batch<typename C::SceneShapeFilter, typename C::SceneShapeBatchOptions, typename C::SceneShapeOptions,
+                 typename C::SceneShapeHit>(
+        scene(), shapes(), C::default_scene_shape_options(),
+        [](const void* asked, auto... rest) {
+          return C::scene_shape_first_hits(static_cast<const Scene*>(asked), rest...);
+        },
+        [](const void* asked, auto... rest) {
+          return C::scene_shape_any_hits(static_cast<const Scene*>(asked), rest...);
+        });
+  }
+  void ask_scene_about_shape() {
+    const auto* const asked = scene();
+    const auto moving = shape();
+    auto options = C::default_scene_shape_options();
+    set_options(options);
+    if (bytes_.one_in(4)) options.instance_mask = bytes_.take<std::uint8_t>();
+    if (bytes_.one_in(4)) options.ignored_instance = id();
+    const typename C::SceneShapeFilter filter = {Drawer::template accept<typename C::SceneShapeHit>, &choice_};
+    choice_ = bytes_.take<std::uint8_t>();
+    const auto* const given = or_none(&options);
+    const auto* const given_filter = or_none(&filter);
+    commit_all();
+    typename C::SceneShapeHit hit;
+    std::memset(&hit, 7, sizeof hit);
+    const auto before = hit;
+    if (checked(C::scene_shape_first_hit(asked, or_null(&moving), given, given_filter, nullptr, or_null(&hit)), hit,
+                before) != SUREHIT_OK) {
+      return;
+    }
+    const bool is_hit = hit.triangle != SUREHIT_NO_TRIANGLE;
+    std::uint8_t answer = 2;
+    std::array<typename C::SceneShapeHit, triangle_count> hits;
+    std::size_t count = 0;
+    const surehit_status any = C::scene_shape_any_hit(asked, &moving, given, given_filter, nullptr, &answer);
+    if (any == SUREHIT_OK && answer != (is_hit ? 1 : 0)) stop_at("scene_shape_any_hit differs from the first hit");
+    const surehit_status all = C::scene_shape_all_hits(asked, &moving, given, given_filter, nullptr, hits.data(),
+                                                       bytes_.below(triangle_count + 1), &count);
+    if (all == SUREHIT_OK && (count > 0) != is_hit) stop_at("scene_shape_all_hits differs from the first hit");
+    checked(C::scene_shape_overlaps(asked, &moving, given, nullptr, or_null(&answer)));
+    if (!is_hit) return;
+    if (bytes_.one_in(4)) hit.triangle = value(triangle_count);
+    if (bytes_.one_in(4)) hit.instance = id();
+    Scalar t = 0;
+    checked(C::scene_shape_last_free_t(asked, &moving, &hit, or_null(&t)));
   }
 
   void ask_pair() {
@@ -426,15 +386,6 @@ class CInterfaceCase {
     checked(C::memory_bytes(asked, or_null(&bytes)));
   }
 
-  typename C::Pose pose() {
-    auto result = C::identity();
-    if (bytes_.one_in(2)) {
-      const auto translation = vector();
-      result = C::rigid(number(), number(), number(), number(), translation);
-    }
-    if (bytes_.one_in(4)) result.y_axis = vector();
-    return result;
-  }
   void change_scene() {
     auto* const to = scene();
     const auto given_pose = pose();
@@ -471,7 +422,7 @@ class CInterfaceCase {
     set_options(options);
     if (bytes_.one_in(4)) options.instance_mask = bytes_.take<std::uint8_t>();
     if (bytes_.one_in(4)) options.ignored_instance = id();
-    const typename C::SceneFilter filter = {accept<typename C::SceneHit>, &choice_};
+    const typename C::SceneFilter filter = {Drawer::template accept<typename C::SceneHit>, &choice_};
     choice_ = bytes_.take<std::uint8_t>();
     commit_all();
     typename C::SceneHit hit;
@@ -513,12 +464,9 @@ class CInterfaceCase {
   std::vector<Scalar> vertices_;
   std::vector<std::uint32_t> indices_;
   std::vector<std::uint32_t> masks_;
-  std::vector<Scalar> numbers_;
   std::array<Collider*, 2> colliders_ = {};
   typename C::SceneHandle* scene_ = nullptr;
   std::vector<surehit_instance_id> ids_;
-  std::uint8_t choice_ = 0;
-  surehit_executor executor_ = {run, &choice_};
 };
 
 }  // namespace

@@ -17,26 +17,30 @@
 /// - No exception leaves a function. Queries may run in many threads at the same time. No query may run while its
 ///   collider changes or its scene commits. An invalid pointer that is not null cannot be told.
 
-#include "surehit/c/collider_d.h"      // IWYU pragma: export
-#include "surehit/c/collider_f.h"      // IWYU pragma: export
-#include "surehit/c/explain.h"         // IWYU pragma: export
-#include "surehit/c/explain_d.h"       // IWYU pragma: export
-#include "surehit/c/explain_f.h"       // IWYU pragma: export
-#include "surehit/c/mixed_scene.h"     // IWYU pragma: export
-#include "surehit/c/options.h"         // IWYU pragma: export
-#include "surehit/c/pair_d.h"          // IWYU pragma: export
-#include "surehit/c/pair_f.h"          // IWYU pragma: export
-#include "surehit/c/scene_d.h"         // IWYU pragma: export
-#include "surehit/c/scene_f.h"         // IWYU pragma: export
-#include "surehit/c/scene_values_d.h"  // IWYU pragma: export
-#include "surehit/c/scene_values_f.h"  // IWYU pragma: export
-#include "surehit/c/shape_values_d.h"  // IWYU pragma: export
-#include "surehit/c/shape_values_f.h"  // IWYU pragma: export
-#include "surehit/c/shapes_d.h"        // IWYU pragma: export
-#include "surehit/c/shapes_f.h"        // IWYU pragma: export
-#include "surehit/c/status.h"          // IWYU pragma: export
-#include "surehit/c/values_d.h"        // IWYU pragma: export
-#include "surehit/c/values_f.h"        // IWYU pragma: export
-#include "surehit/c/version.h"         // IWYU pragma: export
+#include "surehit/c/collider_d.h"            // IWYU pragma: export
+#include "surehit/c/collider_f.h"            // IWYU pragma: export
+#include "surehit/c/explain.h"               // IWYU pragma: export
+#include "surehit/c/explain_d.h"             // IWYU pragma: export
+#include "surehit/c/explain_f.h"             // IWYU pragma: export
+#include "surehit/c/mixed_scene.h"           // IWYU pragma: export
+#include "surehit/c/options.h"               // IWYU pragma: export
+#include "surehit/c/pair_d.h"                // IWYU pragma: export
+#include "surehit/c/pair_f.h"                // IWYU pragma: export
+#include "surehit/c/scene_d.h"               // IWYU pragma: export
+#include "surehit/c/scene_f.h"               // IWYU pragma: export
+#include "surehit/c/scene_shape_values_d.h"  // IWYU pragma: export
+#include "surehit/c/scene_shape_values_f.h"  // IWYU pragma: export
+#include "surehit/c/scene_shapes_d.h"        // IWYU pragma: export
+#include "surehit/c/scene_shapes_f.h"        // IWYU pragma: export
+#include "surehit/c/scene_values_d.h"        // IWYU pragma: export
+#include "surehit/c/scene_values_f.h"        // IWYU pragma: export
+#include "surehit/c/shape_values_d.h"        // IWYU pragma: export
+#include "surehit/c/shape_values_f.h"        // IWYU pragma: export
+#include "surehit/c/shapes_d.h"              // IWYU pragma: export
+#include "surehit/c/shapes_f.h"              // IWYU pragma: export
+#include "surehit/c/status.h"                // IWYU pragma: export
+#include "surehit/c/values_d.h"              // IWYU pragma: export
+#include "surehit/c/values_f.h"              // IWYU pragma: export
+#include "surehit/c/version.h"               // IWYU pragma: export
 
 #endif

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "c/arguments.hpp"
 #include "c/asked.hpp"
 #include "surehit/c/scene_values_d.h"
 #include "surehit/c/scene_values_f.h"
@@ -29,6 +30,14 @@ SUREHIT_SCENE_STRUCTS(double, d)
 
 inline InstanceId from_c(surehit_instance_id id) { return {id.index, id.generation}; }
 inline surehit_instance_id to_c(InstanceId id) { return {id.index, id.generation}; }
+
+/// Fails if there is no such instance.
+template <typename Scalar>
+void check_instance(Arguments& arguments, const Scene<Scalar>* scene, surehit_instance_id id) {
+  if (!arguments.are_valid() || scene->contains(from_c(id))) return;
+  arguments.refuse(SUREHIT_STALE_ID, id.index, "there is no instance with index %u and generation %u", id.index,
+                   id.generation);
+}
 
 template <typename Scalar>
 struct Asked<Scene<Scalar>> : AskedAboutPaths<Scene<Scalar>, Scalar, SceneHit<Scalar>, SceneQueryOptions<Scalar>,

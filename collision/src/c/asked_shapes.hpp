@@ -103,26 +103,32 @@ class AskedShapes {
   CPaths given_ = {};
 };
 
-/// What is asked about moving shapes. `Object` is a collider.
+/// What is asked about moving shapes. `Object` is a collider or a scene.
 template <typename Object>
 struct ShapesIn;
 
-template <typename Scalar>
-struct Asked<ShapesIn<Collider<Scalar>>>
-    : AskedTypes<Collider<Scalar>, Scalar, ShapeHit<Scalar>, ShapeQueryOptions<Scalar>, ShapeBatchOptions<Scalar>,
-                 ShapeStructs<Scalar>> {
-  using typename Asked::AskedTypes::Answer;
-  using typename Asked::AskedTypes::CHit;
-  using typename Asked::AskedTypes::COptions;
-  using typename Asked::AskedTypes::Options;
+/// The types of queries about shapes by their names, of which some are in C.
+template <typename Object, typename Scalar, typename Answer, typename Options, typename AnyBatchOptions,
+          typename CStructs>
+struct AskedAboutShapes : AskedTypes<Object, Scalar, Answer, Options, AnyBatchOptions, CStructs> {
   using CPath = typename ShapeStructs<Scalar>::Shape;
   using Paths = AskedShapes<Scalar>;
-  static constexpr const char* name = Asked<Collider<Scalar>>::name;
+  static constexpr const char* name = Asked<Object>::name;
 
   /// Fails unless the shape can be read.
   static void check(Arguments& arguments, const CPath* shape) { check_shape(arguments, shape); }
   /// Returns the shape, which must have been checked.
   [[nodiscard]] static SweptShape<Scalar> path_of(const CPath& shape) { return shape_of<Scalar>(shape); }
+};
+
+template <typename Scalar>
+struct Asked<ShapesIn<Collider<Scalar>>>
+    : AskedAboutShapes<Collider<Scalar>, Scalar, ShapeHit<Scalar>, ShapeQueryOptions<Scalar>, ShapeBatchOptions<Scalar>,
+                       ShapeStructs<Scalar>> {
+  using typename Asked::AskedTypes::Answer;
+  using typename Asked::AskedTypes::CHit;
+  using typename Asked::AskedTypes::COptions;
+  using typename Asked::AskedTypes::Options;
 
   /// Returns options that have been checked. Null means the defaults.
   [[nodiscard]] static Options options_of(const COptions* given) {

@@ -93,6 +93,13 @@ template <typename Subject>
 }
 
 template <typename Subject>
+[[nodiscard]] surehit_status overlaps(const SingleQuery<Subject>& query, std::uint8_t* touches) {
+  query.arguments().check_pointer(touches, "touches");
+  return query.answer(true, [&](const auto& object, const auto& shape, const auto& options, const auto* /*filter*/,
+                                QueryStatistics* work) { *touches = object.overlaps(shape, options, work) ? 1 : 0; });
+}
+
+template <typename Subject>
 [[nodiscard]] surehit_status all_hits(const SingleQuery<Subject>& query, typename Asked<Subject>::CHit* hits,
                                       std::size_t capacity, std::size_t* hit_count) {
   query.arguments().check_array(hits, capacity, sizeof *hits, "hits");

@@ -108,20 +108,12 @@ template <typename Scalar>
   });
 }
 
-/// Fails if there is no such instance.
-template <typename Scalar>
-void check_instance(HandleCall<Scene<Scalar>>& call, surehit_instance_id id) {
-  if (!call.arguments.are_valid() || call.object->contains(from_c(id))) return;
-  call.arguments.refuse(SUREHIT_STALE_ID, id.index, "there is no instance with index %u and generation %u", id.index,
-                        id.generation);
-}
-
 /// Tells something about an instance: what `get(scene, id)` returns.
 template <typename Scalar, typename Result, typename Get>
 [[nodiscard]] surehit_status of_instance(const char* function, const void* handle, surehit_instance_id id,
                                          Result* result, const char* name, const Get& get) {
   HandleCall<Scene<Scalar>> call(function, handle);
-  check_instance(call, id);
+  check_instance(call.arguments, call.object, id);
   return call.tell(result, name, [&](const auto& scene) { return get(scene, from_c(id)); });
 }
 
@@ -130,7 +122,7 @@ template <typename Scalar, typename Result, typename Get>
 [[nodiscard]] surehit_status of_placed(const char* function, const void* handle, surehit_instance_id id,
                                        std::uint32_t triangle, Result* result, const char* name, const Get& get) {
   HandleCall<Scene<Scalar>> call(function, handle);
-  check_instance(call, id);
+  check_instance(call.arguments, call.object, id);
   if (call.arguments.are_valid()) call.arguments.check_triangle(triangle, call.object->triangle_count(from_c(id)));
   return call.tell(result, name, [&](const auto& scene) { return get(scene, from_c(id), triangle); });
 }

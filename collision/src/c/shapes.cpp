@@ -17,13 +17,6 @@ template <typename Scalar>
 using Shapes = ShapesIn<Collider<Scalar>>;
 
 template <typename Scalar>
-surehit_status overlaps(const SingleQuery<Shapes<Scalar>>& query, std::uint8_t* touches) {
-  query.arguments().check_pointer(touches, "touches");
-  return query.answer(true, [&](const auto& collider, const auto& shape, const auto& options, const auto* /*filter*/,
-                                QueryStatistics* work) { *touches = collider.overlaps(shape, options, work) ? 1 : 0; });
-}
-
-template <typename Scalar>
 surehit_status last_free_t(const char* function, const void* handle, const typename ShapeStructs<Scalar>::Shape* shape,
                            const typename ShapeStructs<Scalar>::Hit* hit, Scalar* t) {
   HandleCall<Collider<Scalar>> call(function, handle);

@@ -139,7 +139,11 @@ Scalar SceneQueries<Scalar>::last_free_t(const SweptShape<Scalar>& shape,
                                          const SceneShapeHit<Scalar>& hit) const noexcept {
   const FloatingPointEnvironment environment;
   if (hit.started_touching || !(hit.t > 0)) return 0;
-  const auto& instance = committed().instances[hit.instance.index];
+  const auto& instances = committed().instances;
+  // A caller in another language may bring a hit of an instance that is not committed yet.
+  if (hit.instance.index >= instances.size()) return 0;
+  const auto& instance = instances[hit.instance.index];
+  if (instance.generation != hit.instance.generation || !instance.is_in_tree) return 0;
   const bool is_touched =
       std::visit([&](const auto& any) { return detail::touches(instance, hit.triangle, any, hit.t); }, shape);
   return is_touched ? std::nextafter(hit.t, Scalar{0}) : hit.t;

@@ -8,6 +8,8 @@
 #include "surehit/query_options.hpp"
 #include "surehit/scene_hit.hpp"
 #include "surehit/scene_query_options.hpp"
+#include "surehit/scene_shape_hit.hpp"
+#include "surehit/scene_shape_options.hpp"
 #include "surehit/shape_hit.hpp"
 #include "surehit/shape_options.hpp"
 #include "surehit/swept_box.hpp"
@@ -101,6 +103,19 @@ typename CFunctions<Scalar>::SceneOptions in_c(const SceneQueryOptions<Scalar>& 
   return given;
 }
 
+template <typename Scalar>
+typename CFunctions<Scalar>::SceneShapeOptions in_c(const SceneShapeQueryOptions<Scalar>& options) {
+  auto given = CFunctions<Scalar>::default_scene_shape_options();
+  given.max_t = options.max_t;
+  given.culling = static_cast<std::uint8_t>(options.culling);
+  given.mask = options.mask;
+  given.instance_mask = options.instance_mask;
+  given.ignored_instance = {options.ignored_instance.index, options.ignored_instance.generation};
+  given.ignored_triangle = options.ignored_triangle;
+  given.ignore_start_contact = options.ignore_start_contact ? 1 : 0;
+  return given;
+}
+
 inline Vector3<float> in_cpp(const surehit_vector3f& x) { return {x.x, x.y, x.z}; }
 inline Vector3<double> in_cpp(const surehit_vector3d& x) { return {x.x, x.y, x.z}; }
 inline Hit<float> in_cpp(const surehit_hitf& hit) {
@@ -114,6 +129,14 @@ inline ShapeHit<float> in_cpp(const surehit_shape_hitf& hit) {
 }
 inline ShapeHit<double> in_cpp(const surehit_shape_hitd& hit) {
   return {hit.t, hit.u, hit.v, hit.triangle, static_cast<Feature>(hit.feature), hit.started_touching != 0};
+}
+inline SceneShapeHit<float> in_cpp(const surehit_scene_shape_hitf& hit) {
+  return {{hit.t, hit.u, hit.v, hit.triangle, static_cast<Feature>(hit.feature), hit.started_touching != 0},
+          {hit.instance.index, hit.instance.generation}};
+}
+inline SceneShapeHit<double> in_cpp(const surehit_scene_shape_hitd& hit) {
+  return {{hit.t, hit.u, hit.v, hit.triangle, static_cast<Feature>(hit.feature), hit.started_touching != 0},
+          {hit.instance.index, hit.instance.generation}};
 }
 inline SceneHit<float> in_cpp(const surehit_scene_hitf& hit) {
   return {{hit.t, hit.u, hit.v, hit.triangle, static_cast<Side>(hit.side)},

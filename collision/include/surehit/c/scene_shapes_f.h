@@ -1,0 +1,70 @@
+#ifndef SUREHIT_C_SCENE_SHAPES_F_H
+#define SUREHIT_C_SCENE_SHAPES_F_H
+
+/// @file
+/// Queries of moving shapes in scenes of the C interface in float.
+///
+/// Distances are those of the scene, whatever the poses are. While a shape moves, instances with a motion move too.
+
+#include "surehit/c/scene_f.h"
+#include "surehit/c/scene_shape_values_f.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Sets `hit` to the hit of a moving shape with the lowest exact t, see `surehit_colliderf_shape_first_hit`. Among hits
+/// with equal t, the lowest instance index comes first, and then the lowest triangle id.
+SUREHIT_C_API surehit_status surehit_scenef_shape_first_hit(
+    const surehit_scenef* scene, const surehit_swept_shapef* shape, const surehit_scene_shape_query_optionsf* options,
+    const surehit_scene_shape_filterf* filter, surehit_statistics* statistics, surehit_scene_shape_hitf* hit);
+
+/// Sets `blocked` to 1 if the shape has a hit that the filter accepts, and to 0 otherwise, see
+/// `surehit_colliderf_shape_any_hit`.
+SUREHIT_C_API surehit_status surehit_scenef_shape_any_hit(const surehit_scenef* scene,
+                                                          const surehit_swept_shapef* shape,
+                                                          const surehit_scene_shape_query_optionsf* options,
+                                                          const surehit_scene_shape_filterf* filter,
+                                                          surehit_statistics* statistics, uint8_t* blocked);
+
+/// Sets `hit_count` to the number of placed triangles that the shape touches, and `hits` to the first `capacity` of
+/// their hits, in order. All else is as in `surehit_colliderf_all_hits`.
+SUREHIT_C_API surehit_status surehit_scenef_shape_all_hits(
+    const surehit_scenef* scene, const surehit_swept_shapef* shape, const surehit_scene_shape_query_optionsf* options,
+    const surehit_scene_shape_filterf* filter, surehit_statistics* statistics, surehit_scene_shape_hitf* hits,
+    size_t capacity, size_t* hit_count);
+
+/// Sets `hits[i]` to the first hit of shape i, with the same bits as `surehit_scenef_shape_first_hit`. There must be
+/// room for one hit a shape. All else is as in `surehit_colliderf_first_hits`.
+SUREHIT_C_API surehit_status surehit_scenef_shape_first_hits(const surehit_scenef* scene,
+                                                             const surehit_swept_shapesf* shapes,
+                                                             const surehit_scene_shape_batch_optionsf* options,
+                                                             surehit_scene_shape_hitf* hits);
+
+/// Sets `blocked[i]` to 1 if shape i has a hit, and to 0 otherwise.
+SUREHIT_C_API surehit_status surehit_scenef_shape_any_hits(const surehit_scenef* scene,
+                                                           const surehit_swept_shapesf* shapes,
+                                                           const surehit_scene_shape_batch_optionsf* options,
+                                                           uint8_t* blocked);
+
+/// Sets `touches` to 1 if the shape touches any triangle at its start, and to 0 otherwise. Its end plays no part, and
+/// neither do `max_t` and `ignore_start_contact`. Allocates nothing.
+SUREHIT_C_API surehit_status surehit_scenef_shape_overlaps(const surehit_scenef* scene,
+                                                           const surehit_swept_shapef* shape,
+                                                           const surehit_scene_shape_query_optionsf* options,
+                                                           surehit_statistics* statistics, uint8_t* touches);
+
+/// Sets `t` to the maximum number below the exact t of a hit, see `surehit_colliderf_shape_last_free_t`. If the
+/// instance moves, it is then at its pose plus t times its motion.
+///
+/// `hit` must be one of the shape's hits in this scene. Fails with `SUREHIT_STALE_ID` if its instance is not there, or
+/// was removed since the last commit.
+SUREHIT_C_API surehit_status surehit_scenef_shape_last_free_t(const surehit_scenef* scene,
+                                                              const surehit_swept_shapef* shape,
+                                                              const surehit_scene_shape_hitf* hit, float* t);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
