@@ -76,6 +76,10 @@ class DeclarationsTest(unittest.TestCase):
                        "swept_shapes" + s: layouts.Shapes, "shape_hit" + s: layouts.shape.Hit,
                        "shape_query_options" + s: layouts.shape.Options, "shape_filter" + s: layouts.shape.Filter,
                        "shape_batch_options" + s: layouts.shape.BatchOptions,
+                       "scene_shape_hit" + s: layouts.scene_shape.Hit,
+                       "scene_shape_query_options" + s: layouts.scene_shape.Options,
+                       "scene_shape_filter" + s: layouts.scene_shape.Filter,
+                       "scene_shape_batch_options" + s: layouts.scene_shape.BatchOptions,
                        "explained_cell": _layouts.ExplainedCellStruct, "filter_number": _layouts.FilterNumberStruct,
                        "explained_candidate": _layouts.ExplainedCandidateStruct,
                        "explained_hit" + s: layouts.ExplainedHit, "explainer" + s: layouts.Explainer}
@@ -89,7 +93,7 @@ class DeclarationsTest(unittest.TestCase):
 
     def test_arrays_have_the_layouts_of_structs(self):
         for layouts in (_layouts.FLOAT, _layouts.DOUBLE):
-            for kind in (layouts.collider, layouts.scene, layouts.shape):
+            for kind in (layouts.collider, layouts.scene, layouts.shape, layouts.scene_shape):
                 for dtype, struct in ((kind.hit_dtype, kind.Hit), (kind.options_dtype, kind.Options)):
                     self.assertEqual(dtype.itemsize, ctypes.sizeof(struct))
                     for name, *_ in struct._fields_:

@@ -11,12 +11,12 @@ exact ones, rounded once.
 
 from ._layouts import ALL_BITS, NO_TRIANGLE, Statistics
 from ._library import LIBRARY_VERSION as __version__
-from ._options import Options, SceneOptions, ShapeOptions
+from ._options import Options, SceneOptions, SceneShapeOptions, ShapeOptions
 from .collider import Collider, GridSummary
 from .errors import Error, InvalidInstance, InvalidMesh, InvalidValue, OutOfMemory, OutOfRange
 from .explanation import (CellFinding, DecidedBy, ExplainedCandidate, ExplainedCell, ExplainedHit, Explanation,
                           FilterNumber, FilterNumbers, FilterVerdict, OrderedBy, PairOutcome, Walk)
-from .hits import Feature, Hit, Hits, InstanceId, SceneHit, ShapeHit, Side
+from .hits import Feature, Hit, Hits, InstanceId, SceneHit, SceneShapeHit, ShapeHit, Side
 from .pair import contact_normal, contact_point, distance, intersect, point
 from .paths import Line, Lines, Path, Paths, Ray, Rays, Segment, Segments
 from .scene import Scene, rigid_pose, translation_pose
@@ -28,6 +28,7 @@ __all__ = [
     "Explanation", "Feature", "FilterNumber", "FilterNumbers", "FilterVerdict", "GridSummary", "Hit", "Hits",
     "InstanceId", "InvalidInstance", "InvalidMesh", "InvalidValue", "Line", "Lines", "NO_TRIANGLE", "Options",
     "OrderedBy", "OutOfMemory", "OutOfRange", "PairOutcome", "Path", "Paths", "Ray", "Rays", "Scene", "SceneHit",
-    "SceneOptions", "Segment", "Segments", "ShapeHit", "ShapeOptions", "Side", "Statistics", "SweptBox", "SweptBoxes",
-    "SweptCapsule", "SweptCapsules", "SweptShape", "SweptShapes", "SweptSphere", "SweptSpheres", "Walk", "__version__",
-    "contact_normal", "contact_point", "distance", "intersect", "point", "rigid_pose", "translation_pose"]
+    "SceneOptions", "SceneShapeHit", "SceneShapeOptions", "Segment", "Segments", "ShapeHit", "ShapeOptions", "Side",
+    "Statistics", "SweptBox", "SweptBoxes", "SweptCapsule", "SweptCapsules", "SweptShape", "SweptShapes", "SweptSphere",
+    "SweptSpheres", "Walk", "__version__", "contact_normal", "contact_point", "distance", "intersect", "point",
+    "rigid_pose", "translation_pose"]

@@ -137,6 +137,10 @@ class Layouts:
                     ("ignore_start_contact", c_uint8)]
         self.shape = _queries(_struct("ShapeHit" + suffix, touch), _struct("ShapeQueryOptions" + suffix, narrowed),
                               suffix, "shape_")
+        self.scene_shape = _queries(
+            _struct("SceneShapeHit" + suffix, touch + [("instance", InstanceIdStruct)]),
+            _struct("SceneShapeQueryOptions" + suffix, narrowed[:3] + of_instances + narrowed[3:]), suffix,
+            "scene_shape_")
         self.scene = _queries(_struct("SceneHit" + suffix, where + [("instance", InstanceIdStruct)]),
                               _struct("SceneQueryOptions" + suffix, limits + of_instances + contacts), suffix,
                               "scene_")

@@ -25,10 +25,7 @@ _OF_COLLIDERS: dict[str, list[Any]] = {
     "all_hits": [_P] * 6 + [c_size_t, _P], "first_hits": [_P] * 4, "any_hits": [_P] * 4,
     "last_free_point": [_P] * 6, "max_t_keeping": [_P] * 4, "triangle_count": [_P, _P],
     "triangle": [_P, c_uint32, _P], "normal": [_P, c_uint32, _P], "box": [_P, _P], "grid_summary": [_P, _P],
-    "memory_bytes": [_P, _P], "shape_first_hit": [_P] * 6, "shape_any_hit": [_P] * 6,
-    "shape_all_hits": [_P] * 6 + [c_size_t, _P], "shape_first_hits": [_P] * 4, "shape_any_hits": [_P] * 4,
-    "shape_overlaps": [_P] * 5, "shape_last_free_t": [_P] * 4,
-    "explain": [_P] * 5}
+    "memory_bytes": [_P, _P], "explain": [_P] * 5}
 _OF_SCENES: dict[str, list[Any]] = {
     "create": [_P], "destroy": [_P], "add": [_P, _P, _P, c_uint32, c_uint64, _P], "remove": [_P, _ID],
     "set_pose": [_P, _ID, _P], "set_motion": [_P, _ID, _P], "set_mask": [_P, _ID, c_uint32], "commit": [_P, _P],
@@ -37,10 +34,16 @@ _OF_SCENES: dict[str, list[Any]] = {
     "triangle": [_P, _ID, c_uint32, _P], "normal": [_P, _ID, c_uint32, _P], "box": [_P, _P], "memory_bytes": [_P, _P],
     "first_hit": [_P] * 6, "any_hit": [_P] * 6, "all_hits": [_P] * 6 + [c_size_t, _P], "first_hits": [_P] * 4,
     "any_hits": [_P] * 4, "last_free_point": [_P] * 6}
+# Those that colliders and scenes have alike.
+_ABOUT_SHAPES: dict[str, list[Any]] = {
+    "shape_first_hit": [_P] * 6, "shape_any_hit": [_P] * 6, "shape_all_hits": [_P] * 6 + [c_size_t, _P],
+    "shape_first_hits": [_P] * 4, "shape_any_hits": [_P] * 4, "shape_overlaps": [_P] * 5,
+    "shape_last_free_t": [_P] * 4}
 _OF_OTHERS: dict[str, list[Any]] = {
     "triangle{}_intersect": [_P] * 4, "triangle{}_max_t_keeping": [_P] * 4, "triangle{}_normal": [_P, _P],
     "triangle{}_shape_intersect": [_P] * 4,
-    "triangle{}_shape_contact_point": [_P] * 3, "triangle{}_shape_contact_normal": [_P] * 3, "path{}_point": [_P] * 3, "path{}_distance": [_P] * 3}
+    "triangle{}_shape_contact_point": [_P] * 3, "triangle{}_shape_contact_normal": [_P] * 3,
+    "path{}_point": [_P] * 3, "path{}_distance": [_P] * 3}
 
 
 def _path() -> str:
@@ -71,12 +74,12 @@ def _load() -> ctypes.CDLL:
 def _declare(library: ctypes.CDLL) -> None:
     for layouts in (FLOAT, DOUBLE):
         suffix = layouts.suffix
-        named = {f"collider{suffix}_{name}": arguments for name, arguments in _OF_COLLIDERS.items()}
-        named |= {f"scene{suffix}_{name}": arguments for name, arguments in _OF_SCENES.items()}
+        named = {f"collider{suffix}_{name}": arguments for name, arguments in (_OF_COLLIDERS | _ABOUT_SHAPES).items()}
+        named |= {f"scene{suffix}_{name}": arguments for name, arguments in (_OF_SCENES | _ABOUT_SHAPES).items()}
         named |= {name.format(suffix): arguments for name, arguments in _OF_OTHERS.items()}
         for name, arguments in named.items():
             getattr(library, "surehit_" + name).argtypes = arguments
-        for kind in (layouts.collider, layouts.scene, layouts.shape):
+        for kind in (layouts.collider, layouts.scene, layouts.shape, layouts.scene_shape):
             getattr(library, f"surehit_{kind.owner}query_options{suffix}_default").restype = kind.Options
         rigid = getattr(library, f"surehit_pose{suffix}_rigid")
         rigid.argtypes, rigid.restype = [layouts.real] * 4 + [layouts.Vector3Struct], layouts.PoseStruct

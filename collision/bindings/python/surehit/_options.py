@@ -63,6 +63,15 @@ class ShapeOptions(TypedDict, total=False):
     """Leaves out triangles that the shape touches at its start."""
 
 
+class SceneShapeOptions(ShapeOptions, total=False):
+    """What narrows a query of a moving shape in a scene. An ``ignored_triangle`` is that of ``ignored_instance``."""
+
+    instance_mask: int | ArrayLike
+    """Leaves out instances whose mask shares no bit with this."""
+    ignored_instance: tuple[int, int] | ArrayLike
+    """Leaves out this instance, or with ``ignored_triangle`` one triangle of it."""
+
+
 class AskedOptions:
     """The options of a collider or a scene, for one path or shape, or for a batch."""
 

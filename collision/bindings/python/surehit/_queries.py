@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from ._layouts import NO_TRIANGLE, Layouts, Statistics
 from ._library import check, function
 from ._options import AskedOptions, Raised, executor_pointer, filter_struct
-from .hits import AnyHit, Hit, Hits, ShapeHit, hit_of, scene_hit_of, shape_hit_of
+from .hits import (Hit, Hits, PathHit, ShapeHit, TouchHit, hit_of, scene_hit_of, scene_shape_hit_of,
+                   shape_hit_of)
 from .paths import Path, Paths, Segment
 from .shapes import SweptShape, SweptShapes
 
@@ -34,7 +35,7 @@ class Subject:
                       for name in ("first_hit", "any_hit", "all_hits", "first_hits", "any_hits")}
 
 
-class Queries(Generic[AnyHit]):
+class Queries(Generic[PathHit, TouchHit]):
     """What can be asked of a collider or of a scene. Many threads may ask at once, and the interpreter's lock is free.
 
     Options narrow a query: see ``surehit.Options``. A filter decides which hits count. A single query calls
@@ -47,11 +48,13 @@ class Queries(Generic[AnyHit]):
     def _set_kind(self, layouts: Layouts, word: str) -> None:
         self._layouts = layouts
         self._prefix = f"{word}{layouts.suffix}_"
-        self._paths = Subject(layouts, getattr(layouts, word), self._prefix,
-                              hit_of if word == "collider" else scene_hit_of)
-        self._shapes = None
+        shape_prefix = self._prefix + "shape_"
         if word == "collider":
-            self._shapes = Subject(layouts, layouts.shape, self._prefix + "shape_", shape_hit_of)
+            self._paths = Subject(layouts, layouts.collider, self._prefix, hit_of)
+            self._shapes = Subject(layouts, layouts.shape, shape_prefix, shape_hit_of)
+        else:
+            self._paths = Subject(layouts, layouts.scene, self._prefix, scene_hit_of)
+            self._shapes = Subject(layouts, layouts.scene_shape, shape_prefix, scene_shape_hit_of)
 
     def _function(self, name: str) -> Any:
         return function(self._prefix + name)
@@ -64,8 +67,6 @@ class Queries(Generic[AnyHit]):
     def _subject_of(self, path: Any) -> Subject:
         if isinstance(path, Path):
             return self._paths
-        if self._shapes is None:
-            raise TypeError(f"the path must be a Segment, a Ray or a Line, and not {type(path).__name__}")
         if not isinstance(path, SweptShape):
             raise TypeError("the path must be a Segment, a Ray, a Line or a moving shape, and not "
                             f"{type(path).__name__}")
@@ -74,8 +75,6 @@ class Queries(Generic[AnyHit]):
     def _subject_of_batch(self, paths: Any) -> Subject:
         if isinstance(paths, Paths):
             return self._paths
-        if self._shapes is None:
-            raise TypeError(f"the paths must be Segments, Rays or Lines, and not {type(paths).__name__}")
         if not isinstance(paths, SweptShapes):
             raise TypeError("the paths must be Segments, Rays, Lines or moving shapes, and not "
                             f"{type(paths).__name__}")
@@ -96,12 +95,12 @@ class Queries(Generic[AnyHit]):
             check(status)
 
     @overload
-    def first_hit(self, path: Path, *, filter: Callable[[AnyHit], Any] | None = None,
-                  statistics: Statistics | None = None, **options: Any) -> AnyHit | None: ...
+    def first_hit(self, path: Path, *, filter: Callable[[PathHit], Any] | None = None,
+                  statistics: Statistics | None = None, **options: Any) -> PathHit | None: ...
 
     @overload
-    def first_hit(self, path: SweptShape, *, filter: Callable[[ShapeHit], Any] | None = None,
-                  statistics: Statistics | None = None, **options: Any) -> ShapeHit | None: ...
+    def first_hit(self, path: SweptShape, *, filter: Callable[[TouchHit], Any] | None = None,
+                  statistics: Statistics | None = None, **options: Any) -> TouchHit | None: ...
 
     def first_hit(self, path: Path | SweptShape, *, filter: Callable[[Any], Any] | None = None,
                   statistics: Statistics | None = None, **options: Any) -> Any:
@@ -119,12 +118,12 @@ class Queries(Generic[AnyHit]):
         return blocked.value != 0
 
     @overload
-    def all_hits(self, path: Path, *, filter: Callable[[AnyHit], Any] | None = None,
-                 statistics: Statistics | None = None, **options: Any) -> Hits[AnyHit]: ...
+    def all_hits(self, path: Path, *, filter: Callable[[PathHit], Any] | None = None,
+                 statistics: Statistics | None = None, **options: Any) -> Hits[PathHit]: ...
 
     @overload
-    def all_hits(self, path: SweptShape, *, filter: Callable[[ShapeHit], Any] | None = None,
-                 statistics: Statistics | None = None, **options: Any) -> Hits[ShapeHit]: ...
+    def all_hits(self, path: SweptShape, *, filter: Callable[[TouchHit], Any] | None = None,
+                 statistics: Statistics | None = None, **options: Any) -> Hits[TouchHit]: ...
 
     def all_hits(self, path: Path | SweptShape, *, filter: Callable[[Any], Any] | None = None,
                  statistics: Statistics | None = None, **options: Any) -> Any:
@@ -140,7 +139,7 @@ class Queries(Generic[AnyHit]):
                 return Hits(records[:count.value])
             room = count.value
 
-    def last_free_point(self, segment: Segment, hit: AnyHit, *, filter: Callable[[AnyHit], Any] | None = None,
+    def last_free_point(self, segment: Segment, hit: PathHit, *, filter: Callable[[PathHit], Any] | None = None,
                         **options: Any) -> NDArray[Any]:
         """Returns where a point that moves along a segment may stop, in front of its first hit under these options.
 
@@ -157,6 +156,38 @@ class Queries(Generic[AnyHit]):
             self._handle, byref(segment.struct(self._layouts)), byref(struct), None if asked is None else byref(asked),
             None if chosen is None else byref(chosen), point.ctypes.data))
         return point
+
+    def overlaps(self, shape: SweptShape, *, statistics: Statistics | None = None, **options: Any) -> bool:
+        """Returns whether a shape touches anything at its start. Its end plays no part, and neither does ``max_t``."""
+        subject = self._shapes_of(shape)
+        touches = c_uint8()
+        asked = subject.options.single(options)
+        check(self._function("shape_overlaps")(
+            self._handle, byref(shape.struct(self._layouts)), None if asked is None else byref(asked),
+            None if statistics is None else byref(statistics), byref(touches)))
+        return touches.value != 0
+
+    def last_free_t(self, shape: SweptShape, hit: TouchHit) -> float:
+        """Returns the maximum t at which a shape has not touched the triangle of one of its hits yet.
+
+        For the first hit, it has touched nothing until then. It is 0 if they touch at the start.
+        """
+        self._shapes_of(shape)
+        t = self._layouts.real()
+        check(self._function("shape_last_free_t")(self._handle, byref(shape.struct(self._layouts)),
+                                                  byref(self._struct_of_touch(hit)), byref(t)))
+        return float(t.value)
+
+    def _shapes_of(self, shape: SweptShape) -> Subject:
+        if not isinstance(shape, SweptShape):
+            raise TypeError(f"the shape must be a moving shape, and not {type(shape).__name__}")
+        return self._shapes
+
+    def _struct_of_touch(self, hit: Any) -> Any:
+        struct = self._shapes.kind.Hit(hit.t, hit.u, hit.v, hit.triangle, int(hit.feature), hit.started_touching)
+        if not isinstance(hit, ShapeHit):
+            struct.instance.index, struct.instance.generation = hit.instance
+        return struct
 
     def _struct_of_hit(self, hit: Any) -> Any:
         struct = self._paths.kind.Hit(hit.t, hit.u, hit.v, hit.triangle, int(hit.side))
@@ -210,14 +241,14 @@ class Queries(Generic[AnyHit]):
         return out
 
     @overload
-    def first_hits(self, paths: Paths, *, filter: Callable[[int, AnyHit], Any] | None = None,
+    def first_hits(self, paths: Paths, *, filter: Callable[[int, PathHit], Any] | None = None,
                    executor: Executor | None = None, statistics: Statistics | None = None,
-                   out: Hits[AnyHit] | None = None, **options: Any) -> Hits[AnyHit]: ...
+                   out: Hits[PathHit] | None = None, **options: Any) -> Hits[PathHit]: ...
 
     @overload
-    def first_hits(self, paths: SweptShapes, *, filter: Callable[[int, ShapeHit], Any] | None = None,
+    def first_hits(self, paths: SweptShapes, *, filter: Callable[[int, TouchHit], Any] | None = None,
                    executor: Executor | None = None, statistics: Statistics | None = None,
-                   out: Hits[ShapeHit] | None = None, **options: Any) -> Hits[ShapeHit]: ...
+                   out: Hits[TouchHit] | None = None, **options: Any) -> Hits[TouchHit]: ...
 
     def first_hits(self, paths: Paths | SweptShapes, *, filter: Callable[[int, Any], Any] | None = None,
                    executor: Executor | None = None, statistics: Statistics | None = None,

@@ -5,22 +5,21 @@ from __future__ import annotations
 import ctypes
 import weakref
 from concurrent.futures import Executor
-from ctypes import byref, c_size_t, c_uint8, c_uint32, c_void_p
+from ctypes import byref, c_size_t, c_uint32, c_void_p
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _layouts
-from ._layouts import Layouts, Statistics, layouts_of
+from ._layouts import Layouts, layouts_of
 from ._library import check, function
 from ._numbers import indices, masks_of, rows, stride_of, wished_dtype
 from ._options import Raised, executor_pointer
-from ._queries import Queries, Subject
+from ._queries import Queries
 from .explanation import Explanation, explanation_of
 from .hits import Hit, ShapeHit
 from .paths import Path
-from .shapes import SweptShape
 
 
 class GridSummary(NamedTuple):
@@ -33,7 +32,7 @@ class GridSummary(NamedTuple):
     levels: int
 
 
-class Collider(Queries[Hit]):
+class Collider(Queries[Hit, ShapeHit]):
     """A triangle mesh that answers where paths first meet it. It copies what it needs of the mesh.
 
     ``vertices`` has the shape (N, 3), and ``triangles`` has three indices a row. An array of float32 makes a collider
@@ -160,33 +159,6 @@ class Collider(Queries[Hit]):
         asked = self._paths.options.single(options)
         return explanation_of(self._function("explain"), self._handle, byref(path.struct(self._layouts)),
                               None if asked is None else byref(asked), self._layouts)
-
-    def overlaps(self, shape: SweptShape, *, statistics: Statistics | None = None, **options: Any) -> bool:
-        """Returns whether a shape touches anything at its start. Its end plays no part, and neither does ``max_t``."""
-        subject = self._shapes_of(shape)
-        touches = c_uint8()
-        asked = subject.options.single(options)
-        check(self._function("shape_overlaps")(
-            self._handle, byref(shape.struct(self._layouts)), None if asked is None else byref(asked),
-            None if statistics is None else byref(statistics), byref(touches)))
-        return touches.value != 0
-
-    def last_free_t(self, shape: SweptShape, hit: ShapeHit) -> float:
-        """Returns the maximum t at which a shape has not touched the triangle of one of its hits yet.
-
-        For the first hit, it has touched nothing until then. It is 0 if they touch at the start.
-        """
-        subject = self._shapes_of(shape)
-        struct = subject.kind.Hit(hit.t, hit.u, hit.v, hit.triangle, int(hit.feature), hit.started_touching)
-        t = self._layouts.real()
-        check(self._function("shape_last_free_t")(self._handle, byref(shape.struct(self._layouts)), byref(struct),
-                                                  byref(t)))
-        return float(t.value)
-
-    def _shapes_of(self, shape: SweptShape) -> Subject:
-        if not isinstance(shape, SweptShape):
-            raise TypeError(f"the shape must be a moving shape, and not {type(shape).__name__}")
-        return self._subject_of(shape)
 
     def grid_summary(self) -> GridSummary:
         """Returns the size of the grid."""

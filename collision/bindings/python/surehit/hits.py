@@ -91,7 +91,21 @@ class ShapeHit(NamedTuple):
     started_touching: bool
 
 
-AnyHit = TypeVar("AnyHit", Hit, SceneHit, ShapeHit)
+class SceneShapeHit(NamedTuple):
+    """Where a moving shape first touches a triangle of a scene. All but the instance is as in ``ShapeHit``."""
+
+    t: float
+    u: float
+    v: float
+    triangle: int
+    feature: Feature
+    started_touching: bool
+    instance: InstanceId
+
+
+AnyHit = TypeVar("AnyHit", Hit, SceneHit, ShapeHit, SceneShapeHit)
+PathHit = TypeVar("PathHit", Hit, SceneHit)
+TouchHit = TypeVar("TouchHit", ShapeHit, SceneShapeHit)
 
 
 def hit_of(record: Any) -> Hit:
@@ -110,6 +124,12 @@ def shape_hit_of(record: Any) -> ShapeHit:
     """Returns the hit of a struct of a moving shape."""
     return ShapeHit(float(record.t), float(record.u), float(record.v), int(record.triangle),
                     _FEATURES[record.feature], bool(record.started_touching))
+
+
+def scene_shape_hit_of(record: Any) -> SceneShapeHit:
+    """Returns the hit of a struct of a moving shape in a scene."""
+    instance = InstanceId(int(record.instance.index), int(record.instance.generation))
+    return SceneShapeHit(*shape_hit_of(record), instance)
 
 
 class Hits(Generic[AnyHit]):
@@ -188,6 +208,8 @@ class Hits(Generic[AnyHit]):
             return None
         if not rest:
             return Hit(t, u, v, triangle, _SIDES[part])
+        if len(rest) == 2:
+            return SceneShapeHit(t, u, v, triangle, _FEATURES[part], bool(rest[0]), InstanceId(*rest[1]))
         if "instance" in (self.records.dtype.names or ()):
             return SceneHit(t, u, v, triangle, _SIDES[part], InstanceId(*rest[0]))
         return ShapeHit(t, u, v, triangle, _FEATURES[part], bool(rest[0]))

@@ -12,7 +12,7 @@ from ._layouts import NO_TRIANGLE, Layouts, layouts_of
 from ._library import check, function
 from ._numbers import converted, wished_dtype
 from ._options import AskedOptions
-from .hits import Hit, SceneHit, ShapeHit, hit_of, shape_hit_of
+from .hits import Hit, SceneHit, SceneShapeHit, ShapeHit, hit_of, shape_hit_of
 from .paths import Path
 from .shapes import SweptShape
 
@@ -43,7 +43,8 @@ def intersect(path: Path | SweptShape, triangle: ArrayLike, *, dtype: DTypeLike 
     return None if hit.triangle == NO_TRIANGLE else (shape_hit_of if is_shape else hit_of)(hit)
 
 
-def contact_point(triangle: ArrayLike, hit: ShapeHit, dtype: DTypeLike | None = None) -> NDArray[Any]:
+def contact_point(triangle: ArrayLike, hit: ShapeHit | SceneShapeHit,
+                  dtype: DTypeLike | None = None) -> NDArray[Any]:
     """Returns the touched point of a triangle, a + u (b - a) + v (c - a), within 4 ulp of its largest coordinate."""
     layouts = layouts_of(wished_dtype(triangle) if dtype is None else dtype)
     struct = layouts.shape.Hit(hit.t, hit.u, hit.v, hit.triangle, int(hit.feature), hit.started_touching)

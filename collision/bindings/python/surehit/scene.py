@@ -16,7 +16,7 @@ from ._numbers import converted, triple
 from ._options import Raised, executor_pointer
 from ._queries import Queries
 from .collider import Collider, _bits, _id
-from .hits import InstanceId, SceneHit
+from .hits import InstanceId, SceneHit, SceneShapeHit
 
 
 def rigid_pose(quaternion: ArrayLike, translation: ArrayLike = (0, 0, 0),
@@ -39,7 +39,7 @@ def translation_pose(translation: ArrayLike, dtype: DTypeLike = np.float64) -> N
     return np.column_stack([np.eye(3, dtype=dtype), triple(translation, np.dtype(dtype), "translation")])
 
 
-class Scene(Queries[SceneHit]):
+class Scene(Queries[SceneHit, SceneShapeHit]):
     """Many meshes, placed and moving, that are asked as one. An instance is the exact image of its mesh under its pose.
 
     A pose is a matrix of the shape (3, 4), or (4, 4) with the last row 0 0 0 1. A corner v of the mesh is at M v + m in
@@ -48,6 +48,9 @@ class Scene(Queries[SceneHit]):
 
     Changes take effect with the next ``commit``. Until then, queries answer as before. A scene of float64 may have
     colliders of float32 too. Among hits with equal exact t, the lowest instance index comes first.
+
+    Moving shapes have the sizes and axes of the scene, whatever the poses are. While a shape moves, instances with a
+    motion move too.
 
     Raises ``InvalidInstance`` if a pose, a motion or an id cannot be used. The scene is then as before.
     """
@@ -103,7 +106,7 @@ class Scene(Queries[SceneHit]):
         check(self._function("set_pose")(self._handle, _struct(instance), numbers.ctypes.data))
 
     def set_motion(self, instance: InstanceId, motion: ArrayLike) -> None:
-        """Sets the motion of an instance. At t of a segment, it is at its pose plus t times the motion.
+        """Sets the motion of an instance. At t of a segment or of a shape, it is at its pose plus t times the motion.
 
         Rays and lines see it at its pose. The motion stays until it is set again. Zero ends it.
         """
