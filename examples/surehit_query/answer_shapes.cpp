@@ -9,6 +9,7 @@
 #include "mesh_io/input_error.hpp"
 #include "surehit_query/answer_blocks.hpp"
 #include "surehit_query/asked_mesh.hpp"
+#include "surehit_query/asked_scene.hpp"
 #include "surehit_query/hit_text.hpp"
 #include "surehit_query/number_table.hpp"
 #include "surehit_query/query_limits.hpp"
@@ -76,6 +77,17 @@ ShapeQueryOptions<Scalar> shape_options(const QueryOptions<Scalar>& options) {
           .ignore_start_contact = options.ignore_start_contact};
 }
 
+template <typename Scalar>
+SceneShapeQueryOptions<Scalar> shape_options(const SceneQueryOptions<Scalar>& options) {
+  return {.max_t = options.max_t,
+          .culling = options.culling,
+          .mask = options.mask,
+          .instance_mask = options.instance_mask,
+          .ignored_instance = options.ignored_instance,
+          .ignored_triangle = options.ignored_triangle,
+          .ignore_start_contact = options.ignore_start_contact};
+}
+
 template <typename Shape, typename Scalar>
 void answer_shape_pairs(const QueryRequest& request) {
   const auto options = shape_options(limits_of<QueryOptions<Scalar>>(request));
@@ -100,7 +112,8 @@ void answer_shape_pairs(const QueryRequest& request) {
   write_answers(request, std::string("hit") + shape_columns + "\n", table.rows(), answer);
 }
 
-template <typename Shape, typename Scalar>
+/// Asks an `AskedMesh` or an `AskedScene`.
+template <typename Shape, typename Scalar, typename Asked>
 class ShapeQueries {
  public:
   explicit ShapeQueries(const QueryRequest& request)
@@ -110,17 +123,18 @@ class ShapeQueries {
         table_(read_shapes<Shape, Scalar>(request, 0)) {}
 
   void answer() const {
-    const std::string id = asked_.id_columns();
+    const std::string ids = asked_.id_columns();
     if (request_.question == Question::first) {
-      write(id + shape_columns, &ShapeQueries::first_hits);
+      write(ids + shape_columns, &ShapeQueries::first_hits);
     } else if (request_.question == Question::any) {
       write("hit", &ShapeQueries::any_hits);
     } else {
-      write("path," + id + shape_columns, &ShapeQueries::all_hits);
+      write("path," + ids + shape_columns, &ShapeQueries::all_hits);
     }
   }
 
  private:
+  using Answer = typename Asked::ShapeAnswer;
   using Answers = AnsweredBlock (ShapeQueries::*)(std::size_t, std::size_t) const;
 
   void write(const std::string& header, Answers answers) const {
@@ -135,17 +149,17 @@ class ShapeQueries {
     return shapes;
   }
 
-  void append_hit(const ShapeHit<Scalar>& hit, std::string& lines) const {
-    asked_.append_id(hit.triangle, lines);
+  void append_hit(const Answer& hit, std::string& lines) const {
+    asked_.append_ids(hit, lines);
     append_contact(hit, lines);
     lines += '\n';
   }
 
   [[nodiscard]] AnsweredBlock first_hits(std::size_t begin, std::size_t end) const {
-    std::vector<ShapeHit<Scalar>> hits(end - begin);
+    std::vector<Answer> hits(end - begin);
     AnsweredBlock answered;
     asked_.target().first_hits(shapes(begin, end), hits, {.options = options_, .statistics = &answered.statistics});
-    for (const ShapeHit<Scalar>& hit : hits) {
+    for (const Answer& hit : hits) {
       if (hit.triangle == no_triangle) {
         answered.lines += asked_.no_ids();
         answered.lines += no_shape_hit;
@@ -166,11 +180,11 @@ class ShapeQueries {
   }
 
   [[nodiscard]] AnsweredBlock all_hits(std::size_t begin, std::size_t end) const {
-    std::vector<ShapeHit<Scalar>> hits;
+    std::vector<Answer> hits;
     AnsweredBlock answered;
     for (std::size_t i = begin; i < end; ++i) {
       asked_.target().all_hits(ShapeRow<Shape>::read(table_.row(i)), hits, options_, &answered.statistics);
-      for (const ShapeHit<Scalar>& hit : hits) {
+      for (const Answer& hit : hits) {
         append_number(i, answered.lines);
         answered.lines += ',';
         append_hit(hit, answered.lines);
@@ -180,8 +194,8 @@ class ShapeQueries {
   }
 
   const QueryRequest& request_;
-  AskedMesh<Scalar> asked_;
-  ShapeQueryOptions<Scalar> options_;
+  Asked asked_;
+  typename Asked::ShapeOptions options_;
   NumberTable<Scalar> table_;
 };
 
@@ -189,8 +203,10 @@ template <template <typename> typename Shape, typename Scalar>
 void answer_shapes_of(const QueryRequest& request) {
   if (request.question == Question::pair) {
     answer_shape_pairs<Shape<Scalar>, Scalar>(request);
+  } else if (request.scene_path.empty()) {
+    ShapeQueries<Shape<Scalar>, Scalar, AskedMesh<Scalar>>(request).answer();
   } else {
-    ShapeQueries<Shape<Scalar>, Scalar>(request).answer();
+    ShapeQueries<Shape<Scalar>, Scalar, AskedScene<Scalar>>(request).answer();
   }
 }
 

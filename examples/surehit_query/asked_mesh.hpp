@@ -34,6 +34,8 @@ class AskedMesh {
  public:
   using Answer = Hit<Scalar>;
   using Options = QueryOptions<Scalar>;
+  using ShapeAnswer = ShapeHit<Scalar>;
+  using ShapeOptions = ShapeQueryOptions<Scalar>;
 
   /// Reads it. Throws InputError.
   explicit AskedMesh(const QueryRequest& request);
@@ -44,7 +46,8 @@ class AskedMesh {
   [[nodiscard]] std::string id_columns() const { return id_column_; }
   /// Returns what these columns have for a miss.
   [[nodiscard]] static const char* no_ids() { return "-1"; }
-  void append_ids(const Answer& hit, std::string& text) const { append_id(hit.triangle, text); }
+  /// Appends the ids of the hit of a path or a shape.
+  void append_ids(const auto& hit, std::string& text) const { append_id(hit.triangle, text); }
   void append_id(std::uint32_t triangle, std::string& text) const;
   [[nodiscard]] Vector3<Scalar> normal(const Answer& hit) const { return mesh_.collider.normal(hit.triangle); }
   /// Returns 1 for each hit that ties. The hits are all those of the path, in order.

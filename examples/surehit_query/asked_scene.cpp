@@ -84,15 +84,15 @@ typename AskedScene<Scalar>::Options AskedScene<Scalar>::options_of(const QueryR
 }
 
 template <typename Scalar>
-const typename AskedScene<Scalar>::Placed& AskedScene<Scalar>::instance_of(const Answer& hit) const {
-  return instances_[scene_.user_data(hit.instance)];
+const typename AskedScene<Scalar>::Placed& AskedScene<Scalar>::placed_of(InstanceId instance) const {
+  return instances_[scene_.user_data(instance)];
 }
 
 template <typename Scalar>
-void AskedScene<Scalar>::append_ids(const Answer& hit, std::string& text) const {
-  append_number(scene_.user_data(hit.instance), text);
+void AskedScene<Scalar>::append_ids(InstanceId instance, std::uint32_t triangle, std::string& text) const {
+  append_number(scene_.user_data(instance), text);
   text += ',';
-  append_number(instance_of(hit).mesh->id_of(hit.triangle), text);
+  append_number(placed_of(instance).mesh->id_of(triangle), text);
 }
 
 template <typename Scalar>
@@ -105,7 +105,7 @@ std::vector<std::uint32_t> AskedScene<Scalar>::turned_order(const Path<Scalar>& 
                                                             std::span<const Answer> hits) const {
   Scene<Scalar> turned;
   for (std::size_t i = hits.size(); i-- > 0;) {
-    const Placed& placed = instance_of(hits[i]);
+    const Placed& placed = placed_of(hits[i].instance);
     const InstanceOptions number{.user_data = hits.size() - 1 - i};
     const InstanceResult added =
         turned.try_add(collider_of(placed.mesh->collider.triangle(hits[i].triangle)), scene_.pose(placed.id), number);

@@ -23,6 +23,8 @@ class AskedScene {
  public:
   using Answer = SceneHit<Scalar>;
   using Options = SceneQueryOptions<Scalar>;
+  using ShapeAnswer = SceneShapeHit<Scalar>;
+  using ShapeOptions = SceneShapeQueryOptions<Scalar>;
 
   /// Reads it, and says the warnings of its meshes. Throws InputError.
   explicit AskedScene(const QueryRequest& request);
@@ -31,7 +33,7 @@ class AskedScene {
   [[nodiscard]] const Options& options() const { return options_; }
   [[nodiscard]] std::string id_columns() const { return "instance," + id_column_; }
   [[nodiscard]] static const char* no_ids() { return "-1,-1"; }
-  void append_ids(const Answer& hit, std::string& text) const;
+  void append_ids(const auto& hit, std::string& text) const { append_ids(hit.instance, hit.triangle, text); }
   [[nodiscard]] Vector3<Scalar> normal(const Answer& hit) const { return scene_.normal(hit.instance, hit.triangle); }
   [[nodiscard]] std::vector<std::uint8_t> ties(const Path<Scalar>& path, const std::vector<Answer>& hits) const;
 
@@ -48,7 +50,8 @@ class AskedScene {
   SharedMesh mesh_of(const PlacedMesh<Scalar>& placed, const QueryRequest& request);
   void add(const PlacedMesh<Scalar>& placed, const QueryRequest& request);
   [[nodiscard]] Options options_of(const QueryRequest& request) const;
-  [[nodiscard]] const Placed& instance_of(const Answer& hit) const;
+  [[nodiscard]] const Placed& placed_of(InstanceId instance) const;
+  void append_ids(InstanceId instance, std::uint32_t triangle, std::string& text) const;
   /// See `exact_ties`.
   [[nodiscard]] std::vector<std::uint32_t> turned_order(const Path<Scalar>& path, std::span<const Answer> hits) const;
 

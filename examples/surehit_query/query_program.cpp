@@ -161,8 +161,9 @@ constexpr const char* shape_columns_help =
 constexpr const char* scenes =
     "SCENE: a text file with one instance a line: a mesh file, the 12 numbers of its pose, and if need be\n"
     "motion X Y Z and mask BITS. The pose is m00 m01 m02 m0  m10 m11 m12 m1  m20 m21 m22 m2: a corner v of the\n"
-    "mesh is exactly at M v + m. At t of a segment, the instance has moved by t (X, Y, Z). Mesh files are\n"
-    "relative to the scene file. Names with white space or commas stand in \"quotation marks\". In the output, the\n"
+    "mesh is exactly at M v + m. At t of a segment or of a shape, the instance has moved by t (X, Y, Z). Mesh files\n"
+    "are relative to the scene file. Shapes have the sizes and axes of the scene. Names with white space or commas "
+    "stand in \"quotation marks\". In the output, the\n"
     "column instance is before that of ids. It counts the lines that place a mesh, from 0. A miss has -1 in both.\n"
     "Of equal exact t, the least instance comes first, and then the least triangle.\n";
 
@@ -310,7 +311,6 @@ void check_shape(const QueryRequest& request) {
   const auto refuse = [](bool is_given, const char* option) {
     if (is_given) throw CLI::ValidationError(option, "only straight paths have it");
   };
-  refuse(!request.scene_path.empty(), "--scene");
   refuse(request.min_t != "-inf", "--min-t");
   refuse(request.ignore_end_contact, "--ignore-end-contact");
   refuse(request.wants_points, "--points");

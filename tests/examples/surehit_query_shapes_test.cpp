@@ -40,6 +40,40 @@ TEST_F(SurehitQueryShapes, answers_about_meshes) {
   }
 }
 
+TEST_F(SurehitQueryShapes, answers_about_scenes) {
+  write_squares();
+  // The second instance lies 2 above the first, and is twice as large. The balls stay as they are.
+  write("scene.txt", "squares.obj 1 0 0 0  0 1 0 0  0 0 1 0\nsquares.obj 2 0 0 0  0 2 0 0  0 0 2 3 mask 2\n");
+  write("spheres", "0.75 0.25 -1  0.75 0.25 7  0.25\n0.75 0.25 7  0.75 0.25 -1  0.25\n9 9 9  8 8 8  1\n");
+  write("boxes",
+        "0.75 0.25 -1  0.75 0.25 7  0.125 0.125 0.25\n0.75 0.25 7  0.75 0.25 -1  0.125 0.125 0.25\n"
+        "9 9 9  8 8 8  1 1 1\n");
+  write("capsules",
+        "0.75 0.25 -1  0.75 0.25 7  0 0 0.125  0.125\n0.75 0.25 7  0.75 0.25 -1  0 0 0.125  0.125\n"
+        "9 9 9  8 8 8  1 0 0  1\n");
+  for (const std::string shape : {"sphere", "box", "capsule"}) {
+    const std::string arguments = " --scene scene.txt " + shape + (shape == "box" ? "es" : "s") + " --path " + shape;
+    expect_output("first" + arguments, "instance,triangle," + columns +
+                                           "0,0,0.09375,0.5,0.25,face,0\n1,2,0.21875,0.25,0.125,face,0\n-1,-1,,,,,\n");
+    expect_output("any" + arguments, "hit\n1\n1\n0\n");
+    expect_output("any" + arguments + " --mask 4 --threads 2", "hit\n1\n1\n0\n");
+    expect_output("all" + arguments + " --ids face --scalar double --ignore-instance 0 --ignore-triangle 0",
+                  "path,instance,face," + columns +
+                      "0,0,1,0.21875,0.5,0.25,face,0\n0,1,0,0.46875,0.25,0.125,face,0\n"
+                      "0,1,1,0.71875,0.25,0.125,face,0\n1,1,1,0.21875,0.25,0.125,face,0\n"
+                      "1,1,0,0.46875,0.25,0.125,face,0\n1,0,1,0.71875,0.5,0.25,face,0\n");
+  }
+  const std::string first = "first --scene scene.txt spheres --path sphere ";
+  const std::string header = "instance,triangle," + columns;
+  expect_output(first + "--ignore-instance 1 --max-t 0.5",
+                header + "0,0,0.09375,0.5,0.25,face,0\n-1,-1,,,,,\n-1,-1,,,,,\n");
+  expect_output(first + "--mask 4", header + "0,0,0.09375,0.5,0.25,face,0\n0,2,0.71875,0.5,0.25,face,0\n-1,-1,,,,,\n");
+  write("scene.txt", "squares.obj 1 0 0 0  0 1 0 0  0 0 1 0 motion 0 0 -2\n");
+  write("resting", "0.75 0.25 -1  0.75 0.25 -1  0.25\n");
+  expect_output("first --scene scene.txt resting --path sphere", header + "0,0,0.375,0.5,0.25,face,0\n");
+  expect_bad_input("first --scene scene.txt spheres --path box", "spheres: line 1: expected 9 numbers, not 7");
+}
+
 TEST_F(SurehitQueryShapes, narrows_queries) {
   write_squares();
   write("spheres", "0.75 0.25 -1  0.75 0.25 3  0.25\n");
@@ -90,8 +124,6 @@ TEST_F(SurehitQueryShapes, refuses_what_only_straight_paths_have) {
   expect_refused("first squares.obj spheres --ignore-end-contact", "--ignore-end-contact");
   expect_refused("first squares.obj spheres --points", "--points");
   expect_refused("first squares.obj spheres --normals", "--normals");
-  write("scene", "squares.obj 1 0 0 0  0 1 0 0  0 0 1 0\n");
-  expect_refused("first --scene scene spheres", "--scene");
   expect_bad_input("first squares.obj spheres --free-points --path box",
                    "--free-points: only a segment has them (see surehit-query --help)");
   EXPECT_EQ(run("explain squares.obj spheres --path sphere").status, 2);
