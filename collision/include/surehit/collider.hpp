@@ -287,6 +287,22 @@ class SUREHIT_API Collider {
   /// this collider. The result is 0 if they touch at the start, or if no Scalar is between 0 and t. Decides one pair of
   /// a shape and a triangle. Allocates nothing.
   [[nodiscard]] Scalar last_free_t(const SweptShape<Scalar>& shape, const ShapeHit<Scalar>& hit) const noexcept;
+  /// Returns where the centre of the shape may stop, in front of the hit. The way from the start to it has no hit under
+  /// these options. So the shape touches nothing there, except what `ignore_start_contact` and the other options leave
+  /// out. `hit` must be the shape's first hit under the same options.
+  ///
+  /// The candidates are those of the `last_free_point` of a segment: round(start + s (end - start)), where s is below t
+  /// and at least 2^-64. The result is the first one that passes an exact query. If none does, or if the shape touches
+  /// something at its start, it is the start. It is also the start if t or a centre is not finite.
+  ///
+  /// Takes at most 24 queries in float, and 53 in double. Allocates nothing.
+  [[nodiscard]] Vector3<Scalar> last_free_point(const SweptShape<Scalar>& shape, const ShapeHit<Scalar>& hit,
+                                                const ShapeQueryOptions<Scalar>& options = {}) const noexcept;
+  /// Returns the same for the hits that the filter accepts. The filter is given hits of the shorter steps, and their t
+  /// counts on these.
+  [[nodiscard]] Vector3<Scalar> last_free_point(const SweptShape<Scalar>& shape, const ShapeHit<Scalar>& hit,
+                                                HitFilter<Scalar, ShapeHit<Scalar>> filter,
+                                                const ShapeQueryOptions<Scalar>& options = {}) const noexcept;
 
   /// Returns the number of triangles.
   [[nodiscard]] std::size_t triangle_count() const noexcept;

@@ -156,8 +156,18 @@ class SUREHIT_API SceneQueries {
                 const SceneShapeBatchOptions<Scalar>& options = {}) const noexcept;
   /// Returns the greatest t at which the shape has not touched the triangle of a hit, see `Collider::last_free_t`. If
   /// the instance moves, it is then at its pose plus t times its motion. `hit` must be one of the shape's hits in this
-  /// scene.
+  /// scene. The result is 0 if its instance is not committed.
   [[nodiscard]] Scalar last_free_t(const SweptShape<Scalar>& shape, const SceneShapeHit<Scalar>& hit) const noexcept;
+  /// Returns where the centre of the shape may stop, in front of the hit, see `Collider::last_free_point`. A moving
+  /// instance goes the same share of its way, which is in `share` as it is for segments.
+  [[nodiscard]] Vector3<Scalar> last_free_point(const SweptShape<Scalar>& shape, const SceneShapeHit<Scalar>& hit,
+                                                const SceneShapeQueryOptions<Scalar>& options = {},
+                                                Scalar* share = nullptr) const noexcept;
+  /// Returns the same for the hits that the filter accepts.
+  [[nodiscard]] Vector3<Scalar> last_free_point(const SweptShape<Scalar>& shape, const SceneShapeHit<Scalar>& hit,
+                                                SceneShapeHitFilter<Scalar> filter,
+                                                const SceneShapeQueryOptions<Scalar>& options = {},
+                                                Scalar* share = nullptr) const noexcept;
 
  protected:
   /// Answers as an empty scene does.

@@ -30,7 +30,9 @@ template <typename Scalar, typename Options, typename IsBlocked>
     const Segment<Scalar> free{segment.start, exact_point(path, s)};
     Options shortened = options;
     shortened.max_t = std::isnan(options.max_t) ? options.max_t : std::numeric_limits<Scalar>::infinity();
-    if (options.min_t > 0) shortened.min_t = std::nextafter(options.min_t / s, Scalar{0});
+    if constexpr (requires { options.min_t; }) {
+      if (options.min_t > 0) shortened.min_t = std::nextafter(options.min_t / s, Scalar{0});
+    }
     if (!is_blocked(Path<Scalar>(free), shortened, s)) return free.end;
   }
   return segment.start;

@@ -57,16 +57,19 @@ double grown(double size, double slack) { return (size + slack) * (1 + 0x1p-50);
 }  // namespace
 
 template <typename Shape, typename Scalar>
-PlacedShape::PlacedShape(const Shape& shape, const Placement<Scalar>& placement, const InstanceFrame& frame)
+PlacedShape::PlacedShape(const Shape& shape, const Placement<Scalar>& placement, const InstanceFrame& frame,
+                         Scalar share_of_motion)
     : is_usable_(frame.is_usable) {
   if (!is_usable_) return;
   double rounding = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    const double last = placement.moves ? double{shape.end[axis]} - double{placement.motion[axis]} : shape.end[axis];
+    const double moved = placement.moves ? double{placement.motion[axis]} * double{share_of_motion} : 0;
+    const double last = double{shape.end[axis]} - moved;
     start_[axis] = double{shape.start[axis]} - frame.placed_anchor[i];
     end_[axis] = last - frame.placed_anchor[i];
-    rounding = std::max(rounding, std::fabs(start_[axis]) + std::fabs(end_[axis]) + std::fabs(last));
+    const double sizes = std::fabs(start_[axis]) + std::fabs(end_[axis]) + std::fabs(last);
+    rounding = std::max(rounding, sizes + (share_of_motion == 1 ? 0 : std::fabs(moved)));
     anchor_[i] = frame.anchor[i];
     for (std::size_t column = 0; column < 3; ++column) {
       rows_[i][column] = placement.pose.linear(axis, static_cast<Eigen::Index>(column));
@@ -127,13 +130,15 @@ void PlacedShape::place(const MeshScalar* corners, std::size_t list_count, std::
   }
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                                               \
-  template PlacedShape::PlacedShape(const SweptSphere<Scalar>&, const Placement<Scalar>&, const InstanceFrame&);  \
-  template PlacedShape::PlacedShape(const SweptBox<Scalar>&, const Placement<Scalar>&, const InstanceFrame&);     \
-  template PlacedShape::PlacedShape(const SweptCapsule<Scalar>&, const Placement<Scalar>&, const InstanceFrame&); \
-  template SweptSphere<double> PlacedShape::near_anchor(const SweptSphere<Scalar>&) const;                        \
-  template SweptBox<double> PlacedShape::near_anchor(const SweptBox<Scalar>&) const;                              \
-  template SweptCapsule<double> PlacedShape::near_anchor(const SweptCapsule<Scalar>&) const;                      \
+#define SUREHIT_INSTANTIATE(Scalar)                                                                                   \
+  template PlacedShape::PlacedShape(const SweptSphere<Scalar>&, const Placement<Scalar>&, const InstanceFrame&,       \
+                                    Scalar);                                                                          \
+  template PlacedShape::PlacedShape(const SweptBox<Scalar>&, const Placement<Scalar>&, const InstanceFrame&, Scalar); \
+  template PlacedShape::PlacedShape(const SweptCapsule<Scalar>&, const Placement<Scalar>&, const InstanceFrame&,      \
+                                    Scalar);                                                                          \
+  template SweptSphere<double> PlacedShape::near_anchor(const SweptSphere<Scalar>&) const;                            \
+  template SweptBox<double> PlacedShape::near_anchor(const SweptBox<Scalar>&) const;                                  \
+  template SweptCapsule<double> PlacedShape::near_anchor(const SweptCapsule<Scalar>&) const;                          \
   template void PlacedShape::place(const Scalar*, std::size_t, std::size_t, std::size_t, double*) const;
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

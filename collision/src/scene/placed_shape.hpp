@@ -16,9 +16,9 @@ namespace surehit::detail {
 /// this does. POSES.md derives by how much.
 class PlacedShape {
  public:
-  /// The shape must be valid.
+  /// The shape must be valid. `share` is that of the motion which the shape sees.
   template <typename Shape, typename Scalar>
-  PlacedShape(const Shape& shape, const Placement<Scalar>& placement, const InstanceFrame& frame);
+  PlacedShape(const Shape& shape, const Placement<Scalar>& placement, const InstanceFrame& frame, Scalar share = 1);
 
   /// Returns false if the errors are not known. Then each triangle must be decided exactly.
   [[nodiscard]] bool is_usable() const { return is_usable_; }

@@ -22,9 +22,10 @@ struct PlacedShapeCandidate {
   Triangle<ScalarOf<Shape>> local;              ///< The corners of the triangle in the mesh.
   const Placement<ScalarOf<Shape>>* placement;  ///< Where the instance is.
   ContactOf<Shape> contact;                     ///< The contact.
+  ScalarOf<Shape> share = 1;                    ///< The share of the motion that the shape sees.
 
   /// Returns the triangle for those who decide about it.
-  [[nodiscard]] AnyTriangle whole_triangle() const { return {local, *placement}; }
+  [[nodiscard]] AnyTriangle whole_triangle() const { return {local, *placement, share}; }
   /// Returns what decides ties.
   [[nodiscard]] auto ids() const { return std::tie(instance, id); }
   /// Returns true if both contacts are known to have the same exact t.

@@ -22,7 +22,7 @@ template <typename Scalar>
 struct PlacedTriangle {
   Triangle<Scalar> local;              ///< The triangle of the mesh.
   const Placement<Scalar>& placement;  ///< Where the instance is.
-  /// The share of the motion that a segment sees. It is below 1 for a part of a step.
+  /// The share of the motion that a segment or a shape sees. It is below 1 for a part of a step.
   Scalar share = 1;
 };
 

@@ -105,7 +105,7 @@ class PlacedShapeVisitor {
   void take(std::uint32_t id, const Triangle<MeshScalar>& triangle) {
     if (!takes_part(id) || keep_.passes_over(index_, id)) return;
     PlacedCandidateOf<Shape> candidate{
-        index_, id, converted<Scalar>(triangle), &query_.instances[index_].placed.placement, {}};
+        index_, id, converted<Scalar>(triangle), &query_.instances[index_].placed.placement, {}, query_.share};
     ++query_.statistics.undecided;
     if (narrowphase_.find_contact(candidate.whole_triangle(), keep_.limit, candidate.contact))
       keep_.take(query_, narrowphase_, candidate);
@@ -225,7 +225,7 @@ class SceneShapeSearch {
   template <typename MeshScalar>
   void search_mesh(std::uint32_t index, const ColliderState<MeshScalar>& mesh) {
     const PlacedInstance<Scalar>& placed = query_.instances[index].placed;
-    const PlacedShape shape(shape_, placed.placement, placed.frame);
+    const PlacedShape shape(shape_, placed.placement, placed.frame, query_.share);
     PlacedShapeVisitor<Shape, MeshScalar, Keep> visitor(query_, narrowphase, index, mesh, shape, shape_, keep);
     if (!shape.is_usable() || !SweptWalk(mesh.grid, shape.in_mesh(), visitor).walk()) visitor.visit_all();
   }

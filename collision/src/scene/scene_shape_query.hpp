@@ -22,6 +22,7 @@ struct SceneShapeQuery {
   const SceneShapeHitFilter<Scalar>* filter;                ///< The filter, or null.
   QueryStatistics& statistics;                              ///< The query counts here.
   std::size_t path;                                         ///< The index of the shape in its batch.
+  Scalar share = 1;                                         ///< The share of each motion that the shape sees.
 
   /// Returns true if the filter accepts a hit, or if there is no filter.
   [[nodiscard]] bool accepts(const SceneShapeHit<Scalar>& hit) const {

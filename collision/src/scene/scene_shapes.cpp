@@ -8,6 +8,7 @@
 #include "scene/scene_shape_query.hpp"
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
+#include "shape/free_centre.hpp"
 #include "shape/sphere_contact.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"
@@ -25,11 +26,11 @@ constexpr std::size_t scene_shapes_in_a_task = 256;
 template <typename Scalar, typename Search>
 decltype(auto) ask_scene(const detail::CommittedScene<Scalar>& scene, const SweptShape<Scalar>& shape,
                          const SceneShapeQueryOptions<Scalar>& options, const SceneShapeHitFilter<Scalar>* filter,
-                         QueryStatistics* statistics, const Search& search) {
+                         QueryStatistics* statistics, const Search& search, Scalar share = 1) {
   const FloatingPointEnvironment environment;
   QueryStatistics unread;
   const detail::SceneShapeQuery<Scalar> query{
-      scene.instances, scene.tree, options, filter, statistics != nullptr ? *statistics : unread, 0};
+      scene.instances, scene.tree, options, filter, statistics != nullptr ? *statistics : unread, 0, share};
   return std::visit([&](const auto& any) { return search(query, any); }, shape);
 }
 
@@ -56,6 +57,24 @@ void ask_scene_batch(const detail::CommittedScene<Scalar>& scene, const SweptSha
     detail::answer_batch(std::min(all.size(), answers), options, scene_shapes_in_a_task, ask_part);
   };
   std::visit(ask_all, shapes);
+}
+
+/// Returns where the centre of a shape may stop in front of a hit. The instances go the same share of their ways.
+template <typename Scalar>
+Vector3<Scalar> find_free_centre_in_scene(const detail::CommittedScene<Scalar>& scene, const SweptShape<Scalar>& shape,
+                                          const SceneShapeHit<Scalar>& hit,
+                                          const SceneShapeQueryOptions<Scalar>& options,
+                                          const SceneShapeHitFilter<Scalar>* filter, Scalar* share) noexcept {
+  Scalar free_share = 0;
+  const Vector3<Scalar> centre = detail::find_free_centre(
+      shape, hit.t, options,
+      [&](const SweptShape<Scalar>& shorter, const SceneShapeQueryOptions<Scalar>& shortened, Scalar s) {
+        const bool is_blocked = ask_scene<Scalar>(scene, shorter, shortened, filter, nullptr, search_scene_any, s);
+        if (!is_blocked) free_share = s;
+        return is_blocked;
+      });
+  if (share != nullptr) *share = free_share;
+  return centre;
 }
 
 }  // namespace
@@ -149,6 +168,21 @@ Scalar SceneQueries<Scalar>::last_free_t(const SweptShape<Scalar>& shape,
   return is_touched ? std::nextafter(hit.t, Scalar{0}) : hit.t;
 }
 
+template <FloatOrDouble Scalar>
+Vector3<Scalar> SceneQueries<Scalar>::last_free_point(const SweptShape<Scalar>& shape, const SceneShapeHit<Scalar>& hit,
+                                                      const SceneShapeQueryOptions<Scalar>& options,
+                                                      Scalar* share) const noexcept {
+  return find_free_centre_in_scene<Scalar>(committed(), shape, hit, options, nullptr, share);
+}
+
+template <FloatOrDouble Scalar>
+Vector3<Scalar> SceneQueries<Scalar>::last_free_point(const SweptShape<Scalar>& shape, const SceneShapeHit<Scalar>& hit,
+                                                      SceneShapeHitFilter<Scalar> filter,
+                                                      const SceneShapeQueryOptions<Scalar>& options,
+                                                      Scalar* share) const noexcept {
+  return find_free_centre_in_scene(committed(), shape, hit, options, &filter, share);
+}
+
 #define SUREHIT_INSTANTIATE(Scalar)                                                                                    \
   template std::optional<SceneShapeHit<Scalar>> SceneQueries<Scalar>::first_hit(                                       \
       const SweptShape<Scalar>&, const SceneShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept;              \
@@ -171,7 +205,13 @@ Scalar SceneQueries<Scalar>::last_free_t(const SweptShape<Scalar>& shape,
   template void SceneQueries<Scalar>::any_hits(const SweptShapeSpan<Scalar>&, std::span<std::uint8_t>,                 \
                                                const SceneShapeBatchOptions<Scalar>&) const noexcept;                  \
   template Scalar SceneQueries<Scalar>::last_free_t(const SweptShape<Scalar>&, const SceneShapeHit<Scalar>&)           \
-      const noexcept;
+      const noexcept;                                                                                                  \
+  template Vector3<Scalar> SceneQueries<Scalar>::last_free_point(                                                      \
+      const SweptShape<Scalar>&, const SceneShapeHit<Scalar>&, const SceneShapeQueryOptions<Scalar>&, Scalar*)         \
+      const noexcept;                                                                                                  \
+  template Vector3<Scalar> SceneQueries<Scalar>::last_free_point(                                                      \
+      const SweptShape<Scalar>&, const SceneShapeHit<Scalar>&, SceneShapeHitFilter<Scalar>,                            \
+      const SceneShapeQueryOptions<Scalar>&, Scalar*) const noexcept;
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)
 #undef SUREHIT_INSTANTIATE

@@ -61,7 +61,8 @@ template <typename Number, typename Scalar>
   return image;
 }
 
-/// Does the same for a placed triangle. The shape is seen from the instance, so its end is less by the motion.
+/// Does the same for a placed triangle. The shape is seen from the instance, so its end is less by its share of the
+/// motion.
 ///
 /// Z3. A term of a difference has at most four roundings here: those of a product, of two sums, and of a difference. So
 ///     no sum of SphereTouch has a term with more than 98 roundings, which Z1 allows. What values lose by underflow is
@@ -84,7 +85,10 @@ void set_differences(Terms& terms, const Shape& shape, const PlacedTriangle<Scal
   Vector<Number> end = of(shape.end, pose.translation);
   terms.step = of(shape.end, shape.start);
   if (moves) {
-    const Vector<Number> motion = of(motion_given, zero);
+    Vector<Number> motion = of(motion_given, zero);
+    Number share;
+    set_exact(share, double{triangle.share});
+    for (Number& x : motion) x = x * share;
     end = less(end, motion);
     terms.step = less(terms.step, motion);
   }
@@ -102,7 +106,8 @@ inline constexpr bool has_short_sums = true;
 template <typename Scalar>
 inline constexpr bool has_short_sums<PlacedTriangle<Scalar>> = false;
 
-/// Returns true if no product of a pose and a coordinate can underflow. Entries of a pose are at least 2^-64.
+/// Returns true if no product of a coordinate with an entry of a pose or a share can underflow. Both are at least
+/// 2^-64.
 template <typename Scalar>
 [[nodiscard]] bool has_usual_images(const Triangle<Scalar>&) {
   return true;
@@ -112,8 +117,8 @@ template <typename Scalar>
   if constexpr (std::is_same_v<Scalar, float>) return true;
   const auto& [a, b, c] = triangle.local;
   bool is_usual = true;
-  for (const Vector3<Scalar>* corner : {&a, &b, &c}) {
-    for (const Scalar x : *corner) is_usual &= x == 0 || std::fabs(double{x}) >= 0x1p-500;
+  for (const Vector3<Scalar>* point : {&a, &b, &c, &triangle.placement.motion}) {
+    for (const Scalar x : *point) is_usual &= x == 0 || std::fabs(double{x}) >= 0x1p-500;
   }
   return is_usual;
 }

@@ -6,6 +6,7 @@
 #include "query/answer_batch.hpp"
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
+#include "shape/free_centre.hpp"
 #include "shape/shape_query.hpp"
 #include "shape/sphere_contact.hpp"
 #include "support/floating_point_environment.hpp"
@@ -53,6 +54,18 @@ void ask_batch(const detail::ColliderState<Scalar>& state, const SweptShapeSpan<
     detail::answer_batch(std::min(all.size(), answers), options, shapes_in_a_task, ask_part);
   };
   std::visit(ask_all, shapes);
+}
+
+/// Returns where the centre of a shape may stop in front of a hit.
+template <typename Scalar>
+Vector3<Scalar> find_free_centre(const detail::ColliderState<Scalar>& state, const SweptShape<Scalar>& shape,
+                                 const ShapeHit<Scalar>& hit, const ShapeQueryOptions<Scalar>& options,
+                                 const ShapeHitFilter<Scalar>* filter) noexcept {
+  return detail::find_free_centre(
+      shape, hit.t, options,
+      [&](const SweptShape<Scalar>& shorter, const ShapeQueryOptions<Scalar>& shortened, Scalar /*s*/) {
+        return ask<Scalar>(state, shorter, shortened, filter, nullptr, search_any);
+      });
 }
 
 }  // namespace
@@ -136,6 +149,19 @@ Scalar Collider<Scalar>::last_free_t(const SweptShape<Scalar>& shape, const Shap
   return is_touched ? std::nextafter(hit.t, Scalar{0}) : hit.t;
 }
 
+template <FloatOrDouble Scalar>
+Vector3<Scalar> Collider<Scalar>::last_free_point(const SweptShape<Scalar>& shape, const ShapeHit<Scalar>& hit,
+                                                  const ShapeQueryOptions<Scalar>& options) const noexcept {
+  return find_free_centre<Scalar>(state(), shape, hit, options, nullptr);
+}
+
+template <FloatOrDouble Scalar>
+Vector3<Scalar> Collider<Scalar>::last_free_point(const SweptShape<Scalar>& shape, const ShapeHit<Scalar>& hit,
+                                                  ShapeHitFilter<Scalar> filter,
+                                                  const ShapeQueryOptions<Scalar>& options) const noexcept {
+  return find_free_centre(state(), shape, hit, options, &filter);
+}
+
 #define SUREHIT_INSTANTIATE(Scalar)                                                                                    \
   template std::optional<ShapeHit<Scalar>> Collider<Scalar>::first_hit(                                                \
       const SweptShape<Scalar>&, const ShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept;                   \
@@ -157,7 +183,12 @@ Scalar Collider<Scalar>::last_free_t(const SweptShape<Scalar>& shape, const Shap
                                              const ShapeBatchOptions<Scalar>&) const noexcept;                         \
   template void Collider<Scalar>::any_hits(const SweptShapeSpan<Scalar>&, std::span<std::uint8_t>,                     \
                                            const ShapeBatchOptions<Scalar>&) const noexcept;                           \
-  template Scalar Collider<Scalar>::last_free_t(const SweptShape<Scalar>&, const ShapeHit<Scalar>&) const noexcept;
+  template Scalar Collider<Scalar>::last_free_t(const SweptShape<Scalar>&, const ShapeHit<Scalar>&) const noexcept;    \
+  template Vector3<Scalar> Collider<Scalar>::last_free_point(const SweptShape<Scalar>&, const ShapeHit<Scalar>&,       \
+                                                             const ShapeQueryOptions<Scalar>&) const noexcept;         \
+  template Vector3<Scalar> Collider<Scalar>::last_free_point(const SweptShape<Scalar>&, const ShapeHit<Scalar>&,       \
+                                                             ShapeHitFilter<Scalar>, const ShapeQueryOptions<Scalar>&) \
+      const noexcept;
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)
 #undef SUREHIT_INSTANTIATE

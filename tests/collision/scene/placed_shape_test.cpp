@@ -28,6 +28,7 @@ struct Case {
   SweptSphere<Scalar> sphere;
   Vector3<Scalar> half;  ///< The half axis of the capsule. Without its signs, the half extents of the box.
   std::array<Vector3<Scalar>, 3> corners;
+  Scalar share = 1;  ///< The share of the motion that the shape sees.
   InstanceFrame frame;
 
   ExactMatrix matrix;
@@ -44,7 +45,9 @@ struct Case {
   [[nodiscard]] ExactVector start() const { return exact(sphere.start) - origin; }
   [[nodiscard]] SweptBox<Scalar> box() const { return {sphere.start, sphere.end, half.cwiseAbs()}; }
   [[nodiscard]] SweptCapsule<Scalar> capsule() const { return {sphere.start, sphere.end, half, sphere.radius}; }
-  [[nodiscard]] ExactVector end() const { return exact(sphere.end) - exact(placement.motion) - origin; }
+  [[nodiscard]] ExactVector end() const {
+    return exact(sphere.end) - mpq_class(double{share}) * exact(placement.motion) - origin;
+  }
 };
 
 /// Draws an instance near the origin or far away, and a ball that comes near it.
@@ -60,6 +63,7 @@ Case<Scalar> draw_case(Random& random) {
   if (random.one_in(2)) {
     drawn.placement.motion = vector(random.one_in(2) ? 1 : 1 + far);
     drawn.placement.moves = true;
+    if (random.one_in(2)) drawn.share = static_cast<Scalar>(std::exp2(real(random.one_in(2) ? -64 : -2, 0)));
   }
   const double size = std::exp2(real(-10, 10));
   const Vector3<Scalar> middle = vector(random.one_in(2) ? 0 : 100 * size);
@@ -120,7 +124,7 @@ mpq_class core_reach(const SweptCapsule<Scalar>& capsule, const ExactVector& row
 /// largest share that an error takes up of what is there for it, if this is all that there is.
 template <typename Scalar, typename Shape>
 double share_in_mesh(const Case<Scalar>& drawn, const Shape& shape, const mpq_class& radius) {
-  const PlacedShape placed(shape, drawn.placement, drawn.frame);
+  const PlacedShape placed(shape, drawn.placement, drawn.frame, drawn.share);
   EXPECT_TRUE(placed.is_usable());
   const ExactMatrix inverse_matrix = inverse(drawn.matrix);
   const ExactVector anchor = exact(drawn.frame.anchor);
@@ -146,7 +150,7 @@ TYPED_TEST(PlacedShapeOf, HoldsTheExactShape) {
   double in_mesh = 0;
   for (std::size_t i = case_count(8000); i > 0; --i) {
     const Case<TypeParam> drawn = draw_case<TypeParam>(random);
-    const PlacedShape placed(drawn.sphere, drawn.placement, drawn.frame);
+    const PlacedShape placed(drawn.sphere, drawn.placement, drawn.frame, drawn.share);
     ASSERT_TRUE(placed.is_usable());
     near_anchor = std::max(near_anchor, share_near_anchor(drawn, placed));
     const mpq_class radius(double{drawn.sphere.radius});
@@ -166,6 +170,28 @@ TYPED_TEST(PlacedShapeOf, HoldsTheExactShape) {
   EXPECT_GT(near_anchor, 0.01);
   EXPECT_GT(in_mesh, 0.01);
   testing::Test::RecordProperty("shares", testing::PrintToString(std::array{near_anchor, in_mesh}));
+}
+
+TYPED_TEST(PlacedShapeOf, HoldsAShapeThatGoesAPartOfTheWayWithItsInstance) {
+  Random random(6);
+  const auto vector = [&](TypeParam size) {
+    const auto x = random.symmetric<TypeParam>();
+    const auto y = random.symmetric<TypeParam>();
+    return Vector3<TypeParam>(size * x, size * y, size * random.symmetric<TypeParam>());
+  };
+  double off = 0;
+  for (std::size_t i = case_count(500); i > 0; --i) {
+    Case<TypeParam> drawn = draw_case<TypeParam>(random);
+    drawn.placement = {{}, vector(0x1p30F), true};
+    drawn.share = random.unit<TypeParam>() / 2 + TypeParam{0.25};
+    for (auto& corner : drawn.corners) corner = vector(1);
+    drawn.sphere.start = vector(1);
+    // Against the instance, the shape hardly moves. So the motion alone is large.
+    drawn.sphere.end = drawn.share * drawn.placement.motion;
+    drawn.set_exact();
+    off = std::max(off, share_near_anchor(drawn, PlacedShape(drawn.sphere, drawn.placement, drawn.frame, drawn.share)));
+  }
+  EXPECT_LE(off, 1);
 }
 
 TYPED_TEST(PlacedShapeOf, HasABoxThatIsHardlyLargerThanABall) {
