@@ -199,12 +199,15 @@ void Collider<Scalar>::set_mask(std::uint32_t triangle, std::uint32_t mask) {
   assert(triangle < triangle_count());
   if (state_->masks.empty()) state_->masks.assign(triangle_count(), ~std::uint32_t{0});
   state_->masks[triangle] = mask;
+  state_->mask_version = State<Scalar>::next_version();
 }
 
 template <FloatOrDouble Scalar>
 BuildResult Collider<Scalar>::try_set_masks(std::span<const std::uint32_t> masks) {
   if (BuildResult checked = check_masks(masks, triangle_count()); !checked) return checked;
-  if (state_) state_->masks.assign(masks.begin(), masks.end());
+  if (!state_) return {};
+  state_->masks.assign(masks.begin(), masks.end());
+  state_->mask_version = State<Scalar>::next_version();
   return {};
 }
 
@@ -236,7 +239,7 @@ GridSummary Collider<Scalar>::grid_summary() const noexcept {
 
 template <FloatOrDouble Scalar>
 std::size_t Collider<Scalar>::memory_bytes() const noexcept {
-  const auto& [mesh, masks, box, grid, grid_options, spare, version, searches] = state();
+  const auto& [mesh, masks, box, grid, grid_options, spare, version, mask_version, searches] = state();
   return grid.memory_bytes() + mesh.memory_bytes() + masks.capacity() * sizeof(std::uint32_t) +
          spare.grid.memory_bytes() + spare.mesh.memory_bytes() + spare.scratch.memory_bytes();
 }

@@ -33,6 +33,7 @@ struct ColliderState {
   GridOptions grid_options;          ///< The options that the grid was built with.
   Spare spare;                       ///< The memory of a rebuild.
   std::uint64_t version = 0;         ///< Differs for each build of any collider. It is 0 before a build.
+  std::uint64_t mask_version = 0;    ///< Differs for each change of masks between builds. It is 0 before a change.
   /// The searches for the best instruction set. They are chosen when the collider is made.
   const Searches<Scalar>* searches = best_searches<Scalar>();
 

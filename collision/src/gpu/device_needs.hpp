@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/vulkan_functions.hpp"
+
+namespace surehit::detail {
+
+/// What a driver says of a device.
+struct DeviceReport {
+  VkPhysicalDeviceProperties properties = {};
+  VkPhysicalDeviceMemoryProperties memory = {};
+  std::vector<VkQueueFamilyProperties> families;
+};
+
+/// The number of paths in a dispatch. A path takes at most `max_path_steps` steps, so no dispatch takes long.
+inline constexpr std::uint32_t paths_in_dispatch = std::uint32_t{1} << 16;
+/// The maximum number of nodes of the tree that a path goes through before it is left to the host.
+inline constexpr std::uint32_t max_path_steps = std::uint32_t{1} << 12;
+/// The number of threads that work together on a device, as in the shaders.
+inline constexpr std::uint32_t threads_in_group = 64;
+
+/// Returns what the device lacks, as a part of a sentence, or nothing.
+[[nodiscard]] std::string missing_of(const DeviceReport& report);
+/// Returns the first queue family that computes.
+[[nodiscard]] std::optional<std::uint32_t> computing_family(const DeviceReport& report);
+/// Returns a type of memory that has all of these properties and is one of `allowed`, those with `wished` first.
+[[nodiscard]] std::optional<std::uint32_t> memory_type(const VkPhysicalDeviceMemoryProperties& memory,
+                                                       std::uint32_t allowed, VkMemoryPropertyFlags needed,
+                                                       VkMemoryPropertyFlags wished = 0);
+/// Returns what is known of the device.
+[[nodiscard]] GpuDescription description_of(const DeviceReport& report);
+
+}  // namespace surehit::detail

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gpu/device_needs.hpp"
+#include "gpu/gpu_buffer.hpp"
+#include "gpu/rounding_check.hpp"
+#include "gpu/vulkan_functions.hpp"
+#include "surehit/gpu.hpp"
+
+namespace surehit::detail {
+
+/// What narrows a path on the device, as `tree_walk.comp` reads it.
+struct PathLimits {
+  float t_first, det_first, t_last, det_last;  ///< The weights of the ends of the range, as in `RangeWeights`.
+  float first, last;                           ///< The range. 2^100 stands for infinity.
+  std::uint32_t mask;
+  std::uint32_t ignored;
+  std::uint32_t flags;
+
+  static constexpr std::uint32_t keeps_front = 1;   ///< Leaves out hits that are not `front`.
+  static constexpr std::uint32_t keeps_back = 2;    ///< Leaves out hits that are not `back`.
+  static constexpr std::uint32_t is_whole = 4;      ///< The range is [0, 1].
+  static constexpr std::uint32_t hits_nothing = 8;  ///< The range is empty.
+  static constexpr std::uint32_t is_for_host = 16;  ///< The kernel cannot weigh the range.
+};
+
+/// The words that a dispatch pushes.
+struct PushedWords {
+  std::uint32_t path_count, is_segment, limits_step, max_steps;
+};
+
+/// The work on one dispatch: its buffers on both sides, its commands, and a fence. A device has two of them, so that
+/// it works on one while the host finishes the other.
+struct GpuSlot {
+  GpuBuffer host_paths, host_limits, host_answers;  ///< Where the host writes and reads.
+  GpuBuffer paths, limits, answers;                 ///< Where the device does.
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  VkDescriptorSet buffers = VK_NULL_HANDLE;
+  VkFence fence = VK_NULL_HANDLE;
+};
+
+/// What the shader of a dispatch is.
+enum class GpuTask : std::uint8_t { any_hits, first_hits, roundings };
+
+/// What an open device has behind its pointer.
+struct GpuDeviceState {
+  GpuDeviceState() = default;
+  ~GpuDeviceState();
+  GpuDeviceState(const GpuDeviceState&) = delete;
+  GpuDeviceState& operator=(const GpuDeviceState&) = delete;
+
+  /// Starts Vulkan, without a device.
+  [[nodiscard]] std::optional<GpuError> start(const char* loader = "libvulkan.so.1");
+  /// Sets `found` to what the drivers say of all devices.
+  [[nodiscard]] std::optional<GpuError> find(std::vector<std::pair<VkPhysicalDevice, DeviceReport>>& found) const;
+  /// Opens a device, makes its pipelines, and checks how it rounds.
+  [[nodiscard]] std::optional<GpuError> open(VkPhysicalDevice chosen, const DeviceReport& its_report);
+
+  /// Sets the buffers of a slot. The first two are those of a mesh.
+  void bind(const GpuSlot& slot, VkBuffer nodes, VkBuffer triangles) const;
+  /// Begins a dispatch. The first bytes of the host's buffers go to the device before it, and the answers come back
+  /// after it.
+  [[nodiscard]] std::optional<GpuError> submit(const GpuSlot& slot, GpuTask task, const PushedWords& pushed,
+                                               std::size_t path_bytes, std::size_t limit_bytes,
+                                               std::size_t answer_bytes);
+  /// Waits until the work in a slot has ended.
+  [[nodiscard]] std::optional<GpuError> wait(const GpuSlot& slot);
+  /// Waits until the device has nothing to do, after a failure.
+  void abandon();
+  /// Fills a buffer of the device.
+  [[nodiscard]] std::optional<GpuError> upload(std::span<const std::byte> bytes, const GpuBuffer& to);
+  /// Computes the cases of `rounding_check.hpp`.
+  [[nodiscard]] std::optional<GpuError> round(std::span<const RoundingCase> cases, std::span<RoundingResult> results);
+
+  /// Returns the state of an open device. Tests use it to let devices fail.
+  [[nodiscard]] static const std::shared_ptr<GpuDeviceState>& of(const GpuDevice& device) { return device.state_; }
+  /// Returns the device of a state.
+  [[nodiscard]] static GpuDevice device_of(std::shared_ptr<GpuDeviceState> state) {
+    GpuDevice device;
+    device.state_ = std::move(state);
+    return device;
+  }
+
+  VulkanFunctions vulkan;
+  VkInstance instance = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  DeviceReport report;
+  std::string name;
+  bool is_lost = false;  ///< Nothing more is asked of a device that was lost.
+  std::array<GpuSlot, 2> slots;
+  std::mutex mutex;  ///< Held by a batch and by an upload.
+
+ private:
+  [[nodiscard]] std::optional<GpuError> make_layouts();
+  [[nodiscard]] std::optional<GpuError> make_pipeline(GpuTask task, std::span<const std::uint32_t> shader);
+  [[nodiscard]] std::optional<GpuError> make_slots();
+  [[nodiscard]] std::optional<GpuError> run(const GpuSlot& slot);
+  [[nodiscard]] std::optional<GpuError> noted(std::optional<GpuError> error);
+
+  VkQueue queue_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  std::array<VkPipeline, 3> pipelines_ = {};
+  VkCommandPool commands_ = VK_NULL_HANDLE;
+  VkDescriptorPool sets_ = VK_NULL_HANDLE;
+};
+
+}  // namespace surehit::detail

@@ -1,0 +1,91 @@
+#include "gpu/rounding_check.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+
+namespace surehit::detail {
+namespace {
+
+constexpr float least_normal = std::numeric_limits<float>::min();
+
+/// The two floats around a number, which are the same if it is a float.
+struct Neighbours {
+  explicit Neighbours(double x) : below(static_cast<float>(x)), above(below) {
+    if (double{below} > x) below = std::nextafter(below, -std::numeric_limits<float>::infinity());
+    if (double{above} < x) above = std::nextafter(above, std::numeric_limits<float>::infinity());
+  }
+  [[nodiscard]] bool have(float x) const { return x == below || x == above; }
+  float below, above;
+};
+
+/// Returns true if a device may return `result` for this exact value. It may flush what is below the least normal
+/// number, in its operands too.
+bool may_be(float result, double exact) {
+  if (Neighbours(exact).have(result)) return true;
+  return std::fabs(exact) <= 2 * double{least_normal} && std::fabs(result) <= 2 * least_normal;
+}
+
+/// Returns true if a device may return this for a / b: it is within 2.5 ulp. Both are normal, and so is a / b.
+bool may_be_quotient(float result, float a, float b) {
+  const double ulp = std::ldexp(1.0, std::ilogb(result) - 23);
+  const double rest = double{result} * double{b} - double{a};  // The product is exact.
+  return std::isfinite(result) && std::fabs(rest) <= 2.5 * ulp * std::fabs(double{b}) * (1 + 0x1p-20);
+}
+
+/// Returns true if a device may return this for a b + c: it rounds twice.
+bool may_be_product_and_sum(float result, float a, float b, float c) {
+  const Neighbours product(double{a} * double{b});
+  return may_be(result, double{product.below} + double{c}) || may_be(result, double{product.above} + double{c});
+}
+
+std::string fault(const char* operation, const RoundingCase& numbers, float result) {
+  char text[160];
+  std::snprintf(text, sizeof text, "it computes %s of %a, %a and %a as %a", operation, double{numbers[0]},
+                double{numbers[1]}, double{numbers[2]}, double{result});
+  return text;
+}
+
+}  // namespace
+
+std::vector<RoundingCase> rounding_cases() {
+  std::vector<RoundingCase> cases;
+  std::uint64_t bits = 1;
+  const auto draw = [&](int exponents) {
+    bits = bits * 6364136223846793005U + 1442695040888963407U;
+    const auto significand = static_cast<float>((bits >> 40 & 0x7fffff) | 0x800000);
+    const int exponent = static_cast<int>(bits >> 33 & 0x7f) % exponents - exponents / 2;
+    return std::ldexp((bits >> 63) != 0 ? -significand : significand, exponent - 23);
+  };
+  for (int i = 0; i < 2000; ++i) {
+    const float a = draw(20);
+    const float b = draw(20);
+    // The product nearly cancels in half of the cases, so that it shows whether it was rounded.
+    cases.push_back({a, b, i % 2 == 0 ? -static_cast<float>(double{a} * double{b}) : draw(20)});
+  }
+  // Products and sums that may be flushed.
+  for (const float x : {least_normal, least_normal / 2, least_normal / 1024}) cases.push_back({x, 0.5F, x});
+  cases.push_back({0x1p-70F, 0x1.8p-70F, 0x1p-130F});
+  return cases;
+}
+
+std::optional<std::string> rounding_fault(std::span<const RoundingCase> cases,
+                                          std::span<const RoundingResult> results) {
+  if (results.size() != cases.size()) return "it computes too little";
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto [a, b, c] = cases[i];
+    const auto [sum, difference, product, quotient, product_and_sum] = results[i];
+    if (!may_be(sum, double{a} + double{b})) return fault("the sum", cases[i], sum);
+    if (!may_be(difference, double{a} - double{b})) return fault("the difference", cases[i], difference);
+    if (!may_be(product, double{a} * double{b})) return fault("the product", cases[i], product);
+    const bool is_normal = std::fabs(a) > 0x1p-100F && std::fabs(b) > 0x1p-20F;
+    if (is_normal && !may_be_quotient(quotient, a, b)) return fault("the quotient", cases[i], quotient);
+    if (!may_be_product_and_sum(product_and_sum, a, b, c)) {
+      return fault("the product and the sum", cases[i], product_and_sum);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace surehit::detail

@@ -1,0 +1,31 @@
+#version 450
+
+// Computes what a device must round as GPU.md needs it. rounding_check.cpp judges the results.
+
+layout(local_size_x = 64) in;
+
+layout(std430, binding = 2) readonly buffer Numbers { float numbers[]; };    // Three a case.
+layout(std430, binding = 4) writeonly buffer Results { float results[]; };  // Five a case.
+
+layout(push_constant) uniform Dispatch {
+  uint case_count;
+  uint unused_1, unused_2, unused_3;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= case_count) return;
+  float a = numbers[3 * i];
+  float b = numbers[3 * i + 1];
+  float c = numbers[3 * i + 2];
+  precise float sum = a + b;
+  precise float difference = a - b;
+  precise float product = a * b;
+  precise float quotient = a / b;
+  precise float product_and_sum = a * b + c;
+  results[5 * i] = sum;
+  results[5 * i + 1] = difference;
+  results[5 * i + 2] = product;
+  results[5 * i + 3] = quotient;
+  results[5 * i + 4] = product_and_sum;
+}

@@ -1,0 +1,73 @@
+#include "gpu/vulkan_functions.hpp"
+
+#include <dlfcn.h>
+
+namespace surehit::detail {
+namespace {
+
+std::optional<GpuError> missing_function(const char* name) {
+  return GpuError(GpuError::Reason::no_loader, std::string("the Vulkan loader has no function vk") + name);
+}
+
+}  // namespace
+
+VulkanFunctions::~VulkanFunctions() {
+  if (library != nullptr) dlclose(library);
+}
+
+std::optional<GpuError> VulkanFunctions::open_loader(const char* name) {
+  library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) {
+    return GpuError(GpuError::Reason::no_loader,
+                    std::string("the Vulkan loader ") + name + " cannot be opened; install libvulkan1 and a driver");
+  }
+  GetInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
+  if (GetInstanceProcAddr == nullptr) return missing_function("GetInstanceProcAddr");
+#define SUREHIT_LOAD(name)                                                                \
+  name = reinterpret_cast<PFN_vk##name>(GetInstanceProcAddr(VK_NULL_HANDLE, "vk" #name)); \
+  if (name == nullptr) return missing_function(#name);
+  SUREHIT_VULKAN_GLOBAL_FUNCTIONS(SUREHIT_LOAD)
+#undef SUREHIT_LOAD
+  return std::nullopt;
+}
+
+std::optional<GpuError> VulkanFunctions::load(VkInstance instance) {
+#define SUREHIT_LOAD(name)                                                          \
+  name = reinterpret_cast<PFN_vk##name>(GetInstanceProcAddr(instance, "vk" #name)); \
+  if (name == nullptr) return missing_function(#name);
+  SUREHIT_VULKAN_INSTANCE_FUNCTIONS(SUREHIT_LOAD)
+#undef SUREHIT_LOAD
+  return std::nullopt;
+}
+
+std::optional<GpuError> VulkanFunctions::load(VkDevice device) {
+#define SUREHIT_LOAD(name)                                                      \
+  name = reinterpret_cast<PFN_vk##name>(GetDeviceProcAddr(device, "vk" #name)); \
+  if (name == nullptr) return missing_function(#name);
+  SUREHIT_VULKAN_DEVICE_FUNCTIONS(SUREHIT_LOAD)
+#undef SUREHIT_LOAD
+  return std::nullopt;
+}
+
+std::optional<GpuError> error_of(VkResult result, const std::string& what) {
+  using Reason = GpuError::Reason;
+  switch (result) {
+    case VK_SUCCESS:
+      return std::nullopt;
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+      return GpuError(Reason::out_of_memory, "too little memory on the host " + what);
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+      return GpuError(Reason::out_of_memory, "too little memory on the device " + what);
+    case VK_ERROR_DEVICE_LOST:
+      return GpuError(Reason::device_lost, "the device was lost; it must be opened anew " + what);
+    case VK_TIMEOUT:
+      return GpuError(Reason::device_lost, "the device has not answered for two minutes " + what);
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+    case VK_ERROR_INITIALIZATION_FAILED:
+      return GpuError(Reason::no_device, "no driver of Vulkan could be started " + what);
+    default:
+      return GpuError(Reason::failed, "Vulkan's error " + std::to_string(static_cast<int>(result)) + " " + what);
+  }
+}
+
+}  // namespace surehit::detail

@@ -1,0 +1,82 @@
+#pragma once
+
+#define VK_NO_PROTOTYPES
+#include <vulkan/vulkan_core.h>
+
+#include <optional>
+#include <string>
+
+#include "surehit/gpu.hpp"
+
+namespace surehit::detail {
+
+// The functions of Vulkan that are used, without `vk`: those of no object, of an instance, and of a device.
+#define SUREHIT_VULKAN_GLOBAL_FUNCTIONS(X) X(CreateInstance) X(EnumerateInstanceVersion)
+
+#define SUREHIT_VULKAN_INSTANCE_FUNCTIONS(X) \
+  X(DestroyInstance)                         \
+  X(EnumeratePhysicalDevices)                \
+  X(GetPhysicalDeviceProperties)             \
+  X(GetPhysicalDeviceQueueFamilyProperties) X(GetPhysicalDeviceMemoryProperties) X(CreateDevice) X(GetDeviceProcAddr)
+
+#define SUREHIT_VULKAN_DEVICE_FUNCTIONS(X) \
+  X(DestroyDevice)                         \
+  X(GetDeviceQueue)                        \
+  X(CreateBuffer)                          \
+  X(DestroyBuffer)                         \
+  X(GetBufferMemoryRequirements)           \
+  X(AllocateMemory)                        \
+  X(FreeMemory)                            \
+  X(BindBufferMemory)                      \
+  X(MapMemory)                             \
+  X(CreateShaderModule)                    \
+  X(DestroyShaderModule)                   \
+  X(CreateDescriptorSetLayout)             \
+  X(DestroyDescriptorSetLayout)            \
+  X(CreatePipelineLayout)                  \
+  X(DestroyPipelineLayout)                 \
+  X(CreateComputePipelines)                \
+  X(DestroyPipeline)                       \
+  X(CreateDescriptorPool)                  \
+  X(DestroyDescriptorPool)                 \
+  X(AllocateDescriptorSets)                \
+  X(UpdateDescriptorSets)                  \
+  X(CreateCommandPool)                     \
+  X(DestroyCommandPool)                    \
+  X(AllocateCommandBuffers)                \
+  X(BeginCommandBuffer)                    \
+  X(EndCommandBuffer)                      \
+  X(CmdBindPipeline)                       \
+  X(CmdBindDescriptorSets)                 \
+  X(CmdPushConstants)                      \
+  X(CmdDispatch)                           \
+  X(CmdCopyBuffer)                         \
+  X(CmdPipelineBarrier) X(CreateFence) X(DestroyFence) X(ResetFences) X(WaitForFences) X(QueueSubmit) X(DeviceWaitIdle)
+
+/// The functions of Vulkan, and the loader that they come from.
+struct VulkanFunctions {
+  VulkanFunctions() = default;
+  ~VulkanFunctions();
+  VulkanFunctions(const VulkanFunctions&) = delete;
+  VulkanFunctions& operator=(const VulkanFunctions&) = delete;
+
+  /// Opens the loader of this name, and gets the functions of no object.
+  [[nodiscard]] std::optional<GpuError> open_loader(const char* name = "libvulkan.so.1");
+  /// Gets the functions of an instance.
+  [[nodiscard]] std::optional<GpuError> load(VkInstance instance);
+  /// Gets the functions of a device.
+  [[nodiscard]] std::optional<GpuError> load(VkDevice device);
+
+  void* library = nullptr;  ///< The loader, or null.
+  PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;
+#define SUREHIT_MEMBER(name) PFN_vk##name name = nullptr;
+  SUREHIT_VULKAN_GLOBAL_FUNCTIONS(SUREHIT_MEMBER)
+  SUREHIT_VULKAN_INSTANCE_FUNCTIONS(SUREHIT_MEMBER)
+  SUREHIT_VULKAN_DEVICE_FUNCTIONS(SUREHIT_MEMBER)
+#undef SUREHIT_MEMBER
+};
+
+/// Returns what a result means, or nothing if it is a success. `what` is what was tried, such as "to open the device".
+[[nodiscard]] std::optional<GpuError> error_of(VkResult result, const std::string& what);
+
+}  // namespace surehit::detail

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "support/pair_text.hpp"
+#include "support/same_bits.hpp"
+#include "surehit/gpu.hpp"
+
+namespace surehit::test {
+
+/// Opens the best device that there is, software included. Returns a closed one where there is none.
+inline GpuDevice any_gpu() {
+  GpuDevice device;
+  if (const GpuResult opened = device.try_open({.takes_software = true}); !opened) {
+    EXPECT_NE(opened.error().reason, GpuError::Reason::missing_feature) << opened.error().what();
+  }
+  return device;
+}
+
+#define SUREHIT_SKIP_WITHOUT(device) \
+  if (!(device).is_open()) GTEST_SKIP() << "no Vulkan device here"
+
+/// Asks the device and the host in batches, and expects the same bits. Returns the number of hits.
+inline std::size_t expect_same_as_host(const GpuCollider& on_gpu, const Colliderf& collider, const PathSpanf& paths,
+                                       const BatchOptionsf& options = {}, GpuStatistics* statistics = nullptr) {
+  const Hitf unset{.t = 7, .triangle = 7};
+  std::vector<Hitf> hits(paths.size(), unset);
+  std::vector<Hitf> expected(paths.size(), unset);
+  std::vector<std::uint8_t> blocked(paths.size(), 7);
+  std::vector<std::uint8_t> expected_blocked(paths.size(), 7);
+  const GpuBatchOptions gpu = {.statistics = statistics};
+  EXPECT_TRUE(on_gpu.first_hits(paths, hits, options, gpu));
+  EXPECT_TRUE(on_gpu.any_hits(paths, blocked, options, gpu));
+  collider.first_hits(paths, expected, options);
+  collider.any_hits(paths, expected_blocked, options);
+  std::size_t hit_count = 0;
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (expected_blocked[i] != 0) ++hit_count;
+    if (same_bits(hits[i], expected[i]) && blocked[i] == expected_blocked[i]) continue;
+    if (++different > 3) continue;
+    ADD_FAILURE() << hex_text(paths[i]) << ": " << hex_text(hits[i]) << ", not " << hex_text(expected[i])
+                  << ", and any hit is " << int{blocked[i]};
+  }
+  EXPECT_EQ(different, 0U);
+  return hit_count;
+}
+
+/// Paths of each kind, and options of their own for them.
+struct PathsOfKinds {
+  void add(const Pathf& path, const QueryOptionsf& its_options = {}) {
+    if (path.kind == PathKind::segment) segments.push_back({path.start, path.toward});
+    if (path.kind == PathKind::ray) rays.push_back({path.start, path.toward});
+    if (path.kind == PathKind::line) lines.push_back({path.start, path.toward});
+    options[static_cast<std::size_t>(path.kind)].push_back(its_options);
+  }
+  [[nodiscard]] PathSpanf of(PathKind kind) const {
+    if (kind == PathKind::segment) return segments;
+    if (kind == PathKind::ray) return rays;
+    return lines;
+  }
+  /// Asks about all of them with their own options. Returns the number of hits.
+  std::size_t expect_same_as_host(const GpuCollider& on_gpu, const Colliderf& collider,
+                                  GpuStatistics* statistics = nullptr) const {
+    std::size_t hits = 0;
+    for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
+      hits += test::expect_same_as_host(on_gpu, collider, of(kind),
+                                        {.path_options = options[static_cast<std::size_t>(kind)]}, statistics);
+    }
+    return hits;
+  }
+
+  std::vector<Segmentf> segments;
+  std::vector<Rayf> rays;
+  std::vector<Linef> lines;
+  std::vector<QueryOptionsf> options[3];
+};
+
+}  // namespace surehit::test

@@ -1,0 +1,330 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "determinism/answers.hpp"
+#include "determinism/hard_questions.hpp"
+#include "gpu_answers.hpp"
+#include "level/level.hpp"
+#include "mesh_io/read_mesh.hpp"
+#include "support/case_count.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/pair_families.hpp"
+#include "support/path_drawer.hpp"
+#include "support/threads.hpp"
+
+namespace surehit::test {
+namespace {
+
+class GpuColliderTest : public testing::Test {
+ protected:
+  void SetUp() override { SUREHIT_SKIP_WITHOUT(device); }
+
+  /// Draws hard paths of all kinds and compares them, with options of their own for some.
+  std::size_t expect_same(const TriangleMeshViewf& mesh, std::size_t paths, std::span<const std::uint32_t> masks = {}) {
+    const Colliderf collider(mesh, {.masks = masks});
+    const GpuCollider on_gpu(device, collider);
+    PathDrawer<float> drawer(mesh, 5);
+    PathsOfKinds drawn;
+    for (std::size_t i = 0; i < paths; ++i) {
+      Pathf path = i % 4 == 3 ? drawer.draw_axis_parallel() : drawer.draw();
+      if (i % 7 == 6) path = drawer.draw_from_afar(std::ldexp(1.0F, static_cast<int>(i % 50)));
+      QueryOptionsf options;
+      if (i % 3 == 0) options = draw_options(drawer.random(), 0.5F);
+      if (i % 5 == 0) options.mask = 1;
+      drawn.add(path, options);
+    }
+    return drawn.expect_same_as_host(on_gpu, collider, &statistics);
+  }
+
+  GpuDevice device = any_gpu();
+  GpuStatistics statistics;
+};
+
+TEST_F(GpuColliderTest, one_triangle_and_one_path_of_each_family) {
+  for (const PairFamily family : all_pair_families) {
+    SCOPED_TRACE(name_of(family));
+    Random random(11);
+    for (std::size_t i = case_count(200); i > 0; --i) {
+      const auto [segment, triangle] = draw_pair<float>(family, random);
+      GeneratedMesh<float> mesh;
+      mesh.add(triangle);
+      const Colliderf collider(mesh.view());
+      const GpuCollider on_gpu(device, collider);
+      PathsOfKinds paths;
+      for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
+        const Pathf path = path_along(segment, kind);
+        const auto hit = intersect(path, triangle);
+        paths.add(path);
+        for (int draw = 0; draw < 6; ++draw) paths.add(path, draw_options(random, hit ? hit->t : 0.5F));
+      }
+      paths.expect_same_as_host(on_gpu, collider, &statistics);
+    }
+  }
+  EXPECT_GT(statistics.hits, statistics.paths / 100);
+}
+
+TEST_F(GpuColliderTest, many_paths_and_many_triangles_of_each_family) {
+  for (const PairFamily family : all_pair_families) {
+    if (family == PairFamily::mixed_magnitudes) continue;  // One of them is too large for the device.
+    SCOPED_TRACE(name_of(family));
+    Random random(12);
+    GeneratedMesh<float> mesh;
+    PathsOfKinds paths;
+    for (std::size_t i = 0; i < 400; ++i) {
+      const auto [segment, triangle] = draw_pair<float>(family, random);
+      mesh.add(triangle);
+      for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line})
+        paths.add(path_along(segment, kind));
+    }
+    const Colliderf collider(mesh.view());
+    paths.expect_same_as_host(GpuCollider(device, collider), collider, &statistics);
+  }
+}
+
+/// A needle's long edge takes part in six products that nearly cancel, each of them about as large as the bound of G3
+/// takes it to be. Each path meets its edge exactly, in whole numbers, so it is no miss.
+TEST_F(GpuColliderTest, paths_through_the_long_edges_of_needles) {
+  Random random(21);
+  for (std::size_t i = case_count(15); i > 0; --i) {
+    GeneratedMesh<float> mesh;
+    std::vector<Segmentf> segments;
+    while (segments.size() < 600) {
+      const auto draw = [&](int bits) {
+        const std::int64_t size = random.between((std::int64_t{3} << bits) / 4, std::int64_t{1} << bits);
+        return random.one_in(2) ? -size : size;
+      };
+      Vector3f start, end, near, far, side;
+      bool is_exact = true;
+      const std::int64_t share = random.between(1, 7);
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        const std::int64_t middle = random.between(-1000, 1000);
+        const std::int64_t part = draw(20);  // An eighth of the edge.
+        const std::int64_t from = draw(24);
+        const std::int64_t corner = middle - share * part;
+        const auto exactly = [&](std::int64_t x) {
+          const auto rounded = static_cast<float>(x);
+          is_exact &= static_cast<std::int64_t>(rounded) == x;
+          return rounded;
+        };
+        start[axis] = exactly(from);
+        end[axis] = exactly(2 * middle - from);
+        near[axis] = exactly(corner);
+        far[axis] = exactly(corner + 8 * part);
+        side[axis] = exactly(corner + random.between(-1000, 1000));
+      }
+      if (!is_exact) continue;
+      std::array<Vector3f, 3> corners = {near, side, far};
+      std::rotate(corners.begin(), corners.begin() + random.between(0, 2), corners.end());
+      mesh.add({corners[0], corners[1], corners[2]});
+      segments.push_back({start, end});
+    }
+    const Colliderf collider(mesh.view());
+    const GpuCollider on_gpu(device, collider);
+    EXPECT_EQ(expect_same_as_host(on_gpu, collider, segments, {}, &statistics), segments.size());
+  }
+}
+
+TEST_F(GpuColliderTest, meshes_that_break_grids) {
+  Random random(3);
+  const std::size_t paths = case_count(1500);
+  const auto ground = rough_ground<float>(40, 0.1F, random);
+  const std::vector<std::uint32_t> masks = asked_masks(ground.triangles.size());
+  EXPECT_GT(expect_same(ground.view(), paths, masks), paths / 10);
+  expect_same(scattered_triangles<float>(1000, 0.2F, random).view(), paths);
+  expect_same(smooth_bowl<float>(30).view(), paths);
+  expect_same(line_of_needles<float>(500, random).view(), paths);
+  expect_same(dust_in_square<float>(1000, random).view(), paths);
+  expect_same(lattice_cube<float>(6).view(), paths);
+  expect_same(double_fan<float>(100).view(), paths);
+  expect_same(with_small_copy(ground, Vector3f(0.25F, 0.5F, 0.125F)).view(), paths);
+  expect_same(joined(ground, placed(scattered_triangles<float>(1, 0.5F, random), 1.0F, Vector3f(1e8F, 0, 0))).view(),
+              paths);
+  expect_same(placed(ground, 1e-13F, Vector3f(0, 0, 0)).view(), paths);
+  expect_same(placed(ground, 1e-40F, Vector3f(0, 0, 0)).view(), paths);
+  expect_same(placed(ground, 1e9F, Vector3f(0, 0, 0)).view(), paths);
+  expect_same(placed(ground, 1e30F, Vector3f(0, 0, 0)).view(), paths);
+  expect_same(flattened(ground, 2, 0.5F).view(), paths);
+}
+
+TEST_F(GpuColliderTest, the_level_and_most_of_it_on_the_device) {
+  const example::Level level = example::build_level();
+  const std::size_t paths = case_count(4000);
+  EXPECT_GT(expect_same(level.mesh.view(), paths), paths / 10);
+
+  // Paths in general position are left to the host rarely.
+  const Colliderf collider(level.mesh.view());
+  const GpuCollider on_gpu(device, collider);
+  PathDrawer<float> drawer(level.mesh.view(), 9);
+  std::vector<Segmentf> segments;
+  for (std::size_t i = 0; i < 4000; ++i) segments.push_back({drawer.point_around_mesh(), drawer.point_around_mesh()});
+  GpuStatistics general;
+  expect_same_as_host(on_gpu, collider, segments, {}, &general);
+  EXPECT_EQ(general.paths, 8000U);
+  EXPECT_EQ(general.paths, general.misses + general.hits + general.undecided);
+  EXPECT_LT(general.undecided, general.paths / 100) << general.undecided;
+}
+
+TEST_F(GpuColliderTest, meshes_of_others) {
+  const std::filesystem::path folder = SUREHIT_MESH_FOLDER;
+  if (!std::filesystem::exists(folder / "dungeon.obj")) GTEST_SKIP() << "no meshes in " << folder;
+  for (const char* name : {"dungeon.obj", "pul1ctf.obj"}) {
+    SCOPED_TRACE(name);
+    const auto mesh = example::read_mesh<float>((folder / name).string());
+    expect_same(mesh.view(), case_count(2000));
+  }
+}
+
+/// The answers of the device take part in the hash that all platforms share.
+TEST_F(GpuColliderTest, answers_are_the_published_ones) {
+  const HardQuestions<float> hard;
+  const Colliderf collider = hard.collider();
+  const GpuCollider on_gpu(device, collider);
+  const Questions<float>& questions = hard.questions;
+  PathsOfKinds paths;
+  for (std::size_t id = 0; id < questions.all.size(); ++id) paths.add(questions.all[id].path, questions.options_of(id));
+  std::vector<Hitf> first[3];
+  std::vector<std::uint8_t> any[3];
+  for (std::size_t kind = 0; kind < 3; ++kind) {
+    const PathSpanf of_kind = paths.of(static_cast<PathKind>(kind));
+    first[kind].resize(of_kind.size());
+    any[kind].resize(of_kind.size());
+    ASSERT_TRUE(on_gpu.first_hits(of_kind, first[kind], {.path_options = paths.options[kind]}));
+    ASSERT_TRUE(on_gpu.any_hits(of_kind, any[kind], {.path_options = paths.options[kind]}));
+  }
+  const Answers<float> answers(collider, questions);
+  ASSERT_EQ(answers.hash(), published_hash<float>);
+  AnswerHash of_host;
+  AnswerHash of_device;
+  std::size_t next[3] = {};
+  for (std::size_t id = 0; id < questions.all.size(); ++id) {
+    const auto kind = static_cast<std::size_t>(questions.all[id].path.kind);
+    of_host.take(answers.all()[id].first_of_batch);
+    of_host.take(std::uint32_t{answers.all()[id].any_of_batch});
+    of_device.take(first[kind][next[kind]]);
+    of_device.take(std::uint32_t{any[kind][next[kind]++]});
+  }
+  EXPECT_EQ(of_device.value(), of_host.value());
+}
+
+/// A room with a door, and a path through it.
+class GpuRoomTest : public GpuColliderTest {
+ protected:
+  static constexpr float vertices[] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 1, 4, 0, 1, 0, 4, 1};
+  static constexpr unsigned triangles[] = {0, 1, 2, 3, 4, 5};
+  Colliderf collider{TriangleMeshViewf(vertices, triangles)};
+  std::vector<Segmentf> paths{{{1, 1, -1}, {1, 1, 3}}, {{1, 1, 3}, {1, 1, -1}}, {{9, 1, -1}, {9, 1, 3}}};
+};
+
+TEST_F(GpuRoomTest, changed_colliders_must_be_uploaded_again) {
+  GpuCollider on_gpu(device, collider);
+  EXPECT_EQ(expect_same_as_host(on_gpu, collider, paths), 2U);
+  std::vector<Hitf> hits(3, Hitf{.t = 7});
+  const auto expect_refused = [&] {
+    const GpuBatchResult result = on_gpu.first_hits(paths, hits);
+    EXPECT_FALSE(result);
+    EXPECT_EQ(result.finished, 0U);
+    EXPECT_EQ(result.error->reason, GpuError::Reason::not_updated);
+    EXPECT_EQ(hits[0].t, 7);
+  };
+  collider.set_mask(0, 0);
+  expect_refused();
+  on_gpu.update();
+  EXPECT_EQ(expect_same_as_host(on_gpu, collider, paths), 2U);
+  const std::vector<std::uint32_t> none = {0, 0};
+  ASSERT_TRUE(collider.try_set_masks(none));
+  expect_refused();
+  on_gpu.update();
+  EXPECT_EQ(expect_same_as_host(on_gpu, collider, paths), 0U);
+  collider.rebuild(TriangleMeshViewf(vertices, triangles));
+  expect_refused();
+  on_gpu.update();
+  EXPECT_EQ(expect_same_as_host(on_gpu, collider, paths), 2U);
+  on_gpu = GpuCollider();
+  expect_refused();
+}
+
+TEST_F(GpuRoomTest, filters_strides_and_short_spans) {
+  const GpuCollider on_gpu(device, collider);
+  const auto second = [](const Hitf& hit) { return hit.triangle == 1; };
+  expect_same_as_host(on_gpu, collider, paths, {.filter = second});
+  const std::vector<float> spread = {1, 1, -1, 0, 1, 1, 3, 0, 2, 1, 5, 0, 2, 1, -5, 0};
+  const auto starts = VertexViewf::strided(spread.data(), 2, 8 * sizeof(float));
+  const auto ends = VertexViewf::strided(spread.data() + 4, 2, 8 * sizeof(float));
+  EXPECT_EQ(expect_same_as_host(on_gpu, collider, PathSpanf::segments(starts, ends)), 2U);
+  std::vector<Hitf> hits(2, Hitf{.t = 7});
+  EXPECT_TRUE(on_gpu.first_hits(paths, std::span(hits).first(1)));
+  EXPECT_NE(hits[0].t, 7);
+  EXPECT_EQ(hits[1].t, 7);
+  EXPECT_TRUE(on_gpu.first_hits({}, hits));
+}
+
+TEST_F(GpuRoomTest, an_empty_mesh_and_a_mesh_that_is_too_large_are_left_to_the_host) {
+  const Colliderf empty;
+  EXPECT_EQ(expect_same_as_host(GpuCollider(device, empty), empty, paths), 0U);
+  const float large[] = {-3e38F, -3e38F, 0, 3e38F, -3e38F, 0, 0, 3e38F, 0};
+  const unsigned one[] = {0, 1, 2};
+  const Colliderf huge{TriangleMeshViewf(large, one)};
+  EXPECT_EQ(expect_same_as_host(GpuCollider(device, huge), huge, paths, {}, &statistics), 3U);
+  EXPECT_EQ(statistics.undecided, 6U);
+  EXPECT_EQ(statistics.dispatches, 0U);
+}
+
+TEST_F(GpuRoomTest, paths_of_any_size) {
+  const GpuCollider on_gpu(device, collider);
+  constexpr float largest = std::numeric_limits<float>::max();
+  constexpr float least = std::numeric_limits<float>::denorm_min();
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  PathsOfKinds all;
+  for (const float x : {0.0F, least, 1e-30F, 1.0F, 1e10F, 1e20F, 1e30F, largest, infinity, std::nanf("")}) {
+    for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
+      const bool is_segment = kind == PathKind::segment;
+      for (const Vector3f& way : {Vector3f(x, 0, 1), Vector3f(0, x, 2), Vector3f(x, x, x), Vector3f(-x, 1, 3)}) {
+        const Vector3f middle(1, 1, 0.25F);
+        const Vector3f start = middle - way;
+        all.add({kind, start, is_segment ? Vector3f(middle + way) : way});
+        all.add({kind, start, is_segment ? Vector3f(middle + way) : way}, {.min_t = 0.5F});
+        all.add({kind, middle, is_segment ? Vector3f(middle + way) : way}, {.max_t = x});
+        all.add({kind, middle, way}, {.min_t = -x, .max_t = 4 * x});
+      }
+    }
+  }
+  EXPECT_GT(all.expect_same_as_host(on_gpu, collider), 100U);
+}
+
+/// Several dispatches, of which two are under way at a time, from several threads.
+TEST_F(GpuRoomTest, large_batches_of_several_threads) {
+  const GpuCollider on_gpu(device, collider);
+  std::vector<Segmentf> many;
+  Random random(8);
+  for (std::size_t i = 0; i < 150'000; ++i) {
+    const auto x = 3 * random.unit<float>();
+    many.push_back({{x, 1, 4 * random.unit<float>() - 2}, {x, 1, 4 * random.unit<float>() - 2}});
+  }
+  std::vector<Hitf> expected(many.size());
+  collider.first_hits(many, expected);
+  const auto ask = [&](GpuStatistics& counted) {
+    std::vector<Hitf> hits(many.size());
+    const Threads threads(2);
+    const Executor executor = threads;
+    EXPECT_TRUE(on_gpu.first_hits(many, hits, {.executor = executor}, {.statistics = &counted}));
+    EXPECT_EQ(hits, expected);
+    EXPECT_EQ(counted.dispatches, 3U);
+  };
+  GpuStatistics of_other;
+  std::thread other([&] { ask(of_other); });
+  ask(statistics);
+  other.join();
+}
+
+}  // namespace
+}  // namespace surehit::test

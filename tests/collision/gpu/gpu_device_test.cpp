@@ -1,0 +1,291 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/gpu_device_state.hpp"
+#include "gpu_answers.hpp"
+#include "roundings.spv.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/random.hpp"
+#include "tree_walk.spv.hpp"
+
+namespace surehit::test {
+namespace {
+
+using detail::DeviceReport;
+using detail::GpuDeviceState;
+using detail::RoundingCase;
+using detail::RoundingResult;
+using Reason = GpuError::Reason;
+
+/// A device that has all that is needed.
+DeviceReport good_report() {
+  DeviceReport report;
+  report.properties.apiVersion = VK_API_VERSION_1_1;
+  report.properties.limits.maxComputeWorkGroupInvocations = 128;
+  report.properties.limits.maxComputeWorkGroupSize[0] = 128;
+  report.properties.limits.maxComputeWorkGroupCount[0] = 65535;
+  report.properties.limits.maxPerStageDescriptorStorageBuffers = 8;
+  report.memory.memoryTypeCount = 2;
+  report.memory.memoryTypes[0].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+  report.memory.memoryTypes[1].propertyFlags =
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  report.families.resize(2);
+  report.families[0] = {VK_QUEUE_TRANSFER_BIT, 1, 0, {}};
+  report.families[1] = {VK_QUEUE_COMPUTE_BIT, 1, 0, {}};
+  return report;
+}
+
+TEST(GpuNeedsTest, a_device_that_lacks_something_is_refused_with_the_reason) {
+  EXPECT_EQ(detail::missing_of(good_report()), "");
+  EXPECT_EQ(detail::computing_family(good_report()), 1U);
+  const auto missing = [](const auto& change) {
+    DeviceReport report = good_report();
+    change(report);
+    return detail::missing_of(report);
+  };
+  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.apiVersion = VK_API_VERSION_1_0; }), "Vulkan 1.1");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.families.pop_back(); }), "a queue that computes");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.families[1].queueCount = 0; }), "a queue that computes");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.memory.memoryTypeCount = 1; }), "memory that the host sees");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.memory.memoryTypes[0].propertyFlags = 0; }), "memory of its own");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxComputeWorkGroupInvocations = 63; }),
+            "work groups of 64 threads");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxPerStageDescriptorStorageBuffers = 4; }),
+            "five buffers for a shader");
+}
+
+/// What a device computes that rounds to nearest.
+std::vector<RoundingResult> rounded_to_nearest(const std::vector<RoundingCase>& cases) {
+  std::vector<RoundingResult> results;
+  for (const auto& [a, b, c] : cases) {
+    const float product = a * b;
+    results.push_back({a + b, a - b, product, a / b, product + c});
+  }
+  return results;
+}
+
+TEST(GpuRoundingTest, a_device_that_rounds_otherwise_is_refused) {
+  const std::vector<RoundingCase> cases = detail::rounding_cases();
+  const auto fault = [&](const auto& change) {
+    std::vector<RoundingResult> results = rounded_to_nearest(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) change(cases[i], results[i]);
+    return detail::rounding_fault(cases, results).value_or("");
+  };
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(fault([](const RoundingCase&, RoundingResult&) {}), "");
+  // One ulp from the nearest number is not always a neighbour.
+  EXPECT_NE(fault([](const RoundingCase&, RoundingResult& x) { x[0] = std::nextafter(x[0], infinity); }), "");
+  EXPECT_NE(fault([](const RoundingCase&, RoundingResult& x) { x[1] = std::nextafter(x[1], -infinity); }), "");
+  EXPECT_NE(fault([](const RoundingCase&, RoundingResult& x) { x[2] = std::nextafter(x[2], infinity); }), "");
+  // A quotient may be off by 2.5 ulp, but not by more.
+  const auto move = [](float x, int steps) {
+    for (; steps > 0; --steps) x = std::nextafter(x, infinity);
+    return x;
+  };
+  EXPECT_EQ(fault([&](const RoundingCase&, RoundingResult& x) { x[3] = move(x[3], 1); }), "");
+  EXPECT_NE(fault([&](const RoundingCase&, RoundingResult& x) { x[3] = move(x[3], 4); }), "");
+  const std::string fused =
+      fault([](const RoundingCase& of, RoundingResult& x) { x[4] = std::fma(of[0], of[1], of[2]); });
+  EXPECT_EQ(fused.find("it computes the product and the sum of "), 0U) << fused;
+  // Denormals may be lost.
+  const auto flushed = [](float x) { return std::fabs(x) < std::numeric_limits<float>::min() ? 0 : x; };
+  EXPECT_EQ(fault([&](const RoundingCase& of, RoundingResult& x) {
+              const float a = flushed(of[0]);
+              const float b = flushed(of[1]);
+              x = {flushed(a + b), flushed(a - b), flushed(a * b), x[3], flushed(flushed(a * b) + flushed(of[2]))};
+            }),
+            "");
+  EXPECT_NE(detail::rounding_fault(cases, {}).value_or(""), "");
+}
+
+/// All sums, differences, products and quotients of floats that may be fused with another one (G1).
+std::size_t fusible(std::span<const std::uint32_t> shader, std::size_t& all) {
+  constexpr std::uint32_t decorate = 71;
+  constexpr std::uint32_t no_contraction = 42;
+  const std::set<std::uint32_t> arithmetic = {129, 131, 133, 136, 140, 141, 142, 143, 144, 145, 146, 148};
+  std::set<std::uint32_t> kept;
+  std::vector<std::uint32_t> results;
+  for (std::size_t at = 5; at < shader.size(); at += shader[at] >> 16) {
+    const std::uint32_t operation = shader[at] & 0xffff;
+    if (operation == decorate && shader[at + 2] == no_contraction) kept.insert(shader[at + 1]);
+    if (arithmetic.contains(operation)) results.push_back(shader[at + 2]);
+  }
+  all = results.size();
+  std::size_t count = 0;
+  for (const std::uint32_t result : results) count += kept.contains(result) ? 0 : 1;
+  return count;
+}
+
+TEST(GpuShaderTest, no_operation_may_be_fused) {
+  std::size_t all = 0;
+  EXPECT_EQ(fusible(tree_walk_spirv, all), 0U);
+  EXPECT_GT(all, 60U);
+  EXPECT_EQ(fusible(roundings_spirv, all), 0U);
+  EXPECT_EQ(all, 6U);
+}
+
+TEST(GpuLoaderTest, without_a_loader_there_is_an_error) {
+  GpuDeviceState state;
+  const auto error = state.start("libvulkan-that-is-not-there.so.1");
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->reason, Reason::no_loader);
+  EXPECT_NE(std::string(error->what()).find("libvulkan-that-is-not-there.so.1"), std::string::npos);
+  GpuDeviceState strange;
+  const auto no_vulkan = strange.start("libc.so.6");
+  ASSERT_TRUE(no_vulkan);
+  EXPECT_EQ(no_vulkan->reason, Reason::no_loader);
+}
+
+class GpuDeviceTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    SUREHIT_SKIP_WITHOUT(device);
+    Random random(1);
+    collider = Colliderf(rough_ground<float>(20, 0.1F, random).view());
+    for (std::size_t i = 0; i < 140'000; ++i) {
+      const auto x = random.symmetric<float>();
+      const auto y = random.symmetric<float>();
+      paths.push_back({{x, y, 1}, {x, y + 0.125F, random.unit<float>() - 0.5F}});
+    }
+    expected.resize(paths.size());
+    collider.first_hits(paths, expected);
+  }
+  [[nodiscard]] GpuDeviceState& state() const { return *GpuDeviceState::of(device); }
+
+  GpuDevice device = any_gpu();
+  Colliderf collider;
+  std::vector<Segmentf> paths;
+  std::vector<Hitf> expected;
+};
+
+TEST_F(GpuDeviceTest, devices_are_listed_and_opened_by_name) {
+  bool is_listed = false;
+  for (const GpuDescription& description : GpuDevice::list()) is_listed |= description.name == device.name();
+  EXPECT_TRUE(is_listed);
+  EXPECT_EQ(GpuDevice::open({.name = device.name()}).name(), device.name());
+  GpuDevice other;
+  const GpuResult opened = other.try_open({.name = "no device of this name"});
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().reason, Reason::no_device);
+  EXPECT_NE(std::string(opened.error().what()).find(device.name()), std::string::npos);
+  EXPECT_FALSE(other.is_open());
+  GpuCollider on_gpu;
+  const GpuResult uploaded = on_gpu.try_upload(other, collider);
+  ASSERT_FALSE(uploaded);
+  EXPECT_EQ(uploaded.error().reason, Reason::no_device);
+}
+
+/// Functions of Vulkan that fail after some calls.
+int calls_left = 0;
+PFN_vkAllocateMemory allocate = nullptr;
+VKAPI_ATTR VkResult VKAPI_CALL no_memory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                         const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+  return calls_left-- > 0 ? allocate(device, info, callbacks, memory) : VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
+PFN_vkQueueSubmit submit = nullptr;
+VkResult submit_result = VK_SUCCESS;
+VKAPI_ATTR VkResult VKAPI_CALL no_submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* work, VkFence fence) {
+  return calls_left-- > 0 ? submit(queue, count, work, fence) : submit_result;
+}
+
+TEST_F(GpuDeviceTest, an_upload_without_memory_changes_nothing) {
+  GpuCollider on_gpu(device, collider);
+  allocate = std::exchange(state().vulkan.AllocateMemory, no_memory);
+  for (const int calls : {0, 1}) {
+    calls_left = calls;
+    const GpuResult updated = on_gpu.try_update();
+    ASSERT_FALSE(updated);
+    EXPECT_EQ(updated.error().reason, Reason::out_of_memory);
+    EXPECT_NE(std::string(updated.error().what()).find(calls == 0 ? "nodes" : "triangles"), std::string::npos);
+  }
+  state().vulkan.AllocateMemory = allocate;
+  std::vector<Hitf> hits(paths.size());
+  EXPECT_TRUE(on_gpu.first_hits(paths, hits));
+  EXPECT_EQ(hits, expected);
+  const auto max = std::exchange(state().report.properties.limits.maxStorageBufferRange, 1000);
+  const GpuResult updated = on_gpu.try_update();
+  ASSERT_FALSE(updated);
+  EXPECT_EQ(updated.error().reason, Reason::too_large);
+  state().report.properties.limits.maxStorageBufferRange = max;
+}
+
+/// A batch of three dispatches ends before its last one. What has no answer is as before, unless the host goes on.
+TEST_F(GpuDeviceTest, a_device_that_fails_in_the_middle_leaves_the_rest) {
+  const GpuCollider on_gpu(device, collider);
+  const Hitf unset{.t = 7, .triangle = 7};
+  submit = std::exchange(state().vulkan.QueueSubmit, no_submit);
+  submit_result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  calls_left = 2;
+  std::vector<Hitf> hits(paths.size(), unset);
+  const GpuBatchResult result = on_gpu.first_hits(paths, hits);
+  EXPECT_FALSE(result);
+  ASSERT_TRUE(result.error);
+  EXPECT_EQ(result.error->reason, Reason::out_of_memory);
+  EXPECT_EQ(result.finished, std::size_t{1} << 16);
+  for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(hits[i], i < result.finished ? expected[i] : unset) << i;
+
+  calls_left = 1;
+  GpuStatistics statistics;
+  const GpuBatchResult rest =
+      on_gpu.first_hits(paths, hits, {}, {.goes_on_without_device = true, .statistics = &statistics});
+  EXPECT_TRUE(rest);
+  EXPECT_TRUE(rest.error);
+  EXPECT_EQ(rest.finished, paths.size());
+  EXPECT_EQ(hits, expected);
+  EXPECT_EQ(statistics.paths, paths.size());
+
+  calls_left = 100;  // The device works again.
+  hits.assign(paths.size(), unset);
+  EXPECT_TRUE(on_gpu.first_hits(paths, hits));
+  EXPECT_EQ(hits, expected);
+
+  submit_result = VK_ERROR_DEVICE_LOST;
+  calls_left = 0;
+  EXPECT_EQ(on_gpu.first_hits(paths, hits).error->reason, Reason::device_lost);
+  calls_left = 100;  // Nothing more is asked of a lost device.
+  EXPECT_EQ(on_gpu.first_hits(paths, hits).error->reason, Reason::device_lost);
+  GpuCollider later;
+  const GpuResult uploaded = later.try_upload(device, collider);
+  ASSERT_FALSE(uploaded);
+  EXPECT_EQ(uploaded.error().reason, Reason::device_lost);
+  EXPECT_EQ(calls_left, 100);
+  EXPECT_TRUE(on_gpu.first_hits(paths, hits, {}, {.goes_on_without_device = true}));
+  EXPECT_EQ(hits, expected);
+}
+
+/// Khronos's layer looks at each call. It writes what it finds to standard output.
+TEST(GpuValidationTest, the_validation_layer_has_nothing_to_say) {
+  if (!std::filesystem::exists("/usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json")) {
+    GTEST_SKIP() << "no validation layer here";
+  }
+  setenv("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation", 1);
+  testing::internal::CaptureStdout();
+  bool is_open = false;
+  {
+    Random random(1);
+    Colliderf collider(rough_ground<float>(20, 0.1F, random).view());
+    const GpuDevice device = any_gpu();
+    is_open = device.is_open();
+    if (is_open) {
+      GpuCollider on_gpu(device, collider);
+      collider.set_mask(1, 2);
+      on_gpu.update();
+      const std::vector<Segmentf> paths(150'000, {{0.25F, 0.5F, 1}, {0.25F, 0.5F, -1}});
+      expect_same_as_host(on_gpu, collider, paths);
+    }
+  }
+  unsetenv("VK_INSTANCE_LAYERS");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  if (!is_open) GTEST_SKIP() << "no Vulkan device here";
+}
+
+}  // namespace
+}  // namespace surehit::test
