@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "command_line/gpu_batches.hpp"
 #include "command_line/output_file.hpp"
 #include "command_line/parse_point.hpp"
 #include "command_line/program.hpp"
@@ -31,6 +33,8 @@ struct Request {
   unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u);
   std::string picture_path = "line_of_sight.png";
   std::string csv_path;
+  bool uses_gpu = false;
+  std::string gpu_name;
 };
 
 void describe(CLI::App& app, Request& request) {
@@ -50,6 +54,9 @@ void describe(CLI::App& app, Request& request) {
       ->capture_default_str();
   app.add_option("-o", request.picture_path, "The plan of what is visible")->type_name("PNG")->capture_default_str();
   app.add_option("--csv", request.csv_path, "The figures")->type_name("CSV");
+  app.add_flag("--gpu", request.uses_gpu, "Look on a GPU; the answers are the same");
+  app.add_option("--gpu-name", request.gpu_name, "Look on the GPU with this in its name, which may be software")
+      ->type_name("NAME");
   app.footer(
       "The floor is looked for below the eye's height. Exit status: 0, 2 for bad input or usage, 1 for other "
       "failures.");
@@ -105,8 +112,11 @@ void look(const Request& request) {
 
   const FloorPlan plan =
       timed(figures.floor_seconds, [&] { return FloorPlan(collider, eye.z(), request.points, request.threads); });
-  const auto sights =
-      timed(figures.sight_seconds, [&] { return look_around(collider, plan, eye, request.height, request.threads); });
+  std::optional<GpuBatches> gpu;
+  if (request.uses_gpu || !request.gpu_name.empty()) gpu.emplace(collider, request.gpu_name);
+  const auto sights = timed(figures.sight_seconds, [&] {
+    return look_around(collider, plan, eye, request.height, request.threads, gpu ? &*gpu : nullptr);
+  });
   figures.triangles = mesh.triangles.size();
   figures.threads = request.threads;
   figures.count(sights);
@@ -117,6 +127,10 @@ void look(const Request& request) {
   write_file(request.picture_path, encode_png(draw_plan(mesh, plan, sights, eye, caption)));
   if (!request.csv_path.empty()) write_file(request.csv_path, figures.csv());
   print(figures, request);
+  if (!gpu) return;
+  const GpuCounts counts = gpu->counts();
+  std::printf("on %s, which left %llu segments to the host\n", gpu->name().c_str(),
+              static_cast<unsigned long long>(counts.by_host));
 }
 
 Work describe_program(CLI::App& app) {

@@ -5,9 +5,10 @@
 namespace surehit::example {
 
 std::vector<Sight> look_around(const Colliderf& collider, const FloorPlan& plan, const Vector3f& eye,
-                               float height_above_floor, unsigned threads) {
+                               float height_above_floor, unsigned threads, const GpuBatches* gpu) {
   std::vector<Sight> sights(plan.size(), Sight::no_floor);
-  run_in_chunks("line of sight", plan.size(), 1 << 14, threads, [&](std::size_t begin, std::size_t end) {
+  const std::size_t chunk = gpu != nullptr ? 1 << 18 : 1 << 14;
+  run_in_chunks("line of sight", plan.size(), chunk, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<std::size_t> places;
     std::vector<Segmentf> segments;
     for (std::size_t i = begin; i < end; ++i) {
@@ -16,7 +17,11 @@ std::vector<Sight> look_around(const Colliderf& collider, const FloorPlan& plan,
       segments.push_back({eye, {plan.x(i), plan.y(i), plan.floor_height(i) + height_above_floor}});
     }
     std::vector<std::uint8_t> blocked(segments.size());
-    collider.any_hits(segments, blocked);
+    if (gpu != nullptr) {
+      gpu->any_hits(segments, blocked, {});
+    } else {
+      collider.any_hits(segments, blocked);
+    }
     for (std::size_t i = 0; i < places.size(); ++i) {
       sights[places[i]] = blocked[i] != 0 ? Sight::hidden : Sight::visible;
     }

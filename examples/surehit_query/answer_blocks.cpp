@@ -11,7 +11,7 @@ namespace surehit::example {
 
 QueryStatistics write_answers(const QueryRequest& request, std::string_view header, std::size_t paths,
                               const AnswerBlock& answer) {
-  constexpr std::size_t block = 4096;
+  const std::size_t block = request.uses_gpu ? 1 << 17 : 1 << 12;  // A device answers many at a time.
   OutputFile output(request.output_path);
   output.write(header);
   ProgressBar progress("Answering", paths);

@@ -2,10 +2,13 @@
 
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <surehit/surehit.hpp>
+#include <type_traits>
 #include <vector>
 
+#include "command_line/gpu_batches.hpp"
 #include "surehit_query/answer_blocks.hpp"
 #include "surehit_query/answer_shapes.hpp"
 #include "surehit_query/asked_mesh.hpp"
@@ -66,7 +69,11 @@ class Queries {
       : request_(request),
         columns_(columns_of(request)),
         asked_(request),
-        table_(read_number_table<Scalar>(request.input_path, 6)) {}
+        table_(read_number_table<Scalar>(request.input_path, 6)) {
+    if constexpr (may_use_gpu) {
+      if (request.uses_gpu) gpu_.emplace(asked_.target(), request.gpu_name);
+    }
+  }
 
   void answer() const {
     const std::string ids = asked_.id_columns();
@@ -81,12 +88,18 @@ class Queries {
   }
 
  private:
+  static constexpr bool may_use_gpu = std::is_same_v<Asked, AskedMesh<float>>;
   using Answer = typename Asked::Answer;
   using Answers = AnsweredBlock (Queries::*)(std::size_t, std::size_t) const;
 
   void write(std::string_view header, Answers answers) const {
     const QueryStatistics statistics = write_answers(request_, header, table_.rows(), std::bind_front(answers, this));
-    if (request_.wants_statistics) std::fputs(text_of(statistics).c_str(), stderr);
+    if (!request_.wants_statistics) return;
+    std::fputs(text_of(statistics).c_str(), stderr);
+    if (!gpu_) return;
+    const auto [on_gpu, by_host] = gpu_->counts();
+    std::fprintf(stderr, "gpu_paths,%llu,,\ngpu_left_to_host,%llu,,\n", static_cast<unsigned long long>(on_gpu),
+                 static_cast<unsigned long long>(by_host));
   }
 
   [[nodiscard]] std::vector<Shape> paths(std::size_t begin, std::size_t end) const {
@@ -105,12 +118,25 @@ class Queries {
         path, hit, [&] { return asked_.normal(hit); }, lines);
   }
 
+  void ask(const std::vector<Shape>& shapes, std::vector<Answer>& hits, QueryStatistics& statistics) const {
+    if constexpr (may_use_gpu) {
+      if (gpu_) return gpu_->first_hits(shapes, hits, {.options = asked_.options(), .statistics = &statistics});
+    }
+    asked_.target().first_hits(shapes, hits, {.options = asked_.options(), .statistics = &statistics});
+  }
+  void ask(const std::vector<Shape>& shapes, std::vector<std::uint8_t>& blocked, QueryStatistics& statistics) const {
+    if constexpr (may_use_gpu) {
+      if (gpu_) return gpu_->any_hits(shapes, blocked, {.options = asked_.options(), .statistics = &statistics});
+    }
+    asked_.target().any_hits(shapes, blocked, {.options = asked_.options(), .statistics = &statistics});
+  }
+
   [[nodiscard]] AnsweredBlock first_hits(std::size_t begin, std::size_t end) const {
     std::vector<Answer> hits(end - begin);
     const std::vector<Shape> shapes = paths(begin, end);
     AnsweredBlock answered;
     std::string& lines = answered.lines;
-    asked_.target().first_hits(shapes, hits, {.options = asked_.options(), .statistics = &answered.statistics});
+    ask(shapes, hits, answered.statistics);
     for (std::size_t i = 0; i < hits.size(); ++i) {
       if (hits[i].triangle == no_triangle) {
         lines += asked_.no_ids();
@@ -140,7 +166,7 @@ class Queries {
     std::vector<std::uint8_t> blocked(end - begin);
     const std::vector<Shape> shapes = paths(begin, end);
     AnsweredBlock answered;
-    asked_.target().any_hits(shapes, blocked, {.options = asked_.options(), .statistics = &answered.statistics});
+    ask(shapes, blocked, answered.statistics);
     for (const std::uint8_t hit : blocked) answered.lines += hit != 0 ? "1\n" : "0\n";
     return answered;
   }
@@ -168,6 +194,7 @@ class Queries {
   MoreColumns columns_;
   Asked asked_;
   NumberTable<Scalar> table_;
+  std::optional<GpuBatches> gpu_;  ///< where it was asked for
 };
 
 template <typename Shape, typename Scalar>

@@ -148,6 +148,19 @@ void add_more_columns(CLI::App& command, QueryRequest& request) {
   command.add_flag("--normals", request.wants_normals, "More columns nx,ny,nz: the unit normal of the triangle");
 }
 
+/// Where a mesh of floats is asked about straight paths.
+void add_gpu(CLI::App& command, QueryRequest& request) {
+  command.add_flag("--gpu", request.uses_gpu, "Ask on a GPU, for straight paths and a mesh in float; same output");
+  const auto choose = [&request](const std::string& name) {
+    request.uses_gpu = true;
+    request.gpu_name = name;
+  };
+  command
+      .add_option_function<std::string>("--gpu-name", choose,
+                                        "Ask on the GPU with this in its name, which may be software")
+      ->type_name("NAME");
+}
+
 constexpr const char* path_of_a_mesh = "FILE: 6 numbers a line: p, then q or the direction.\n";
 
 constexpr const char* paths_of_a_mesh =
@@ -253,6 +266,7 @@ void describe(CLI::App& app, QueryRequest& request) {
   first.add_flag("--free-points", request.wants_free_points,
                  "More columns free_x,free_y,free_z: where a point that moves along the segment may stop so that it "
                  "has touched nothing");
+  add_gpu(first, request);
   first.footer(std::string(paths_of_a_mesh) +
                "Output: triangle,t,u,v,side, one line a path; a miss is -1,,,,. Of equal exact t the least triangle "
                "wins.\n" +
@@ -261,6 +275,7 @@ void describe(CLI::App& app, QueryRequest& request) {
   CLI::App& any = add_command(app, request, Question::any, "any", "Does each path meet the mesh at all?");
   add_limits(any, request);
   add_mesh_filters(any, request);
+  add_gpu(any, request);
   any.footer(std::string(paths_of_a_mesh) + "Output: hit, one line a path: 1 or 0.\n" + scenes + meshes);
 
   CLI::App& all =
@@ -317,10 +332,19 @@ void check_shape(const QueryRequest& request) {
   refuse(request.wants_normals, "--normals");
 }
 
+/// What a GPU can be asked.
+void check_gpu(const QueryRequest& request) {
+  if (!request.uses_gpu) return;
+  if (is_shape(request.path)) throw CLI::ValidationError("--gpu", "only straight paths have it");
+  if (!request.scene_path.empty()) throw CLI::ValidationError("--gpu", "a scene has none");
+  if (request.scalar != ScalarKind::single_precision) throw CLI::ValidationError("--gpu", "only float has it");
+}
+
 /// What no single option can know.
 void check(QueryRequest& request) {
   if (is_shape(request.path)) check_shape(request);
   check_scene(request);
+  check_gpu(request);
   check_drawings(request);
   if (request.wants_free_points && request.path != PathForm::segment) {
     throw CLI::ValidationError("--free-points", "only a segment has them");

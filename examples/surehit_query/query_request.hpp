@@ -51,6 +51,8 @@ struct QueryRequest {
   bool wants_normals = false;
   bool wants_free_points = false;  ///< of `first` alone
   bool wants_statistics = false;   ///< none of `pair`
+  bool uses_gpu = false;           ///< of `first` and `any` alone
+  std::string gpu_name;            ///< any that is no software where empty
 
   std::optional<std::size_t> index;   ///< of `explain` alone: which path of the input
   std::vector<std::string> drawings;  ///< of `explain` alone: the files to draw to

@@ -1,0 +1,77 @@
+// The programs that have --gpu.
+
+#include "command_line/gpu_batches.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "examples/surehit_query_run.hpp"
+#include "gpu_answers.hpp"
+#include "level/level.hpp"
+#include "line_of_sight/floor_plan.hpp"
+#include "line_of_sight/sight.hpp"
+#include "support/random.hpp"
+
+namespace surehit::test {
+namespace {
+
+class GpuBatchesTest : public SurehitQueryRun {
+ protected:
+  void SetUp() override {
+    const GpuDevice device = any_gpu();
+    SUREHIT_SKIP_WITHOUT(device);
+    name = device.name();
+  }
+  std::string name;
+};
+
+TEST_F(GpuBatchesTest, surehit_query_writes_the_same) {
+  write_squares();
+  Random random(4);
+  std::string paths;
+  for (int i = 0; i < 6000; ++i) {
+    paths += std::to_string(random.between(-8, 12)) + (i % 6 == 5 ? "e-1\n" : "e-1 ");
+  }
+  write("paths.txt", paths);
+  const std::string gpu = " --gpu-name '" + name + "'";
+  for (const std::string question : {"first squares.obj paths.txt --points --normals",
+                                     "first squares.obj paths.txt --path ray --cull back --min-t 0.25",
+                                     "any squares.obj paths.txt --path line --ignore-triangle 1"}) {
+    const Outcome on_host = run(question);
+    EXPECT_GT(on_host.output.size(), 2000U);
+    expect_output(question + gpu, on_host.output);
+  }
+  const Outcome counted = run("any squares.obj paths.txt --statistics" + gpu);
+  EXPECT_NE(counted.error.find("\ngpu_paths,1000,,\ngpu_left_to_host,"), std::string::npos) << counted.error;
+}
+
+TEST_F(GpuBatchesTest, surehit_query_says_what_a_gpu_cannot_do) {
+  write_squares();
+  write("paths.txt", "0 0 1 0 0 -1\n");
+  const auto expect_refused = [&](const std::string& arguments, int status, const std::string& reason) {
+    const Outcome outcome = run("first squares.obj paths.txt " + arguments);
+    EXPECT_EQ(outcome.status, status) << arguments;
+    EXPECT_NE(outcome.error.find(reason), std::string::npos) << outcome.error;
+  };
+  expect_refused("--gpu --scalar double", 2, "only float has it");
+  expect_refused("--gpu --path sphere", 2, "only straight paths have it");
+  expect_refused("--gpu-name 'no such device'", 1, "Vulkan has no device with no such device in its name; there is ");
+}
+
+TEST_F(GpuBatchesTest, line_of_sight_sees_the_same) {
+  const example::Level level = example::build_level({0.3F});
+  const Colliderf collider(level.mesh.view());
+  const Vector3f eye(level.eye[0], level.eye[1], level.eye[2]);
+  const example::FloorPlan plan(collider, eye.z(), 40'000, 1);
+  const example::GpuBatches gpu(collider, name);
+  EXPECT_EQ(gpu.name(), name);
+  EXPECT_EQ(look_around(collider, plan, eye, 0.5F, 2, &gpu), look_around(collider, plan, eye, 0.5F, 2));
+  const example::GpuCounts counts = gpu.counts();
+  EXPECT_GE(counts.paths, 40'000U);
+  EXPECT_LT(counts.by_host, counts.paths / 20);
+}
+
+}  // namespace
+}  // namespace surehit::test
