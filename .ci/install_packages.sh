@@ -9,7 +9,7 @@ fail() {
   exit 1
 }
 
-[[ $# -gt 0 ]] || fail "say what to install for: library, examples, tests, fuzz, benchmarks, languages, python, python_tests, mpi, web, npm, browser, aarch64, windows or develop"
+[[ $# -gt 0 ]] || fail "say what to install for: library, examples, tests, fuzz, benchmarks, languages, python, python_tests, mpi, web, npm, browser, gpu, aarch64, windows or develop"
 
 missing=()
 for part in "$@"; do

@@ -84,6 +84,7 @@ stage "Packages"
 step .ci/install_packages.sh library examples tests benchmarks || finish
 # Where it cannot be had, CMake finds none, and builds without it.
 .ci/install_packages.sh mpi || left_out+=("visibility_bake with MPI: its package cannot be installed")
+.ci/install_packages.sh gpu || left_out+=("batches on a GPU: Vulkan's headers, glslang or lavapipe cannot be installed")
 if ! $quick; then
   .ci/install_packages.sh languages || left_out+=("the guide's programs in Rust and C#: their compilers cannot be installed")
   .ci/install_packages.sh python || left_out+=("the package for Python: NumPy or pip cannot be installed")
