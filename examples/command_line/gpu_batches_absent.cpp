@@ -7,7 +7,7 @@ namespace surehit::example {
 struct GpuBatches::State {};
 
 GpuBatches::GpuBatches(const Colliderf&, const std::string&) {
-  throw std::runtime_error("this program was built without GPU: Vulkan's headers or glslangValidator were not found");
+  throw std::runtime_error("this program was built without surehit::gpu");
 }
 GpuBatches::~GpuBatches() = default;
 

@@ -21,6 +21,7 @@
 #include "support/pair_families.hpp"
 #include "support/path_drawer.hpp"
 #include "support/threads.hpp"
+#include "surehit/intersect.hpp"
 
 namespace surehit::test {
 namespace {
