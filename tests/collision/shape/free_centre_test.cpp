@@ -179,7 +179,9 @@ TYPED_TEST(FreeCentre, of_a_moving_instance_goes_the_same_share) {
     scene.commit();
     const auto hit = scene.first_hit(shape);
     ASSERT_TRUE(hit);
-    const auto free = scene.last_free_point(shape, *hit);
+    TypeParam share = -1;
+    const auto free = scene.last_free_point(shape, *hit, {}, &share);
+    EXPECT_TRUE(share > 0 && share < hit->t) << share;
     // Before, it was above. So only the end of the way can touch the floor.
     const auto is_blocked = [&, &size = reach](const Vector3<TypeParam>& candidate, const mpq_class& s) {
       const mpq_class height = mpq_class(double{place}) + s * mpq_class(double{motion});
