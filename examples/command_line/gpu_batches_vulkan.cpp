@@ -16,7 +16,7 @@ struct GpuBatches::State {
     GpuStatistics statistics;
     const GpuBatchResult result =
         (collider.*question)(paths, answers, options, {.goes_on_without_device = true, .statistics = &statistics});
-    if (!result) throw *result.error;
+    if (!result) throw GpuError(*result.error);
     const std::lock_guard lock(mutex);
     counts.paths += statistics.paths;
     counts.by_host += statistics.undecided;

@@ -70,7 +70,7 @@ string(REGEX MATCHALL "SUREHIT_[A-Z_]+" options "${configured_OPTIONS};${conanfi
 list(REMOVE_DUPLICATES options)
 list(FILTER options EXCLUDE REGEX "^SUREHIT_(VERSION_|SHARED)")
 foreach(option IN LISTS options)
-  if(NOT project MATCHES "option\\(${option} ")
+  if(NOT project MATCHES "(option|set)\\(${option} ")
     message(SEND_ERROR "a recipe sets ${option}, and CMakeLists.txt has no such option")
   endif()
 endforeach()

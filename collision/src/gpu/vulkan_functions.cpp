@@ -23,27 +23,27 @@ std::optional<GpuError> VulkanFunctions::open_loader(const char* name) {
   }
   GetInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
   if (GetInstanceProcAddr == nullptr) return missing_function("GetInstanceProcAddr");
-#define SUREHIT_LOAD(name)                                                                \
-  name = reinterpret_cast<PFN_vk##name>(GetInstanceProcAddr(VK_NULL_HANDLE, "vk" #name)); \
-  if (name == nullptr) return missing_function(#name);
+#define SUREHIT_LOAD(name)                                                                  \
+  (name) = reinterpret_cast<PFN_vk##name>(GetInstanceProcAddr(VK_NULL_HANDLE, "vk" #name)); \
+  if ((name) == nullptr) return missing_function(#name);
   SUREHIT_VULKAN_GLOBAL_FUNCTIONS(SUREHIT_LOAD)
 #undef SUREHIT_LOAD
   return std::nullopt;
 }
 
 std::optional<GpuError> VulkanFunctions::load(VkInstance instance) {
-#define SUREHIT_LOAD(name)                                                          \
-  name = reinterpret_cast<PFN_vk##name>(GetInstanceProcAddr(instance, "vk" #name)); \
-  if (name == nullptr) return missing_function(#name);
+#define SUREHIT_LOAD(name)                                                            \
+  (name) = reinterpret_cast<PFN_vk##name>(GetInstanceProcAddr(instance, "vk" #name)); \
+  if ((name) == nullptr) return missing_function(#name);
   SUREHIT_VULKAN_INSTANCE_FUNCTIONS(SUREHIT_LOAD)
 #undef SUREHIT_LOAD
   return std::nullopt;
 }
 
 std::optional<GpuError> VulkanFunctions::load(VkDevice device) {
-#define SUREHIT_LOAD(name)                                                      \
-  name = reinterpret_cast<PFN_vk##name>(GetDeviceProcAddr(device, "vk" #name)); \
-  if (name == nullptr) return missing_function(#name);
+#define SUREHIT_LOAD(name)                                                        \
+  (name) = reinterpret_cast<PFN_vk##name>(GetDeviceProcAddr(device, "vk" #name)); \
+  if ((name) == nullptr) return missing_function(#name);
   SUREHIT_VULKAN_DEVICE_FUNCTIONS(SUREHIT_LOAD)
 #undef SUREHIT_LOAD
   return std::nullopt;

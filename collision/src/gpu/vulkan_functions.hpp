@@ -67,8 +67,8 @@ struct VulkanFunctions {
   /// Gets the functions of a device.
   [[nodiscard]] std::optional<GpuError> load(VkDevice device);
 
-  void* library = nullptr;  ///< The loader, or null.
-  PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;
+  void* library = nullptr;                                  ///< The loader, or null.
+  PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;  // NOLINT(readability-identifier-naming): as Vulkan has it
 #define SUREHIT_MEMBER(name) PFN_vk##name name = nullptr;
   SUREHIT_VULKAN_GLOBAL_FUNCTIONS(SUREHIT_MEMBER)
   SUREHIT_VULKAN_INSTANCE_FUNCTIONS(SUREHIT_MEMBER)

@@ -48,6 +48,7 @@ class SurehitConan(ConanFile):
         toolchain = CMakeToolchain(self)
         toolchain.cache_variables["SUREHIT_BUILD_TESTS"] = False
         toolchain.cache_variables["SUREHIT_BUILD_EXAMPLES"] = False
+        toolchain.cache_variables["SUREHIT_GPU"] = False
         toolchain.cache_variables["SUREHIT_INSTALL"] = True
         toolchain.cache_variables["SUREHIT_WARNINGS_AS_ERRORS"] = False
         toolchain.cache_variables["CMAKE_DISABLE_FIND_PACKAGE_Doxygen"] = True
