@@ -51,20 +51,20 @@ std::optional<GpuError> GpuDeviceState::start(const char* loader) {
   application.apiVersion = VK_API_VERSION_1_1;
   auto info = of_type<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
   info.pApplicationInfo = &application;
-  if (auto error = error_of(vulkan.CreateInstance(&info, nullptr, &instance), "to start Vulkan")) return error;
+  if (auto error = error_of(vulkan.CreateInstance(&info, nullptr, &instance), "while starting Vulkan")) return error;
   return vulkan.load(instance);
 }
 
 std::optional<GpuError> GpuDeviceState::find(std::vector<std::pair<VkPhysicalDevice, DeviceReport>>& found) const {
   found.clear();
   std::uint32_t count = 0;
-  if (auto error = error_of(vulkan.EnumeratePhysicalDevices(instance, &count, nullptr), "to find devices")) {
+  if (auto error = error_of(vulkan.EnumeratePhysicalDevices(instance, &count, nullptr), "while finding devices")) {
     return error;
   }
   std::vector<VkPhysicalDevice> devices(count);
   const VkResult result = vulkan.EnumeratePhysicalDevices(instance, &count, devices.data());
   if (result != VK_INCOMPLETE) {
-    if (auto error = error_of(result, "to find devices")) return error;
+    if (auto error = error_of(result, "while finding devices")) return error;
   }
   devices.resize(count);
   for (VkPhysicalDevice one : devices) {
@@ -99,7 +99,8 @@ std::optional<GpuError> GpuDeviceState::open(VkPhysicalDevice chosen, const Devi
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   VkDevice opened = VK_NULL_HANDLE;
-  if (auto error = error_of(vulkan.CreateDevice(chosen, &info, nullptr, &opened), "to open " + name)) return error;
+  if (auto error = error_of(vulkan.CreateDevice(chosen, &info, nullptr, &opened), "while opening " + name))
+    return error;
   if (auto error = vulkan.load(opened)) return error;
   device = opened;
   vulkan.GetDeviceQueue(device, family, 0, &queue_);
@@ -107,7 +108,7 @@ std::optional<GpuError> GpuDeviceState::open(VkPhysicalDevice chosen, const Devi
   auto pool = of_type<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
   pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
   pool.queueFamilyIndex = family;
-  if (auto error = error_of(vulkan.CreateCommandPool(device, &pool, nullptr, &commands_), "to open " + name)) {
+  if (auto error = error_of(vulkan.CreateCommandPool(device, &pool, nullptr, &commands_), "while opening " + name)) {
     return error;
   }
   if (auto error = make_layouts()) return error;
@@ -132,7 +133,8 @@ std::optional<GpuError> GpuDeviceState::make_layouts() {
   auto set = of_type<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
   set.bindingCount = buffer_count;
   set.pBindings = bindings.data();
-  if (auto error = error_of(vulkan.CreateDescriptorSetLayout(device, &set, nullptr, &set_layout_), "to open " + name)) {
+  if (auto error =
+          error_of(vulkan.CreateDescriptorSetLayout(device, &set, nullptr, &set_layout_), "while opening " + name)) {
     return error;
   }
   const VkPushConstantRange words = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(PushedWords)};
@@ -141,7 +143,7 @@ std::optional<GpuError> GpuDeviceState::make_layouts() {
   info.pSetLayouts = &set_layout_;
   info.pushConstantRangeCount = 1;
   info.pPushConstantRanges = &words;
-  return error_of(vulkan.CreatePipelineLayout(device, &info, nullptr, &layout_), "to open " + name);
+  return error_of(vulkan.CreatePipelineLayout(device, &info, nullptr, &layout_), "while opening " + name);
 }
 
 std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<const std::uint32_t> shader) {
@@ -149,7 +151,7 @@ std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<co
   source.codeSize = shader.size_bytes();
   source.pCode = shader.data();
   VkShaderModule compiled = VK_NULL_HANDLE;
-  const std::string what = "to compile a shader for " + name;
+  const std::string what = "while compiling a shader for " + name;
   if (auto error = error_of(vulkan.CreateShaderModule(device, &source, nullptr, &compiled), what)) return error;
   const std::uint32_t wants_first = task == GpuTask::first_hits ? 1 : 0;
   const VkSpecializationMapEntry entry = {0, 0, sizeof wants_first};
@@ -168,7 +170,7 @@ std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<co
 }
 
 std::optional<GpuError> GpuDeviceState::make_slots() {
-  const std::string what = "to open " + name;
+  const std::string what = "while opening " + name;
   const auto slot_count = static_cast<std::uint32_t>(slots.size());
   const VkDescriptorPoolSize sizes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer_count * slot_count};
   auto pool = of_type<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
@@ -224,7 +226,7 @@ void GpuDeviceState::bind(const GpuSlot& slot, VkBuffer nodes, VkBuffer triangle
 std::optional<GpuError> GpuDeviceState::submit(const GpuSlot& slot, GpuTask task, const PushedWords& pushed,
                                                std::size_t path_bytes, std::size_t limit_bytes,
                                                std::size_t answer_bytes) {
-  const std::string what = "to begin a batch";
+  const std::string what = "while beginning a batch";
   auto begin = of_type<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   if (auto error = noted(error_of(vulkan.BeginCommandBuffer(slot.commands, &begin), what))) return error;
@@ -258,7 +260,7 @@ std::optional<GpuError> GpuDeviceState::submit(const GpuSlot& slot, GpuTask task
 }
 
 std::optional<GpuError> GpuDeviceState::run(const GpuSlot& slot) {
-  const std::string what = "to begin a batch";
+  const std::string what = "while beginning a batch";
   if (auto error = noted(error_of(vulkan.EndCommandBuffer(slot.commands), what))) return error;
   auto work = of_type<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
   work.commandBufferCount = 1;
@@ -292,7 +294,7 @@ std::optional<GpuError> GpuDeviceState::upload(std::span<const std::byte> bytes,
     std::memcpy(slot.host_paths.data(), bytes.data() + first, count);
     auto begin = of_type<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    const std::string what = "to upload a mesh";
+    const std::string what = "while uploading a mesh";
     if (auto error = noted(error_of(vulkan.BeginCommandBuffer(slot.commands, &begin), what))) return error;
     const VkBufferCopy region = {0, first, count};
     vulkan.CmdCopyBuffer(slot.commands, slot.host_paths.get(), to.get(), 1, &region);

@@ -59,14 +59,15 @@ std::optional<GpuError> error_of(VkResult result, const std::string& what) {
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
       return GpuError(Reason::out_of_memory, "too little memory on the device " + what);
     case VK_ERROR_DEVICE_LOST:
-      return GpuError(Reason::device_lost, "the device was lost; it must be opened anew " + what);
+      return GpuError(Reason::device_lost, "the device was lost " + what + "; it must be opened anew");
     case VK_TIMEOUT:
-      return GpuError(Reason::device_lost, "the device has not answered for two minutes " + what);
+      return GpuError(Reason::device_lost,
+                      "the device has not answered for two minutes " + what + "; it must be opened anew");
     case VK_ERROR_INCOMPATIBLE_DRIVER:
     case VK_ERROR_INITIALIZATION_FAILED:
-      return GpuError(Reason::no_device, "no driver of Vulkan could be started " + what);
+      return GpuError(Reason::no_device, "no driver of Vulkan could be started; a driver may not be installed");
     default:
-      return GpuError(Reason::failed, "Vulkan's error " + std::to_string(static_cast<int>(result)) + " " + what);
+      return GpuError(Reason::failed, "Vulkan failed with " + std::to_string(static_cast<int>(result)) + " " + what);
   }
 }
 

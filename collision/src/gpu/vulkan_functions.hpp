@@ -76,7 +76,8 @@ struct VulkanFunctions {
 #undef SUREHIT_MEMBER
 };
 
-/// Returns what a result means, or nothing if it is a success. `what` is what was tried, such as "to open the device".
+/// Returns what a result means, or nothing if it is a success. `what` says when it failed, such as "while opening
+/// a device", or for what.
 [[nodiscard]] std::optional<GpuError> error_of(VkResult result, const std::string& what);
 
 }  // namespace surehit::detail

@@ -144,6 +144,30 @@ TEST(GpuLoaderTest, without_a_loader_there_is_an_error) {
   EXPECT_EQ(no_vulkan->reason, Reason::no_loader);
 }
 
+TEST(GpuLoaderTest, without_a_driver_there_is_an_error) {
+  setenv("VK_ICD_FILENAMES", "/no_driver.json", 1);
+  setenv("VK_DRIVER_FILES", "/no_driver.json", 1);
+  GpuDevice device;
+  const GpuResult opened = device.try_open({.takes_software = true});
+  ASSERT_FALSE(opened);
+  const bool has_loader = opened.error().reason != Reason::no_loader;
+  EXPECT_EQ(opened.error().reason, has_loader ? Reason::no_device : Reason::no_loader) << opened.error().what();
+  EXPECT_FALSE(device.is_open());
+  unsetenv("VK_ICD_FILENAMES");
+  unsetenv("VK_DRIVER_FILES");
+}
+
+TEST(GpuLoaderTest, each_failure_has_its_reason) {
+  const auto reason = [](VkResult result) { return detail::error_of(result, "while testing")->reason; };
+  EXPECT_FALSE(detail::error_of(VK_SUCCESS, ""));
+  EXPECT_EQ(reason(VK_ERROR_OUT_OF_HOST_MEMORY), Reason::out_of_memory);
+  EXPECT_EQ(reason(VK_ERROR_INCOMPATIBLE_DRIVER), Reason::no_device);
+  EXPECT_EQ(reason(VK_TIMEOUT), Reason::device_lost);
+  EXPECT_EQ(reason(VK_ERROR_UNKNOWN), Reason::failed);
+  EXPECT_STREQ(detail::error_of(VK_ERROR_DEVICE_LOST, "while testing")->what(),
+               "the device was lost while testing; it must be opened anew");
+}
+
 class GpuDeviceTest : public testing::Test {
  protected:
   void SetUp() override {
