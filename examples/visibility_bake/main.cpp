@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "command_line/gpu_batches.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/output_file.hpp"
 #include "command_line/parse_point.hpp"
@@ -42,6 +43,8 @@ struct Request {
   bool begins_again = false;
   std::optional<unsigned> threads;
   BakeOptions bake;
+  bool uses_gpu = false;
+  std::string gpu_name;
   std::string sets_path = "visibility.pvs";
   std::string csv_path = "visibility.csv";
   std::string picture_path = "visibility.png";
@@ -86,6 +89,9 @@ void describe(CLI::App& app, Request& request) {
       ->check(CLI::Range(0.0, 1e6).description(""))
       ->check(refuses_nan())
       ->capture_default_str();
+  app.add_flag("--gpu", request.uses_gpu, "Ask on a GPU; the files are the same");
+  app.add_option("--gpu-name", request.gpu_name, "Ask on the GPU with this in its name, which may be software")
+      ->type_name("NAME");
   app.add_flag("--restart", request.begins_again, "Begins again, and removes the checkpoint of an earlier run");
   app.add_option("-o", request.sets_path, "The set of each cell")->type_name("PVS")->capture_default_str();
   app.add_option("--csv", request.csv_path, "The figures of each cell")->type_name("CSV")->capture_default_str();
@@ -267,9 +273,17 @@ void work(const Request& request) {
   const Ranks ranks;
   const bool is_rank_0 = ranks.rank() == 0;
   Job job;
-  if (!ranks.are_ready([&] { return prepare(request, is_rank_0, job); })) return;
+  const bool uses_gpu = request.uses_gpu || !request.gpu_name.empty();
+  const auto prepare_rank = [&] {
+    if (uses_gpu && ranks.size() > 1) throw InputError("--gpu: only a process that bakes alone has it");
+    return prepare(request, is_rank_0, job);
+  };
+  if (!ranks.are_ready(prepare_rank)) return;
   const PairPlan& plan = *job.plan;
+  std::optional<GpuBatches> gpu;
+  if (uses_gpu) gpu.emplace(job.collider, request.gpu_name);
   BakeOptions options = request.bake;
+  if (gpu) options.gpu = &*gpu;
   const unsigned cores = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u);
   options.threads = request.threads.value_or(ranks.size() > 1 ? 1 : cores);
   const Totals before(job.visibility);

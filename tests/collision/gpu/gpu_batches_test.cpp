@@ -13,6 +13,10 @@
 #include "line_of_sight/floor_plan.hpp"
 #include "line_of_sight/sight.hpp"
 #include "support/random.hpp"
+#include "visibility_bake/bake.hpp"
+#include "visibility_bake/cells.hpp"
+#include "visibility_bake/small_level.hpp"
+#include "visibility_bake/visible_sets.hpp"
 
 namespace surehit::test {
 namespace {
@@ -72,6 +76,24 @@ TEST_F(GpuBatchesTest, line_of_sight_sees_the_same) {
   const example::GpuCounts counts = gpu.counts();
   EXPECT_GE(counts.paths, 40'000U);
   EXPECT_LT(counts.by_host, counts.paths / 20);
+}
+
+TEST_F(GpuBatchesTest, visibility_bake_bakes_the_same) {
+  const example::Mesh<float> mesh = level_with_a_door();
+  const Colliderf collider(mesh.view());
+  const example::PairPlan plan(collider, example::find_floors(collider, {.spacing = 0.5F}),
+                               {.range = 6, .samples = 5, .cell_width = 0.5F});
+  const example::Checkpoint checkpoint(folder_.at("checkpoint"), 1);
+  const example::GpuBatches gpu(collider, name);
+  example::Visibility on_host(plan.cell_count());
+  example::Visibility on_gpu(plan.cell_count());
+  bake(collider, plan, checkpoint, {}, on_host);
+  bake(collider, plan, checkpoint, {.threads = 2, .gpu = &gpu}, on_gpu);
+  EXPECT_EQ(encode_visible_sets(plan, on_gpu), encode_visible_sets(plan, on_host));
+  for (std::uint32_t cell = 0; cell < plan.cell_count(); ++cell) {
+    EXPECT_EQ(on_gpu.figures(cell), on_host.figures(cell));
+  }
+  EXPECT_GT(gpu.counts().paths, 1000U);
 }
 
 }  // namespace
