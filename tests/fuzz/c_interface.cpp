@@ -294,6 +294,8 @@ class CInterfaceCase : CArgumentDrawer<Scalar> {
     if (bytes_.one_in(4)) hit.triangle = value(triangle_count);
     Scalar t = 0;
     checked(C::shape_last_free_t(asked, &moving, &hit, or_null(&t)));
+    if (bytes_.one_in(4)) hit.t = number();
+    checked(C::shape_last_free_point(asked, &moving, &hit, given, given_filter, or_null(&contact)));
   }
   void ask_about_shapes_in_batch() {
     ask_in_batch<typename C::ShapeFilter, typename C::ShapeBatchOptions, typename C::ShapeOptions,
@@ -353,6 +355,9 @@ class CInterfaceCase : CArgumentDrawer<Scalar> {
     if (bytes_.one_in(4)) hit.instance = id();
     Scalar t = 0;
     checked(C::scene_shape_last_free_t(asked, &moving, &hit, or_null(&t)));
+    if (bytes_.one_in(4)) hit.t = number();
+    typename C::Vector point;
+    checked(C::scene_shape_last_free_point(asked, &moving, &hit, given, given_filter, or_null(&point)));
   }
 
   void ask_pair() {

@@ -1,4 +1,4 @@
-"""Moving shapes in scenes give the answers of one placed triangle after the other, and those that a reader can check."""
+"""Moving shapes in scenes give the answers of one placed triangle after the other, and those of a count by hand."""
 
 import unittest
 from concurrent.futures import ThreadPoolExecutor
@@ -77,6 +77,11 @@ class SceneShapesTest(unittest.TestCase):
         hit = scene.first_hit(ball)
         self.assertEqual(hit, (0.25, 0.25, 0.125, 0, surehit.Feature.FACE, False, floor))
         self.assertEqual(scene.last_free_t(ball, hit), np.nextafter(np.float32(0.25), np.float32(0)))
+        rest = scene.last_free_point(ball, hit)
+        self.assertEqual((rest[:2].tolist(), 1 < rest[2] < 1.00001), ([2, 1], True))
+        self.assertFalse(scene.any_hit(surehit.SweptSphere(ball.start, rest, 1)))
+        self.assertTrue(-1 < scene.last_free_point(ball, scene.first_hit(ball, ignored_instance=floor),
+                                                   filter=lambda hit: hit.instance == lift)[2] < -0.9999)
         hits = scene.all_hits(ball)
         self.assertEqual((hits.instance["index"].tolist(), hits.t.tolist()), ([floor.index, lift.index], [0.25, 0.5]))
         self.assertEqual((hits.feature.tolist(), hits.started_touching.tolist()), ([0, 0], [False, False]))

@@ -58,6 +58,9 @@ class ShapesTest(unittest.TestCase):
         self.assertEqual(hit, (0.5, 0.0, 0.5, 0, surehit.Feature.EDGE_CA, False))
         self.assertEqual(floor.last_free_t(ball, hit), np.nextafter(np.float32(0.5), np.float32(0)))
         self.assertEqual([other.triangle for other in floor.all_hits(ball)], [0, 1])
+        rest = floor.last_free_point(ball, hit)
+        self.assertEqual((rest[:2].tolist(), 1 < rest[2] < 1.00001), ([5, 5], True))
+        self.assertFalse(floor.overlaps(surehit.SweptSphere(rest, rest, 1)))
         hits = floor.all_hits(ball)
         self.assertEqual((hits.feature.tolist(), hits.started_touching.tolist()),
                          ([surehit.Feature.EDGE_CA, surehit.Feature.EDGE_AB], [False, False]))

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "c/arguments.hpp"
@@ -132,6 +133,21 @@ template <typename Subject>
                            ? object.last_free_point(segment, Asked<Subject>::from_c(*hit), *filter, options)
                            : object.last_free_point(segment, Asked<Subject>::from_c(*hit), options);
     *point = to_c(filter == nullptr || !filter->has_stopped() ? found : segment.start);
+  });
+}
+
+template <typename Subject>
+[[nodiscard]] surehit_status last_free_centre(const SingleQuery<Subject>& query,
+                                              const typename Asked<Subject>::CHit* hit,
+                                              typename Structs<typename Asked<Subject>::Scalar>::Vector3* point) {
+  query.arguments().check_pointer(hit, "hit");
+  query.arguments().check_pointer(point, "point");
+  return query.answer(true, [&](const auto& object, const auto& shape, const auto& options, const auto* filter,
+                                QueryStatistics* /*work*/) {
+    const auto found = filter != nullptr ? object.last_free_point(shape, Asked<Subject>::from_c(*hit), *filter, options)
+                                         : object.last_free_point(shape, Asked<Subject>::from_c(*hit), options);
+    const bool is_answer = filter == nullptr || !filter->has_stopped();
+    *point = to_c(is_answer ? found : std::visit([](const auto& any) { return any.start; }, shape));
   });
 }
 

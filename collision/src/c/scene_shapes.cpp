@@ -88,6 +88,14 @@ surehit_status last_free_t_in_scene(const char* function, const void* handle,
       const surehit_scene##s* scene, const surehit_swept_shape##s* shape, const surehit_scene_shape_hit##s* hit,       \
       Scalar* t) {                                                                                                     \
     return last_free_t_in_scene<Scalar>(__func__, scene, shape, hit, t);                                               \
+  }                                                                                                                    \
+  SUREHIT_C_API surehit_status surehit_scene##s##_shape_last_free_point(                                               \
+      const surehit_scene##s* scene, const surehit_swept_shape##s* shape, const surehit_scene_shape_hit##s* hit,       \
+      const surehit_scene_shape_query_options##s* options, const surehit_scene_shape_filter##s* filter,                \
+      surehit_vector3##s* point) {                                                                                     \
+    Arguments arguments(__func__);                                                                                     \
+    return last_free_centre(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, filter, nullptr), hit,  \
+                            point);                                                                                    \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 extern "C" {

@@ -123,6 +123,14 @@ surehit_status contact_normal_of(const char* function, const typename Structs<Sc
                                                                        const surehit_shape_hit##s* hit, Scalar* t) { \
     return last_free_t<Scalar>(__func__, collider, shape, hit, t);                                                   \
   }                                                                                                                  \
+  SUREHIT_C_API surehit_status surehit_collider##s##_shape_last_free_point(                                          \
+      const surehit_collider##s* collider, const surehit_swept_shape##s* shape, const surehit_shape_hit##s* hit,     \
+      const surehit_shape_query_options##s* options, const surehit_shape_filter##s* filter,                          \
+      surehit_vector3##s* point) {                                                                                   \
+    Arguments arguments(__func__);                                                                                   \
+    return last_free_centre(SingleQuery<Shapes<Scalar>>(arguments, collider, shape, options, filter, nullptr), hit,  \
+                            point);                                                                                  \
+  }                                                                                                                  \
   SUREHIT_C_API surehit_status surehit_triangle##s##_shape_intersect(                                                \
       const surehit_triangle##s* triangle, const surehit_swept_shape##s* shape,                                      \
       const surehit_shape_query_options##s* options, surehit_shape_hit##s* hit) {                                    \

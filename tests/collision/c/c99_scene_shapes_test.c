@@ -20,6 +20,7 @@ static void single_queries(const surehit_scenef* scene, const surehit_instance_i
   surehit_scene_shape_filterf filter;
   surehit_scene_shape_hitf hit;
   surehit_scene_shape_hitf hits[2];
+  surehit_vector3f point;
   surehit_statistics statistics = {0};
   uint32_t index = ids[1].index;
   uint8_t answer = 2;
@@ -30,6 +31,8 @@ static void single_queries(const surehit_scenef* scene, const surehit_instance_i
   EXPECT(hit.t == 0.25F && hit.u == 0.25F && hit.v == 0.125F && hit.feature == SUREHIT_FACE);
   EXPECT(hit.triangle == 0 && hit.started_touching == 0 && hit.instance.index == ids[0].index);
   EXPECT(surehit_scenef_shape_last_free_t(scene, &ball, &hit, &t) == SUREHIT_OK && t < 0.25F && t > 0.2499F);
+  EXPECT(surehit_scenef_shape_last_free_point(scene, &ball, &hit, NULL, NULL, &point) == SUREHIT_OK);
+  EXPECT(point.x == 2 && point.z > 1 && point.z < 1.0001F);
   EXPECT(surehit_scenef_shape_first_hit(scene, &box, NULL, NULL, NULL, &hit) == SUREHIT_OK && hit.t == 0.25F);
 
   options.ignored_instance = ids[0];

@@ -21,6 +21,7 @@ static void single_queries(const surehit_colliderf* level) {
   surehit_statistics statistics = {0};
   surehit_shape_hitf hit;
   surehit_shape_hitf hits[2];
+  surehit_vector3f point;
   size_t count = 0;
   uint8_t answer = 2;
   float t = -1;
@@ -29,6 +30,8 @@ static void single_queries(const surehit_colliderf* level) {
   EXPECT(hit.triangle == 0 && hit.t == 0.5F && hit.feature == SUREHIT_FACE && hit.started_touching == 0);
   EXPECT(surehit_colliderf_shape_last_free_t(level, &falls, &hit, &t) == SUREHIT_OK);
   EXPECT(t < 0.5F && t > 0.4999F);
+  EXPECT(surehit_colliderf_shape_last_free_point(level, &falls, &hit, NULL, NULL, &point) == SUREHIT_OK);
+  EXPECT(point.x == 5.5F && point.z > 1 && point.z < 1.0001F);
   EXPECT(surehit_trianglef_shape_intersect(&triangle, &falls, NULL, &hit) == SUREHIT_OK);
   EXPECT(hit.triangle == 0 && hit.t == 0.5F);
   EXPECT(surehit_trianglef_shape_intersect(&triangle, &beside, NULL, &hit) == SUREHIT_OK);

@@ -93,6 +93,7 @@ struct CFunctions;
     static constexpr auto shape_any_hits = surehit_collider##s##_shape_any_hits;                        \
     static constexpr auto shape_overlaps = surehit_collider##s##_shape_overlaps;                        \
     static constexpr auto shape_last_free_t = surehit_collider##s##_shape_last_free_t;                  \
+    static constexpr auto shape_last_free_point = surehit_collider##s##_shape_last_free_point;          \
     static constexpr auto shape_intersect = surehit_triangle##s##_shape_intersect;                      \
     static constexpr auto contact_point = surehit_triangle##s##_shape_contact_point;                    \
     static constexpr auto contact_normal = surehit_triangle##s##_shape_contact_normal;                  \
@@ -133,6 +134,7 @@ struct CFunctions;
     static constexpr auto scene_shape_any_hits = surehit_scene##s##_shape_any_hits;                     \
     static constexpr auto scene_shape_overlaps = surehit_scene##s##_shape_overlaps;                     \
     static constexpr auto scene_shape_last_free_t = surehit_scene##s##_shape_last_free_t;               \
+    static constexpr auto scene_shape_last_free_point = surehit_scene##s##_shape_last_free_point;       \
   };
 SUREHIT_C_FUNCTIONS(float, f)
 SUREHIT_C_FUNCTIONS(double, d)

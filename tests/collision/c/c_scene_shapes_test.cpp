@@ -95,6 +95,9 @@ class CSceneShapes : public testing::Test {
     Scalar t = -1;
     ASSERT_EQ(C::scene_shape_last_free_t(c.handle, &c_shape, &c_hit, &t), SUREHIT_OK);
     EXPECT_TRUE(same_bits(t, cpp.last_free_t(shape, *hit)));
+    typename C::Vector point;
+    ASSERT_EQ(C::scene_shape_last_free_point(c.handle, &c_shape, &c_hit, &c_options, &c_filter, &point), SUREHIT_OK);
+    EXPECT_EQ(in_cpp(point), cpp.last_free_point(shape, *hit, filter, options));
   }
 
   /// Shapes of one kind, with the options of each.
@@ -203,6 +206,8 @@ TYPED_TEST(CSceneShapes, that_are_wrong_are_refused) {
   refused(C::scene_shape_overlaps(scene, &shape, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER, "touches is");
   refused(C::scene_shape_last_free_t(scene, &shape, &hit, nullptr), SUREHIT_NULL_POINTER, "t is");
   refused(C::scene_shape_last_free_t(scene, &shape, nullptr, &t), SUREHIT_NULL_POINTER, "hit is");
+  refused(C::scene_shape_last_free_point(scene, &shape, &hit, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER,
+          "point is");
   options.culling = 3;
   refused(first_hit(scene, &shape, &options, &hit), SUREHIT_INVALID_VALUE, "options.culling is 3");
   options.culling = 0;

@@ -108,10 +108,12 @@ class CShapes : public testing::Test {
     Scalar t = -1;
     ASSERT_EQ(C::shape_last_free_t(c.get(), &given, &c_hit, &t), SUREHIT_OK);
     EXPECT_TRUE(same_bits(t, cpp.last_free_t(shape, hit)));
+    typename C::Vector vector;
+    ASSERT_EQ(C::shape_last_free_point(c.get(), &given, &c_hit, &given_options, c_filter, &vector), SUREHIT_OK);
+    EXPECT_EQ(in_cpp(vector), cpp.last_free_point(shape, hit, filter, options));
     const auto triangle = in_c(cpp.triangle(hit.triangle));
     ASSERT_EQ(C::shape_intersect(&triangle, &given, &given_options, &c_hit), SUREHIT_OK);
     EXPECT_EQ(in_cpp(c_hit), intersect(shape, cpp.triangle(hit.triangle), options).value_or(ShapeHit<Scalar>{}));
-    typename C::Vector vector;
     ASSERT_EQ(C::contact_point(&triangle, &c_hit, &vector), SUREHIT_OK);
     EXPECT_EQ(in_cpp(vector), contact_point(cpp.triangle(hit.triangle), in_cpp(c_hit)));
     ASSERT_EQ(C::contact_normal(&triangle, &given, &vector), SUREHIT_OK);
@@ -224,6 +226,7 @@ TYPED_TEST(CShapes, that_are_wrong_are_refused) {
   typename C::Sphere ball = {};
   typename C::Shapes shapes = {&ball.start.x, 1, SUREHIT_SWEPT_SPHERE};
   typename C::ShapeHit hit;
+  typename C::Vector vector = {7, 7, 7};
   std::uint8_t blocked = 7;
   TypeParam t = 0;
   const auto refused = this->expect_refused;
@@ -235,9 +238,12 @@ TYPED_TEST(CShapes, that_are_wrong_are_refused) {
   refused(C::shape_any_hit(collider, &shape, nullptr, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER, "blocked is");
   refused(C::shape_overlaps(collider, &shape, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER, "touches is");
   refused(C::shape_last_free_t(collider, &shape, &hit, nullptr), SUREHIT_NULL_POINTER, "t is");
+  refused(C::shape_last_free_point(collider, &shape, nullptr, nullptr, nullptr, &vector), SUREHIT_NULL_POINTER,
+          "hit is");
+  refused(C::shape_last_free_point(collider, &shape, &hit, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER,
+          "point is");
   refused(C::shape_intersect(nullptr, &shape, nullptr, &hit), SUREHIT_NULL_POINTER, "triangle is");
   typename C::Triangle triangle = {{0, 0, 0}, {1, 0, 0}, {0, std::numeric_limits<TypeParam>::infinity(), 0}};
-  typename C::Vector vector;
   refused(C::contact_point(&triangle, nullptr, &vector), SUREHIT_NULL_POINTER, "hit is");
   refused(C::contact_point(&triangle, &hit, &vector), SUREHIT_INVALID_VALUE, "a corner of the triangle");
   refused(C::contact_normal(&triangle, nullptr, &vector), SUREHIT_NULL_POINTER, "shape is");
@@ -249,6 +255,9 @@ TYPED_TEST(CShapes, that_are_wrong_are_refused) {
       [](void*, std::size_t, const typename C::ShapeHit*) -> std::int32_t { return SUREHIT_STOP; }, nullptr};
   refused(C::shape_any_hit(collider, &shape, nullptr, &stops, nullptr, &blocked), SUREHIT_STOPPED, "said stop");
   EXPECT_EQ(blocked, 0);
+  hit.t = 1;
+  refused(C::shape_last_free_point(collider, &shape, &hit, nullptr, &stops, &vector), SUREHIT_STOPPED, "said stop");
+  EXPECT_EQ(in_cpp(vector), in_cpp(shape.start));
 
   hit.triangle = this->shape_count;
   refused(C::shape_last_free_t(collider, &shape, &hit, &t), SUREHIT_OUT_OF_RANGE, "no triangle 12");

@@ -139,20 +139,31 @@ class Queries(Generic[PathHit, TouchHit]):
                 return Hits(records[:count.value])
             room = count.value
 
+    @overload
     def last_free_point(self, segment: Segment, hit: PathHit, *, filter: Callable[[PathHit], Any] | None = None,
-                        **options: Any) -> NDArray[Any]:
+                        **options: Any) -> NDArray[Any]: ...
+
+    @overload
+    def last_free_point(self, segment: SweptShape, hit: TouchHit, *, filter: Callable[[TouchHit], Any] | None = None,
+                        **options: Any) -> NDArray[Any]: ...
+
+    def last_free_point(self, segment: Segment | SweptShape, hit: Any, *,
+                        filter: Callable[[Any], Any] | None = None, **options: Any) -> NDArray[Any]:
         """Returns where a point that moves along a segment may stop, in front of its first hit under these options.
 
-        The way from the start to it has no hit, so a step that ends there never tunnels.
+        The way from the start to it has no hit, so a step that ends there never tunnels. For a moving shape, it is
+        where its centre may stop.
         """
-        struct = self._struct_of_hit(hit)
+        is_shape = isinstance(segment, SweptShape)
+        subject = self._subject_of(segment)
+        struct = self._struct_of_touch(hit) if is_shape else self._struct_of_hit(hit)
         point = np.empty(3, self.dtype)
         raised = Raised()
-        asked = self._paths.options.single(options)
+        asked = subject.options.single(options)
         chosen = None
         if filter is not None:
-            chosen = filter_struct(self._paths.kind, filter, self._paths.hit_of, raised, False)
-        raised.check(self._function("last_free_point")(
+            chosen = filter_struct(subject.kind, filter, subject.hit_of, raised, False)
+        raised.check(self._function("shape_last_free_point" if is_shape else "last_free_point")(
             self._handle, byref(segment.struct(self._layouts)), byref(struct), None if asked is None else byref(asked),
             None if chosen is None else byref(chosen), point.ctypes.data))
         return point

@@ -63,6 +63,15 @@ SUREHIT_C_API surehit_status surehit_scened_shape_last_free_t(const surehit_scen
                                                               const surehit_swept_shaped* shape,
                                                               const surehit_scene_shape_hitd* hit, double* t);
 
+/// Sets `point` to where the centre of the shape may stop, see `surehit_colliderd_shape_last_free_point`. A moving
+/// instance goes the same share of its way.
+SUREHIT_C_API surehit_status surehit_scened_shape_last_free_point(const surehit_scened* scene,
+                                                                  const surehit_swept_shaped* shape,
+                                                                  const surehit_scene_shape_hitd* hit,
+                                                                  const surehit_scene_shape_query_optionsd* options,
+                                                                  const surehit_scene_shape_filterd* filter,
+                                                                  surehit_vector3d* point);
+
 #ifdef __cplusplus
 }
 #endif

@@ -63,6 +63,15 @@ SUREHIT_C_API surehit_status surehit_scenef_shape_last_free_t(const surehit_scen
                                                               const surehit_swept_shapef* shape,
                                                               const surehit_scene_shape_hitf* hit, float* t);
 
+/// Sets `point` to where the centre of the shape may stop, see `surehit_colliderf_shape_last_free_point`. A moving
+/// instance goes the same share of its way.
+SUREHIT_C_API surehit_status surehit_scenef_shape_last_free_point(const surehit_scenef* scene,
+                                                                  const surehit_swept_shapef* shape,
+                                                                  const surehit_scene_shape_hitf* hit,
+                                                                  const surehit_scene_shape_query_optionsf* options,
+                                                                  const surehit_scene_shape_filterf* filter,
+                                                                  surehit_vector3f* point);
+
 #ifdef __cplusplus
 }
 #endif

@@ -66,6 +66,14 @@ SUREHIT_C_API surehit_status surehit_colliderd_shape_last_free_t(const surehit_c
                                                                  const surehit_swept_shaped* shape,
                                                                  const surehit_shape_hitd* hit, double* t);
 
+/// Sets `point` to where the centre of the shape may stop, in front of its first hit under these options. The way from
+/// the start to it has no hit, so the shape touches nothing there. It is the start if no float before the hit is free.
+///
+/// Only `t` of the hit is used. Allocates nothing. After `SUREHIT_STOPPED`, the point is the start.
+SUREHIT_C_API surehit_status surehit_colliderd_shape_last_free_point(
+    const surehit_colliderd* collider, const surehit_swept_shaped* shape, const surehit_shape_hitd* hit,
+    const surehit_shape_query_optionsd* options, const surehit_shape_filterd* filter, surehit_vector3d* point);
+
 /// Sets `hit` to where a moving shape first touches one triangle. `options->mask` and `options->ignored_triangle` are
 /// not used. The hit's triangle is 0, or `SUREHIT_NO_TRIANGLE` if they do not touch.
 SUREHIT_C_API surehit_status surehit_triangled_shape_intersect(const surehit_triangled* triangle,

@@ -66,6 +66,14 @@ SUREHIT_C_API surehit_status surehit_colliderf_shape_last_free_t(const surehit_c
                                                                  const surehit_swept_shapef* shape,
                                                                  const surehit_shape_hitf* hit, float* t);
 
+/// Sets `point` to where the centre of the shape may stop, in front of its first hit under these options. The way from
+/// the start to it has no hit, so the shape touches nothing there. It is the start if no float before the hit is free.
+///
+/// Only `t` of the hit is used. Allocates nothing. After `SUREHIT_STOPPED`, the point is the start.
+SUREHIT_C_API surehit_status surehit_colliderf_shape_last_free_point(
+    const surehit_colliderf* collider, const surehit_swept_shapef* shape, const surehit_shape_hitf* hit,
+    const surehit_shape_query_optionsf* options, const surehit_shape_filterf* filter, surehit_vector3f* point);
+
 /// Sets `hit` to where a moving shape first touches one triangle. `options->mask` and `options->ignored_triangle` are
 /// not used. The hit's triangle is 0, or `SUREHIT_NO_TRIANGLE` if they do not touch.
 SUREHIT_C_API surehit_status surehit_trianglef_shape_intersect(const surehit_trianglef* triangle,
