@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "misses_box.hpp"
 #include "narrowphase.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"
@@ -17,6 +18,7 @@ std::optional<Hit<Scalar>> intersect(const std::type_identity_t<Path<Scalar>>& p
   const Path<Scalar>& whole = path;
   const detail::PathRange<Scalar> range(whole, options);
   if (!detail::is_finite(whole) || range.is_empty() || !detail::is_finite(triangle)) return std::nullopt;
+  if (detail::misses_box(whole, triangle)) return std::nullopt;
   const detail::Narrowphase<Scalar> narrowphase(whole, options, range, statistics);
   detail::Candidate<Scalar> candidate{0, triangle, {}};
   if (!narrowphase.find_contact(triangle, candidate.contact)) return std::nullopt;

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <tuple>
 
 #include "support/inlining.hpp"
 #include "surehit/path.hpp"
+#include "surehit/triangle.hpp"
 
 namespace surehit::detail {
 
@@ -25,6 +29,18 @@ SUREHIT_ALWAYS_INLINE [[nodiscard]] inline bool misses_box(const Path<Scalar>& p
     if (start > high[axis] && !(toward < 0 || comes_from_both)) return true;
   }
   return false;
+}
+
+/// Returns true if the path misses the box of the triangle.
+template <typename Scalar>
+[[nodiscard]] bool misses_box(const Path<Scalar>& path, const Triangle<Scalar>& triangle) {
+  std::array<Scalar, 3> low;
+  std::array<Scalar, 3> high;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<Eigen::Index>(axis);
+    std::tie(low[axis], high[axis]) = std::minmax({triangle.a[at], triangle.b[at], triangle.c[at]});
+  }
+  return misses_box(path, low, high);
 }
 
 }  // namespace surehit::detail

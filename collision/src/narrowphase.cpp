@@ -1,19 +1,14 @@
 #include "narrowphase.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <optional>
-#include <tuple>
 
 #include "exact/exact_contact.hpp"
 #include "filter/bounded_contact.hpp"
+#include "filter/corner_contact.hpp"
 #include "filter/plane_contact.hpp"
-#include "misses_box.hpp"
 #include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
-#include "walk/direction.hpp"
 
 namespace surehit::detail {
 namespace {
@@ -23,24 +18,6 @@ template <typename Scalar>
 bool try_round(double lower, double upper, Scalar& rounded) {
   rounded = static_cast<Scalar>(upper) + Scalar{0};  // A zero becomes +0.
   return static_cast<Scalar>(lower) == rounded;
-}
-
-/// Returns true if the path is certain to enter the box after parameter `limit`. The parameter of each entry has three
-/// roundings, each by 2^-53 of itself. The smallest normal number covers underflow.
-template <typename Scalar>
-bool enters_after(const Path<Scalar>& path, const std::array<Scalar, 3>& low, const std::array<Scalar, 3>& high,
-                  double limit) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double start = path.start[static_cast<Eigen::Index>(axis)];
-    const double toward = path.toward[static_cast<Eigen::Index>(axis)];
-    const double way = direction_of(path.kind, start, toward);
-    if (way == 0) continue;
-    const double gap = double{way > 0 ? low[axis] : high[axis]} - start;
-    if (!std::isfinite(gap) || !std::isfinite(way)) continue;
-    const double enters = gap / way;
-    if (enters - std::fabs(enters) * 0x1p-50 - std::numeric_limits<double>::min() > limit) return true;
-  }
-  return false;
 }
 
 }  // namespace
@@ -73,15 +50,12 @@ template bool share_axis_plane(const Triangle<float>&, const Triangle<float>&);
 template bool share_axis_plane(const Triangle<double>&, const Triangle<double>&);
 
 template <typename Scalar>
-bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact& found, double limit,
-                                       Closeness closeness) const {
-  std::array<Scalar, 3> low;
-  std::array<Scalar, 3> high;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto at = static_cast<Eigen::Index>(axis);
-    std::tie(low[axis], high[axis]) = std::minmax({triangle.a[at], triangle.b[at], triangle.c[at]});
+bool Narrowphase<Scalar>::find_contact(const Triangle<Scalar>& triangle, Contact& found, Closeness closeness) const {
+  if (const CornerContact<Scalar> corner = corner_contact(path_, triangle, range_);
+      corner.verdict != Verdict::undecided) {
+    found = corner.contact;
+    return corner.verdict == Verdict::hit && admits(options_, found);
   }
-  if (misses_box(path_, low, high) || enters_after(path_, low, high, limit)) return false;
   BoundedContact bounded;
   if (closeness == Closeness::unknown) bounded = double_contact(path_, triangle, range_);
   if (bounded.verdict == Verdict::undecided) bounded = plane_contact(path_, triangle, range_);
@@ -145,6 +119,13 @@ Hit<Scalar> Narrowphase<Scalar>::hit(const Candidate<Scalar>& candidate) const {
   Hit<Scalar> hit;
   hit.triangle = candidate.id;
   hit.side = candidate.contact.side;
+  if (const CornerContact<Scalar> corner = corner_contact(path_, candidate.triangle, range_);
+      corner.verdict == Verdict::hit) {
+    hit.t = static_cast<Scalar>(corner.contact.t_lower);
+    hit.u = corner.u;
+    hit.v = corner.v;
+    return hit;
+  }
   const bool crosses = hit.side != Side::edge_on;
   if (!try_round(crosses ? double_contact(path_, candidate.triangle, range_)
                          : plane_contact(path_, candidate.triangle, range_),

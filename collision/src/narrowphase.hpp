@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "contact.hpp"
@@ -50,8 +49,9 @@ enum class Closeness : std::uint8_t {
 };
 
 /// Decides one path against triangles that may be hit. The kernel has not called them misses. It begins with the
-/// second stage, which works in double. For paths in the plane of a wall, it needs two coordinates alone. Running error
-/// bounds decide what it leaves undecided. Exact integers decide the rest.
+/// second stage, which works in double. A path that ends at a corner needs no more than a sign, and one in the plane of
+/// a wall no more than two coordinates. Running error bounds decide what it leaves undecided. Exact integers decide the
+/// rest.
 template <typename Scalar>
 class Narrowphase {
  public:
@@ -60,10 +60,9 @@ class Narrowphase {
       : path_(path), options_(options), range_(range), statistics_(statistics) {}
 
   /// Returns true, with the contact in `found`, if the path meets the triangle and the options on contacts admit it.
-  /// Otherwise `found` has no meaning. A close pair skips `double_contact`. A contact after parameter `limit` may
-  /// count as none. Masks, filters and the ignored triangle are for the caller.
+  /// Otherwise `found` has no meaning. A close pair skips `double_contact`. Masks, filters and the ignored triangle are
+  /// for the caller.
   [[nodiscard]] bool find_contact(const Triangle<Scalar>& triangle, Contact& found,
-                                  double limit = std::numeric_limits<double>::infinity(),
                                   Closeness closeness = Closeness::unknown) const;
 
   /// Returns true if x comes before y: by the exact t, then by the id.

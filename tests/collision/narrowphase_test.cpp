@@ -108,35 +108,16 @@ TYPED_TEST(NarrowphaseOf, edge_of_exact_products_takes_no_exact_decision) {
   EXPECT_EQ(this->statistics_.exact_decisions, 0u);
 }
 
-TYPED_TEST(NarrowphaseOf, box_beside_the_path_takes_no_exact_decision) {
-  Contact contact;
-  const auto expect_miss = [&](const Path<TypeParam>& path, double limit) {
+TYPED_TEST(NarrowphaseOf, path_between_corners_takes_no_exact_decision) {
+  for (const Path<TypeParam>& path : {Path<TypeParam>(Segment<TypeParam>{{0, 1, 0}, {1, 0, 0}}),
+                                      Path<TypeParam>(Segment<TypeParam>{{3, 1, 5}, {1, 0, 0}}),
+                                      Path<TypeParam>(Ray<TypeParam>{{0, 1, 0}, {5, 1, -2}})}) {
     this->path_ = path;
     this->range_ = PathRange<TypeParam>(path, this->options_);
-    EXPECT_FALSE(this->narrowphase_.find_contact(unit_triangle<TypeParam>(), contact, limit));
+    static_cast<void>(this->narrowphase_.hit(this->candidate_of(unit_triangle<TypeParam>(), 0)));
     EXPECT_EQ(this->statistics_.exact_decisions, 0u);
-  };
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  expect_miss(Segment<TypeParam>{{2, 0, 0}, {3, 0, 0}}, infinity);
-  expect_miss(Segment<TypeParam>{{3, 0, 0}, {2, 0, 0}}, infinity);
-  expect_miss(Ray<TypeParam>{{2, 0, 0}, {1, 0, 0}}, infinity);
-  expect_miss(Ray<TypeParam>{{-1, 0, 0}, {-1, 0, 0}}, infinity);
-  expect_miss(Line<TypeParam>{{0, 2, 0}, {1, 0, 0}}, infinity);
-  // It enters the box at t = 1/4.
-  expect_miss(Segment<TypeParam>{{-1, TypeParam{0.25}, 0}, {3, TypeParam{0.25}, 0}}, 0.2);
-}
-
-TYPED_TEST(NarrowphaseOf, contact_at_the_limit_counts) {
-  Contact contact;
-  const auto expect_hit = [&](const Path<TypeParam>& path, double limit) {
-    this->path_ = path;
-    this->range_ = PathRange<TypeParam>(path, this->options_);
-    EXPECT_TRUE(this->narrowphase_.find_contact(unit_triangle<TypeParam>(), contact, limit));
-  };
-  expect_hit(Segment<TypeParam>{{-1, TypeParam{0.25}, 0}, {3, TypeParam{0.25}, 0}}, 0.25);
-  expect_hit(Line<TypeParam>{{2, TypeParam{0.25}, 0}, {1, 0, 0}}, -1.75);
-  expect_hit(Line<TypeParam>{{-1, TypeParam{0.25}, 0}, {-1, 0, 0}}, -1.5);
-  expect_hit(Ray<TypeParam>{{0, 0, -3}, {0, 0, 1}}, 3);
+    EXPECT_EQ(this->statistics_.exact_roundings, 0u);
+  }
 }
 
 TYPED_TEST(NarrowphaseOf, contact_in_a_tilted_plane_takes_exact_arithmetic) {

@@ -73,7 +73,7 @@ enum class FilterVerdict : std::uint8_t {
 enum class DecidedBy : std::uint8_t {
   options,         ///< The mask or the ignored triangle leaves the triangle out. Nothing is computed.
   filter,          ///< The filter, in the type of the mesh.
-  coordinates,     ///< Comparisons of coordinates: the path misses the box of the triangle.
+  coordinates,     ///< Comparisons: the path misses the triangle's box, or ends at a corner.
   doubles,         ///< The determinants in double, with a bound.
   plane,           ///< Two coordinates in double, in a plane that is perpendicular to an axis.
   running_bounds,  ///< Doubles, with bounds that follow each operation.

@@ -19,9 +19,11 @@
 #include <type_traits>
 #include <vector>
 
+#include "filter/block_boxes-inl.hpp"
 #include "filter/block_kernel-inl.hpp"
 #include "filter/classify_in_double-inl.hpp"
 #include "filter/kernel_path.hpp"
+#include "filter/path_box.hpp"
 #include "narrowphase.hpp"
 #include "path_range.hpp"
 #include "query/query.hpp"
@@ -95,6 +97,15 @@ HWY_NOINLINE bool visit_one_by_one(const CandidateBlock<Scalar, AnyPath>& block,
   }
   // A Path that is made here lives as long as this reference.
   const typename Visitor::AnyPath& path = block.path;
+  if constexpr (std::is_same_v<typename Visitor::AnyPath, Path<Scalar>>) {
+    double limit = double{block.range.last};
+    if constexpr (Visitor::shortens) {
+      limit = std::min(limit, visitor.limit());
+      lanes = visitor.lanes_that_may_come_first(block, lanes);
+    }
+    lanes &= lanes_that_meet(PathBox<Scalar>(path, limit), block.list, block.from);
+    if (lanes == 0) return shorter;
+  }
   OpenLanes open = {lanes, 0};
   if constexpr (std::is_same_v<typename Visitor::AnyPath, Path<float>>)
     open = look_again(block, path, lanes, visitor, shorter);
@@ -187,11 +198,24 @@ class FirstHit {
     return true;
   }
 
+  /// Returns the lanes of `lanes` whose triangle may come first. The ids of a list ascend.
+  template <typename AnyPath>
+  [[nodiscard]] std::uint64_t lanes_that_may_come_first(const CandidateBlock<Scalar, AnyPath>& block,
+                                                        std::uint64_t lanes) const {
+    if (!is_decided() || !best_.contact.at_start) return lanes;
+    const auto last = [&] { return static_cast<std::size_t>(std::bit_width(lanes)) - 1; };
+    while (lanes != 0 && comes_later(block.query.grid.entries()[block.entry(last())])) {
+      lanes &= ~(std::uint64_t{1} << last());
+    }
+    return lanes;
+  }
+
   /// Lets the narrowphase decide a candidate. Keeps it and returns true if it comes first.
   HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate,
                          Closeness closeness) {
     if (!query.takes_part(candidate.id) || (is_found() && grid_ == &query.grid && candidate.id == id())) return false;
-    if (!narrowphase.find_contact(candidate.triangle, candidate.contact, limit(), closeness)) return false;
+    if (comes_later(candidate.id)) return false;
+    if (!narrowphase.find_contact(candidate.triangle, candidate.contact, closeness)) return false;
     if (is_found() && !narrowphase.comes_before(candidate, decide_best(narrowphase))) return false;
     if (query.filter != nullptr && !query.accepts(narrowphase.hit(candidate))) return false;
     state_ = State::decided;
@@ -233,6 +257,12 @@ class FirstHit {
   }
 
  private:
+  /// Returns true if a triangle cannot come first. No contact is before one at the start, so only a lower id comes
+  /// before such a hit.
+  [[nodiscard]] bool comes_later(std::uint32_t id) const {
+    return is_decided() && best_.contact.at_start && id > best_.id;
+  }
+
   enum class State : std::uint8_t {
     none,     ///< There is no hit yet.
     certain,  ///< The kernel is certain of the best hit. Its contact is not set.
@@ -304,8 +334,7 @@ class AnyHit {
   HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate,
                          Closeness closeness) {
     if (!query.takes_part(candidate.id)) return false;
-    constexpr double no_limit = std::numeric_limits<double>::infinity();
-    if (!narrowphase.find_contact(candidate.triangle, candidate.contact, no_limit, closeness)) return false;
+    if (!narrowphase.find_contact(candidate.triangle, candidate.contact, closeness)) return false;
     return is_done_ = query.filter == nullptr || query.accepts(narrowphase.hit(candidate));
   }
   /// Returns true if there is a hit.
@@ -334,8 +363,7 @@ class AllHits {
   HWY_NOINLINE bool take(const Query<Scalar>& query, const Narrowphase& narrowphase, Candidate<Scalar>& candidate,
                          Closeness closeness) {
     if (!query.takes_part(candidate.id)) return false;
-    constexpr double no_limit = std::numeric_limits<double>::infinity();
-    if (narrowphase.find_contact(candidate.triangle, candidate.contact, no_limit, closeness)) {
+    if (narrowphase.find_contact(candidate.triangle, candidate.contact, closeness)) {
       found_.push_back(candidate);
     }
     return false;

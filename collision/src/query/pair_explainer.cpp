@@ -1,13 +1,11 @@
 #include "query/pair_explainer.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <utility>
 
 #include "filter/bounded_contact.hpp"
+#include "filter/corner_contact.hpp"
 #include "filter/plane_contact.hpp"
 #include "misses_box.hpp"
 #include "support/rounding_flags.hpp"
@@ -47,13 +45,8 @@ bool PairExplainer<Scalar>::decide(ExplainedCandidate& candidate) {
 
 template <typename Scalar>
 DecidedBy PairExplainer<Scalar>::stage_of(const Triangle<Scalar>& triangle, bool is_by_integers) const {
-  std::array<Scalar, 3> low;
-  std::array<Scalar, 3> high;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto at = static_cast<Eigen::Index>(axis);
-    std::tie(low[axis], high[axis]) = std::minmax({triangle.a[at], triangle.b[at], triangle.c[at]});
-  }
-  if (misses_box(path_, low, high)) return DecidedBy::coordinates;
+  if (misses_box(path_, triangle)) return DecidedBy::coordinates;
+  if (corner_contact(path_, triangle, range_).verdict != Verdict::undecided) return DecidedBy::coordinates;
   if (double_contact(path_, triangle, range_).verdict != Verdict::undecided) return DecidedBy::doubles;
   if (plane_contact(path_, triangle, range_).verdict != Verdict::undecided) return DecidedBy::plane;
   return is_by_integers ? DecidedBy::integers : DecidedBy::running_bounds;

@@ -60,7 +60,7 @@ class DecidedBy(IntEnum):
     FILTER = 1
     """The filter, in the type of the mesh."""
     COORDINATES = 2
-    """Comparisons of coordinates: the path misses the box of the triangle."""
+    """Comparisons: the path misses the triangle's box, or ends at a corner."""
     DOUBLES = 3
     """The determinants in double, with a bound."""
     PLANE = 4

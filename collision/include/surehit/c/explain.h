@@ -38,7 +38,7 @@ typedef enum surehit_filter_verdict {
 typedef enum surehit_decided_by {
   SUREHIT_BY_OPTIONS = 0,         ///< The mask or the ignored triangle leaves the triangle out. Nothing is computed.
   SUREHIT_BY_FILTER = 1,          ///< The filter, in the type of the mesh.
-  SUREHIT_BY_COORDINATES = 2,     ///< Comparisons of coordinates: the path misses the box of the triangle.
+  SUREHIT_BY_COORDINATES = 2,     ///< Comparisons: the path misses the triangle's box, or ends at a corner.
   SUREHIT_BY_DOUBLES = 3,         ///< The determinants in double, with a bound.
   SUREHIT_BY_PLANE = 4,           ///< Two coordinates in double, in a plane that is perpendicular to an axis.
   SUREHIT_BY_RUNNING_BOUNDS = 5,  ///< Doubles, with bounds that follow each operation.
