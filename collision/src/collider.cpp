@@ -48,11 +48,13 @@ class SingleQuery {
 template <typename Scalar>
 Vector3<Scalar> find_free_point(const State<Scalar>& state, const Segment<Scalar>& segment, const Hit<Scalar>& hit,
                                 const QueryOptions<Scalar>& options, const HitFilter<Scalar>* filter) noexcept {
-  return detail::find_free_point(segment, hit.t, options,
-                                 [&](const Path<Scalar>& path, const QueryOptions<Scalar>& shortened, Scalar /*s*/) {
-                                   const SingleQuery<Scalar> query(state, shortened, filter, nullptr);
-                                   return state.searches->any(query.get(), path);
-                                 });
+  return detail::find_free_point(
+      segment, hit.t, options,
+      [&](const Path<Scalar>& path, const QueryOptions<Scalar>& shortened, Scalar /*s*/) {
+        const SingleQuery<Scalar> query(state, shortened, filter, nullptr);
+        return state.searches->any(query.get(), path);
+      },
+      options.min_t > 0);
 }
 
 /// Answers a batch. `ask(query, paths, own_options, first)` answers the part that begins with path `first`.

@@ -58,7 +58,7 @@ Vector3<Scalar> find_free_point(const detail::CommittedScene<Scalar>& scene, con
     free_share = s;
     return false;
   };
-  const Vector3<Scalar> point = detail::find_free_point(segment, hit.t, options, is_blocked);
+  const Vector3<Scalar> point = detail::find_free_point(segment, hit.t, options, is_blocked, true);
   if (share != nullptr) *share = free_share;
   return point;
 }

@@ -72,7 +72,8 @@ Vector3<Scalar> find_free_centre_in_scene(const detail::CommittedScene<Scalar>& 
         const bool is_blocked = ask_scene<Scalar>(scene, shorter, shortened, filter, nullptr, search_scene_any, s);
         if (!is_blocked) free_share = s;
         return is_blocked;
-      });
+      },
+      true);
   if (share != nullptr) *share = free_share;
   return centre;
 }

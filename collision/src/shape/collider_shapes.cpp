@@ -65,7 +65,8 @@ Vector3<Scalar> find_free_centre(const detail::ColliderState<Scalar>& state, con
       shape, hit.t, options,
       [&](const SweptShape<Scalar>& shorter, const ShapeQueryOptions<Scalar>& shortened, Scalar /*s*/) {
         return ask<Scalar>(state, shorter, shortened, filter, nullptr, search_any);
-      });
+      },
+      false);
 }
 
 }  // namespace

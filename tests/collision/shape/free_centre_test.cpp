@@ -193,6 +193,32 @@ TYPED_TEST(FreeCentre, of_a_moving_instance_goes_the_same_share) {
   EXPECT_EQ(further, case_count(1000));
 }
 
+TYPED_TEST(FreeCentre, is_asked_about_again_where_a_lift_is_lower) {
+  // The shape hardly moves, so many candidates are the same point. The lift may be there at one share, and not yet
+  // there at a lower one.
+  Random random(96);
+  const auto collider = std::make_shared<Collider<TypeParam>>(this->floor().view());
+  std::size_t further = 0;
+  for (std::size_t i = case_count(1000); i > 0; --i) {
+    const TypeParam from = 4 + 4 * random.unit<TypeParam>();
+    const TypeParam to = neighbour(from, -1 - static_cast<int>(random.below(40)));
+    const auto [shape, reach] = this->falling(random.below(3), from, to, random.unit<TypeParam>());
+    const TypeParam motion = 8 + 8 * random.unit<TypeParam>();
+    Scene<TypeParam> scene;
+    const InstanceId lift = scene.add(collider);
+    scene.set_motion(lift, {0, 0, motion});
+    scene.commit();
+    const auto hit = scene.first_hit(shape).value();
+    const auto is_blocked = [&, &size = reach](const Vector3<TypeParam>& candidate, const mpq_class& s) {
+      return mpq_class(double{candidate[2]}) - s * mpq_class(double{motion}) <= size;
+    };
+    const auto free = scene.last_free_point(shape, hit);
+    ASSERT_EQ(free, this->defined(shape, hit.t, is_blocked)) << i;
+    further += free[2] < from ? 1 : 0;
+  }
+  EXPECT_GT(further, case_count(500));
+}
+
 TYPED_TEST(FreeCentre, of_a_contact_at_the_start_is_the_start) {
   const Collider<TypeParam> collider(this->floor().view());
   const auto [shape, reach] = this->falling(0, 1, -1, 1);
