@@ -110,6 +110,7 @@ TYPED_TEST(SceneAllocation, none_in_queries_of_balls) {
               static_cast<void>(this->scene.any_hit(ball, odd));
               static_cast<void>(this->scene.overlaps(ball));
               static_cast<void>(this->scene.last_free_t(ball, *hit));
+              static_cast<void>(this->scene.last_free_point(ball, *hit));
               this->scene.first_hits(balls, hits, {.filter = odd});
               this->scene.any_hits(balls, blocked);
             }),

@@ -50,6 +50,7 @@ TYPED_TEST(BoxStack, of_all_queries_in_all_families) {
       measure([&] { collider.all_hits(box, hits); });
       if (hits.empty()) continue;
       measure([&] { static_cast<void>(collider.last_free_t(box, hits.front())); });
+      measure([&] { static_cast<void>(collider.last_free_point(box, hits.front())); });
     }
   }
   testing::Test::RecordProperty("bytes", static_cast<int>(deepest));

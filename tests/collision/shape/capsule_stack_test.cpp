@@ -51,6 +51,7 @@ TYPED_TEST(CapsuleStack, of_all_queries_in_all_families) {
       measure([&] { collider.all_hits(capsule, hits); });
       if (hits.empty()) continue;
       measure([&] { static_cast<void>(collider.last_free_t(capsule, hits.front())); });
+      measure([&] { static_cast<void>(collider.last_free_point(capsule, hits.front())); });
     }
   }
   testing::Test::RecordProperty("bytes", static_cast<int>(deepest));

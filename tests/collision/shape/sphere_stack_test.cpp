@@ -52,6 +52,7 @@ TYPED_TEST(SphereStack, of_all_queries_in_all_families) {
       measure([&] { collider.all_hits(sphere, hits); });
       if (hits.empty()) continue;
       measure([&] { static_cast<void>(collider.last_free_t(sphere, hits.front())); });
+      measure([&] { static_cast<void>(collider.last_free_point(sphere, hits.front())); });
     }
   }
   testing::Test::RecordProperty("bytes", static_cast<int>(deepest));
