@@ -219,7 +219,8 @@ class SUREHIT_API Collider {
   /// The candidates are round(start + s (end - start)) with s = t - 2^k ulp(t), for k = 0, 1, and so on, while s > 0.
   /// Here ulp(t) is the gap from t to the next greater Scalar. The result is the first candidate that passes an exact
   /// query under the same options: the segment from the start to it has no hit. If no candidate passes, the result is
-  /// the start, which may itself touch a triangle. It is also the start if t or the segment is not finite.
+  /// the start, which may itself touch a triangle. It is also the start if t or the segment is not finite, or if t is
+  /// above 1.
   ///
   /// The limits keep their positions on the whole segment. On the shorter one, a positive min_t becomes the Scalar next
   /// below fl(min_t / s). max_t is not before the hit, so it admits all of the shorter segment. `ignore_end_contact` is
@@ -293,7 +294,7 @@ class SUREHIT_API Collider {
   ///
   /// The candidates are those of the `last_free_point` of a segment: round(start + s (end - start)), where s is below t
   /// and at least 2^-64. The result is the first one that passes an exact query. If none does, or if the shape touches
-  /// something at its start, it is the start. It is also the start if t or a centre is not finite.
+  /// something at its start, it is the start. It is also the start if t or a centre is not finite, or t is above 1.
   ///
   /// Takes at most 24 queries in float, and 53 in double. Allocates nothing.
   [[nodiscard]] Vector3<Scalar> last_free_point(const SweptShape<Scalar>& shape, const ShapeHit<Scalar>& hit,

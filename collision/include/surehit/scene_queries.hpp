@@ -105,8 +105,8 @@ class SUREHIT_API SceneQueries {
   /// Returns where a point that moves along the segment may stop, in front of the hit, see `Collider::last_free_point`.
   /// A moving instance goes the same share of its way: it moves by s times its motion while the point moves to s.
   ///
-  /// Sets `share` to this s, unless `share` is null. It is the parameter of the point before it is rounded, and 0 for
-  /// the start.
+  /// Sets `share` to this s, unless `share` is null. It is the parameter of the point before it is rounded, and 0 if no
+  /// candidate passes.
   [[nodiscard]] Vector3<Scalar> last_free_point(const Segment<Scalar>& segment, const SceneHit<Scalar>& hit,
                                                 const SceneQueryOptions<Scalar>& options = {},
                                                 Scalar* share = nullptr) const noexcept;

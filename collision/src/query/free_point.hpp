@@ -19,7 +19,8 @@ template <typename Scalar>
 }
 
 /// Tries points before the hit at t. Each is twice as far back, in t, as the one before it. Returns the first one that
-/// the segment reaches without a hit, or the start of the segment if there is none.
+/// the segment reaches without a hit, or the start of the segment if there is none. Each s is below 1, as the integers
+/// for moving instances demand.
 ///
 /// `Options` are those of a collider or of a scene. `is_blocked(path, options, s)` returns true if the segment to the
 /// point at s has a hit. If `sees_s` is false, this depends on the point alone.
@@ -29,7 +30,7 @@ template <typename Scalar, typename Options, typename IsBlocked>
                                                                bool sees_s) noexcept {
   const FloatingPointEnvironment environment;
   const Path<Scalar> path = segment;
-  if (!is_finite(path) || !std::isfinite(t)) return segment.start;
+  if (!is_finite(path) || !std::isfinite(t) || t > 1) return segment.start;
   Vector3<Scalar> blocked = segment.start;  // The last point that was not free.
   // Below, s is exact, because it is t minus a multiple of ulp(t).
   const Scalar ulp = std::nextafter(t, std::numeric_limits<Scalar>::infinity()) - t;
@@ -37,7 +38,7 @@ template <typename Scalar, typename Options, typename IsBlocked>
     const Scalar s = t - back;
     const Segment<Scalar> free{segment.start, exact_point(path, s)};
     // All later candidates lie between this one and the start, and rounding keeps the order. So they are the start too.
-    if (have_same_bits(free.end, segment.start)) break;
+    if (!sees_s && have_same_bits(free.end, segment.start)) break;
     // Near a surface, many candidates are rounded to the same point.
     if (!sees_s && have_same_bits(free.end, blocked)) continue;
     blocked = free.end;

@@ -209,11 +209,16 @@ TYPED_TEST(FreeCentre, is_asked_about_again_where_a_lift_is_lower) {
     scene.set_motion(lift, {0, 0, motion});
     scene.commit();
     const auto hit = scene.first_hit(shape).value();
+    mpq_class free_share = 0;
     const auto is_blocked = [&, &size = reach](const Vector3<TypeParam>& candidate, const mpq_class& s) {
-      return mpq_class(double{candidate[2]}) - s * mpq_class(double{motion}) <= size;
+      const bool is_low = mpq_class(double{candidate[2]}) - s * mpq_class(double{motion}) <= size;
+      if (!is_low) free_share = s;
+      return is_low;
     };
-    const auto free = scene.last_free_point(shape, hit);
+    TypeParam share = -1;
+    const auto free = scene.last_free_point(shape, hit, {}, &share);
     ASSERT_EQ(free, this->defined(shape, hit.t, is_blocked)) << i;
+    ASSERT_EQ(mpq_class(double{share}), free_share) << i;
     further += free[2] < from ? 1 : 0;
   }
   EXPECT_GT(further, case_count(500));
@@ -279,13 +284,45 @@ TYPED_TEST(FreeCentre, is_the_start_without_finite_numbers) {
   constexpr TypeParam infinity = std::numeric_limits<TypeParam>::infinity();
   const auto [shape, reach] = this->falling(0, 4, -4, 1);
   auto hit = collider.first_hit(shape).value();
-  for (const TypeParam t : {infinity, -infinity, std::numeric_limits<TypeParam>::quiet_NaN(), TypeParam{0}}) {
+  for (const TypeParam t : {infinity, -infinity, std::numeric_limits<TypeParam>::quiet_NaN(), TypeParam{0},
+                            std::nextafter(TypeParam{1}, infinity), TypeParam{0x1p100}}) {
     hit.t = t;
     EXPECT_EQ(collider.last_free_point(shape, hit), this->start_of(shape));
   }
   hit.t = TypeParam{0.5};
   const auto endless = this->ending_at(shape, {0, 0, infinity});
   EXPECT_EQ(collider.last_free_point(endless, hit), this->start_of(shape));
+}
+
+TYPED_TEST(FreeCentre, of_a_resting_shape_has_the_share_of_the_lift) {
+  Scene<TypeParam> scene;
+  const InstanceId lift = scene.add(std::make_shared<Collider<TypeParam>>(this->floor().view()));
+  scene.set_motion(lift, {0, 0, 8});
+  scene.commit();
+  const SweptSphere<TypeParam> ball{{2, 1, 4}, {2, 1, 4}, 1};
+  TypeParam share = -1;
+  EXPECT_EQ(scene.last_free_point(ball, scene.first_hit(ball).value(), {}, &share), ball.start);
+  EXPECT_EQ(share, neighbour(TypeParam{0.375}, -1));
+  const Segment<TypeParam> point{{2, 1, 3}, {2, 1, 3}};
+  EXPECT_EQ(scene.last_free_point(point, scene.first_hit(point).value(), {}, &share), point.start);
+  EXPECT_EQ(share, neighbour(TypeParam{0.375}, -1));
+}
+
+/// The integers for a moving instance have room for a share of its motion, and not for many times as much.
+TYPED_TEST(FreeCentre, of_a_hit_after_the_step_is_the_start) {
+  GeneratedMesh<TypeParam> mesh;
+  mesh.add({{0, 0, std::numeric_limits<TypeParam>::denorm_min()}, {8, 0, 0}, {0, 8, 0}});
+  const bool is_float = std::is_same_v<TypeParam, float>;
+  Scene<TypeParam> scene;
+  const InstanceId lift = scene.add(std::make_shared<Collider<TypeParam>>(mesh.view()));
+  scene.set_motion(lift, {0, 0, std::ldexp(TypeParam{1}, is_float ? 100 : 1000)});
+  scene.commit();
+  const SweptSphere<TypeParam> ball{{0, 0, 0}, {0, 0, std::ldexp(TypeParam{1}, is_float ? -100 : -1000)}, 0};
+  SceneShapeHit<TypeParam> hit = scene.first_hit(ball).value_or(SceneShapeHit<TypeParam>{});
+  hit.instance = lift;
+  hit.started_touching = false;
+  hit.t = std::ldexp(TypeParam{1}, is_float ? 99 : 999);
+  EXPECT_EQ(scene.last_free_point(ball, hit), ball.start);
 }
 
 }  // namespace
