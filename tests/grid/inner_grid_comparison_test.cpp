@@ -160,6 +160,33 @@ TYPED_TEST(InnerGridComparison, of_far_edges_beyond_a_prop) {
   }
 }
 
+/// Paths that begin at corners of small triangles in an inner grid, and of large ones in the list around it. Of all
+/// that contain the start, the lowest id is first, in whichever order the grids come.
+TYPED_TEST(InnerGridComparison, of_starts_in_triangles_of_two_grids) {
+  const auto prop = this->prop(1e3F, {TypeParam{0.31F}, TypeParam{0.27F}, 0});
+  GeneratedMesh<TypeParam> large;
+  std::vector<Vector3<TypeParam>> starts;
+  PathDrawer<TypeParam> ends(prop.view(), 1);
+  const auto far_point = [&]() -> Vector3<TypeParam> {
+    return Vector3<TypeParam>::NullaryExpr([&] { return 4 * this->random_.template symmetric<TypeParam>(); });
+  };
+  for (std::size_t i = 0; i < prop.vertices.size(); i += 40) {
+    starts.push_back(prop.vertices[i]);
+    large.add({starts.back(), far_point(), far_point()});
+  }
+  for (const GeneratedMesh<TypeParam>& mesh : {joined(large, prop), joined(prop, large)}) {
+    GridComparison<TypeParam> comparison(mesh.view(), {}, TestFixture::grids());
+    for (const Vector3<TypeParam>& start : starts) {
+      for (int i = 0; i < 8; ++i) {
+        comparison.expect_same(Segment<TypeParam>{start, i % 2 == 0 ? far_point() : ends.point_around_mesh()});
+      }
+    }
+    for (const Collider<TypeParam>& collider : comparison.colliders()) {
+      EXPECT_FALSE(detail::ColliderState<TypeParam>::of(collider).grid.inner_frames().empty());
+    }
+  }
+}
+
 /// On a smooth level, whose lists have slabs. The slab of a cell with a prop must hold the prop too.
 TYPED_TEST(InnerGridComparison, of_smooth_props) {
   const auto level = smooth_bowl<TypeParam>(14);
