@@ -29,9 +29,10 @@ bool may_be(float result, double exact) {
 
 /// Returns true if a device may return this for a / b: it is within 2.5 ulp. Both are normal, and so is a / b.
 bool may_be_quotient(float result, float a, float b) {
+  if (!std::isnormal(result)) return false;  // Zero and NaN have no ulp.
   const double ulp = std::ldexp(1.0, std::ilogb(result) - 23);
   const double rest = double{result} * double{b} - double{a};  // The product is exact.
-  return std::isfinite(result) && std::fabs(rest) <= 2.5 * ulp * std::fabs(double{b}) * (1 + 0x1p-20);
+  return std::fabs(rest) <= 2.5 * ulp * std::fabs(double{b}) * (1 + 0x1p-20);
 }
 
 /// Returns true if a device may return this for a b + c: it rounds twice.

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -92,6 +94,9 @@ TEST(GpuRoundingTest, a_device_that_rounds_otherwise_is_refused) {
   };
   EXPECT_EQ(fault([&](const RoundingCase&, RoundingResult& x) { x[3] = move(x[3], 1); }), "");
   EXPECT_NE(fault([&](const RoundingCase&, RoundingResult& x) { x[3] = move(x[3], 4); }), "");
+  for (const float lost : {0.0F, infinity, std::nanf("")}) {
+    EXPECT_NE(fault([&](const RoundingCase&, RoundingResult& x) { x[3] = lost; }), "") << lost;
+  }
   const std::string fused =
       fault([](const RoundingCase& of, RoundingResult& x) { x[4] = std::fma(of[0], of[1], of[2]); });
   EXPECT_EQ(fused.find("it computes the product and the sum of "), 0U) << fused;
