@@ -30,7 +30,7 @@ struct GpuColliderState {
   std::uint64_t version;       ///< That of the collider when it was uploaded.
   std::uint64_t mask_version;  ///< The same of its masks.
   bool is_on_device;           ///< False if the host answers all paths, because the device could decide none.
-  GpuBuffer nodes, triangles;
+  std::shared_ptr<GpuMesh> mesh;
 };
 
 }  // namespace detail
@@ -161,25 +161,22 @@ class GpuBatch {
   std::optional<GpuError> run_on_device() {
     GpuDeviceState& device = *state_.device;
     if (device.is_lost) return GpuError(GpuError::Reason::device_lost, "the device was lost; it must be opened anew");
-    for (const GpuSlot& slot : device.slots) device.bind(slot, state_.nodes.get(), state_.triangles.get());
+    detail::GpuWork work(device, state_.mesh);
+    for (const GpuSlot& slot : device.slots) device.bind(slot, state_.mesh->nodes.get(), state_.mesh->triangles.get());
     std::size_t begun = 0;
     while (finished_ < count_) {
       if (begun < count_ && begun - finished_ < device.slots.size() * step) {
-        if (auto error = begin(device.slots[begun / step % 2], begun)) return abandoned(error);
+        if (auto error = begin(device.slots[begun / step % 2], begun)) return error;
         begun += std::min(step, count_ - begun);
         continue;
       }
       const GpuSlot& slot = device.slots[finished_ / step % 2];
-      if (auto error = device.wait(slot)) return abandoned(error);
+      if (auto error = device.wait(slot)) return error;
       finish(slot, finished_);
       finished_ += std::min(step, count_ - finished_);
     }
+    work.end();
     return std::nullopt;
-  }
-
-  std::optional<GpuError> abandoned(std::optional<GpuError>& error) {
-    state_.device->abandon();
-    return std::move(error);
   }
 
   std::optional<GpuError> begin(const GpuSlot& slot, std::size_t first) {
@@ -314,17 +311,20 @@ GpuResult GpuCollider::try_upload(const GpuDevice& device, const Colliderf& coll
   state->version = now.version;
   state->mask_version = now.mask_version;
   state->is_on_device = !tree.nodes.empty();
+  state->mesh = std::make_shared<detail::GpuMesh>();
   if (state->is_on_device) {
     GpuDeviceState& on = *state->device;
+    detail::GpuMesh& mesh = *state->mesh;
     const std::lock_guard lock(on.mutex);
     if (on.is_lost) return GpuError(GpuError::Reason::device_lost, "the device was lost; it must be opened anew");
-    if (auto error = upload(on, std::as_bytes(std::span(tree.nodes)), "the nodes of a mesh", state->nodes)) {
+    detail::GpuWork work(on, state->mesh);
+    if (auto error = upload(on, std::as_bytes(std::span(tree.nodes)), "the nodes of a mesh", mesh.nodes)) {
       return *error;
     }
-    if (auto error =
-            upload(on, std::as_bytes(std::span(tree.triangles)), "the triangles of a mesh", state->triangles)) {
+    if (auto error = upload(on, std::as_bytes(std::span(tree.triangles)), "the triangles of a mesh", mesh.triangles)) {
       return *error;
     }
+    work.end();
   }
   state_ = std::move(state);
   return {};
@@ -346,7 +346,7 @@ GpuBatchResult GpuCollider::any_hits(const PathSpanf& paths, std::span<std::uint
 }
 
 std::size_t GpuCollider::memory_bytes() const noexcept {
-  return state_ == nullptr ? 0 : state_->nodes.size() + state_->triangles.size();
+  return state_ == nullptr ? 0 : state_->mesh->nodes.size() + state_->mesh->triangles.size();
 }
 
 }  // namespace surehit

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint32_t buffer_count = 5;
 constexpr std::uint64_t two_minutes = 120'000'000'000;
+constexpr const char* while_beginning = "while beginning a batch";
 
 /// A structure of Vulkan with all members zero, except for its type.
 template <typename Structure>
@@ -25,6 +26,7 @@ Structure of_type(VkStructureType type) {
 GpuDeviceState::~GpuDeviceState() {
   if (device != VK_NULL_HANDLE) {
     vulkan.DeviceWaitIdle(device);
+    mesh.reset();
     for (GpuSlot& slot : slots) {
       vulkan.DestroyFence(device, slot.fence, nullptr);
       slot = {};
@@ -226,10 +228,10 @@ void GpuDeviceState::bind(const GpuSlot& slot, VkBuffer nodes, VkBuffer triangle
 std::optional<GpuError> GpuDeviceState::submit(const GpuSlot& slot, GpuTask task, const PushedWords& pushed,
                                                std::size_t path_bytes, std::size_t limit_bytes,
                                                std::size_t answer_bytes) {
-  const std::string what = "while beginning a batch";
   auto begin = of_type<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  if (auto error = noted(error_of(vulkan.BeginCommandBuffer(slot.commands, &begin), what))) return error;
+  if (auto error = noted(vulkan.BeginCommandBuffer(slot.commands, &begin), while_beginning)) return error;
+  // Nothing throws until the commands end, because those of the next batch cannot begin before.
   const auto copy = [&](const GpuBuffer& from, const GpuBuffer& to, std::size_t bytes) {
     if (bytes == 0) return;
     const VkBufferCopy region = {0, 0, bytes};
@@ -260,31 +262,32 @@ std::optional<GpuError> GpuDeviceState::submit(const GpuSlot& slot, GpuTask task
 }
 
 std::optional<GpuError> GpuDeviceState::run(const GpuSlot& slot) {
-  const std::string what = "while beginning a batch";
-  if (auto error = noted(error_of(vulkan.EndCommandBuffer(slot.commands), what))) return error;
+  if (auto error = noted(vulkan.EndCommandBuffer(slot.commands), while_beginning)) return error;
   auto work = of_type<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
   work.commandBufferCount = 1;
   work.pCommandBuffers = &slot.commands;
-  return noted(error_of(vulkan.QueueSubmit(queue_, 1, &work, slot.fence), what));
+  return noted(vulkan.QueueSubmit(queue_, 1, &work, slot.fence), while_beginning);
 }
 
 std::optional<GpuError> GpuDeviceState::wait(const GpuSlot& slot) {
-  const std::string what = "while a batch was under way";
-  if (auto error = noted(error_of(vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes), what))) {
-    return error;
-  }
-  return noted(error_of(vulkan.ResetFences(device, 1, &slot.fence), what));
+  const char* const what = "while a batch was under way";
+  if (auto error = noted(vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes), what)) return error;
+  return noted(vulkan.ResetFences(device, 1, &slot.fence), what);
 }
 
-void GpuDeviceState::abandon() {
+void GpuDeviceState::abandon() noexcept {
   if (is_lost) return;
-  vulkan.DeviceWaitIdle(device);
-  for (const GpuSlot& slot : slots) vulkan.ResetFences(device, 1, &slot.fence);
+  VkResult result = vulkan.DeviceWaitIdle(device);
+  for (const GpuSlot& slot : slots) {
+    if (result == VK_SUCCESS) result = vulkan.ResetFences(device, 1, &slot.fence);
+  }
+  is_lost = result != VK_SUCCESS;
 }
 
-std::optional<GpuError> GpuDeviceState::noted(std::optional<GpuError> error) {
-  if (error && error->reason == GpuError::Reason::device_lost) is_lost = true;
-  return error;
+std::optional<GpuError> GpuDeviceState::noted(VkResult result, const char* what) {
+  // Before the text of the error, which may find no memory.
+  if (result == VK_ERROR_DEVICE_LOST || result == VK_TIMEOUT) is_lost = true;
+  return error_of(result, what);
 }
 
 std::optional<GpuError> GpuDeviceState::upload(std::span<const std::byte> bytes, const GpuBuffer& to) {
@@ -294,8 +297,8 @@ std::optional<GpuError> GpuDeviceState::upload(std::span<const std::byte> bytes,
     std::memcpy(slot.host_paths.data(), bytes.data() + first, count);
     auto begin = of_type<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    const std::string what = "while uploading a mesh";
-    if (auto error = noted(error_of(vulkan.BeginCommandBuffer(slot.commands, &begin), what))) return error;
+    const VkResult begun = vulkan.BeginCommandBuffer(slot.commands, &begin);
+    if (auto error = noted(begun, "while uploading a mesh")) return error;
     const VkBufferCopy region = {0, first, count};
     vulkan.CmdCopyBuffer(slot.commands, slot.host_paths.get(), to.get(), 1, &region);
     auto barrier = of_type<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);

@@ -49,6 +49,11 @@ struct GpuSlot {
   VkFence fence = VK_NULL_HANDLE;
 };
 
+/// The buffers of a mesh on a device.
+struct GpuMesh {
+  GpuBuffer nodes, triangles;
+};
+
 /// What the shader of a dispatch is.
 enum class GpuTask : std::uint8_t { any_hits, first_hits, roundings };
 
@@ -75,8 +80,8 @@ struct GpuDeviceState {
                                                std::size_t answer_bytes);
   /// Waits until the work in a slot has ended.
   [[nodiscard]] std::optional<GpuError> wait(const GpuSlot& slot);
-  /// Waits until the device has nothing to do, after a failure.
-  void abandon();
+  /// Waits until the device has nothing to do, after a failure. A device that cannot be waited for counts as lost.
+  void abandon() noexcept;
   /// Fills a buffer of the device.
   [[nodiscard]] std::optional<GpuError> upload(std::span<const std::byte> bytes, const GpuBuffer& to);
   /// Computes the cases of `rounding_check.hpp`.
@@ -99,13 +104,16 @@ struct GpuDeviceState {
   bool is_lost = false;  ///< Nothing more is asked of a device that was lost.
   std::array<GpuSlot, 2> slots;
   std::mutex mutex;  ///< Held by a batch and by an upload.
+  /// What work under way reads or fills. A device that was lost may still do so, and keeps it until it is closed.
+  std::shared_ptr<const GpuMesh> mesh;
 
  private:
   [[nodiscard]] std::optional<GpuError> make_layouts();
   [[nodiscard]] std::optional<GpuError> make_pipeline(GpuTask task, std::span<const std::uint32_t> shader);
   [[nodiscard]] std::optional<GpuError> make_slots();
   [[nodiscard]] std::optional<GpuError> run(const GpuSlot& slot);
-  [[nodiscard]] std::optional<GpuError> noted(std::optional<GpuError> error);
+  /// Returns the error of a result, and notes that the device was lost.
+  [[nodiscard]] std::optional<GpuError> noted(VkResult result, const char* what);
 
   VkQueue queue_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
@@ -113,6 +121,28 @@ struct GpuDeviceState {
   std::array<VkPipeline, 3> pipelines_ = {};
   VkCommandPool commands_ = VK_NULL_HANDLE;
   VkDescriptorPool sets_ = VK_NULL_HANDLE;
+};
+
+/// A batch or an upload, which holds the mutex of the device. Unless `end` was called, it leaves the device only when
+/// that has nothing to do. So neither an error nor an exception leaves work under way.
+class GpuWork {
+ public:
+  GpuWork(GpuDeviceState& device, std::shared_ptr<const GpuMesh> mesh) : device_(device) {
+    device_.mesh = std::move(mesh);
+  }
+  ~GpuWork() {
+    if (!has_ended_) device_.abandon();
+    if (!device_.is_lost) device_.mesh.reset();
+  }
+  GpuWork(const GpuWork&) = delete;
+  GpuWork& operator=(const GpuWork&) = delete;
+
+  /// Says that all work has ended.
+  void end() { has_ended_ = true; }
+
+ private:
+  GpuDeviceState& device_;
+  bool has_ended_ = false;
 };
 
 }  // namespace surehit::detail

@@ -49,25 +49,27 @@ std::optional<GpuError> VulkanFunctions::load(VkDevice device) {
   return std::nullopt;
 }
 
-std::optional<GpuError> error_of(VkResult result, const std::string& what) {
+std::optional<GpuError> error_of(VkResult result, std::string_view what) {
   using Reason = GpuError::Reason;
+  const auto error = [&](Reason reason, std::string before, const char* after = "") {
+    return GpuError(reason, before.append(" ").append(what).append(after));
+  };
   switch (result) {
     case VK_SUCCESS:
       return std::nullopt;
     case VK_ERROR_OUT_OF_HOST_MEMORY:
-      return GpuError(Reason::out_of_memory, "too little memory on the host " + what);
+      return error(Reason::out_of_memory, "too little memory on the host");
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-      return GpuError(Reason::out_of_memory, "too little memory on the device " + what);
+      return error(Reason::out_of_memory, "too little memory on the device");
     case VK_ERROR_DEVICE_LOST:
-      return GpuError(Reason::device_lost, "the device was lost " + what + "; it must be opened anew");
+      return error(Reason::device_lost, "the device was lost", "; it must be opened anew");
     case VK_TIMEOUT:
-      return GpuError(Reason::device_lost,
-                      "the device has not answered for two minutes " + what + "; it must be opened anew");
+      return error(Reason::device_lost, "the device has not answered for two minutes", "; it must be opened anew");
     case VK_ERROR_INCOMPATIBLE_DRIVER:
     case VK_ERROR_INITIALIZATION_FAILED:
       return GpuError(Reason::no_device, "no driver of Vulkan could be started; a driver may not be installed");
     default:
-      return GpuError(Reason::failed, "Vulkan failed with " + std::to_string(static_cast<int>(result)) + " " + what);
+      return error(Reason::failed, "Vulkan failed with " + std::to_string(static_cast<int>(result)));
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "surehit/gpu.hpp"
 
@@ -77,7 +78,7 @@ struct VulkanFunctions {
 };
 
 /// Returns what a result means, or nothing if it is a success. `what` says when it failed, such as "while opening
-/// a device", or for what.
-[[nodiscard]] std::optional<GpuError> error_of(VkResult result, const std::string& what);
+/// a device", or for what. A success allocates nothing.
+[[nodiscard]] std::optional<GpuError> error_of(VkResult result, std::string_view what);
 
 }  // namespace surehit::detail

@@ -1,14 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <new>
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu/gpu_device_state.hpp"
@@ -188,6 +191,14 @@ class GpuDeviceTest : public testing::Test {
     collider.first_hits(paths, expected);
   }
   [[nodiscard]] GpuDeviceState& state() const { return *GpuDeviceState::of(device); }
+  /// No fence has been signaled, nor will be.
+  void expect_idle() const {
+    const detail::VulkanFunctions& vulkan = state().vulkan;
+    EXPECT_EQ(vulkan.DeviceWaitIdle(state().device), VK_SUCCESS);
+    for (const detail::GpuSlot& slot : state().slots) {
+      EXPECT_EQ(vulkan.WaitForFences(state().device, 1, &slot.fence, VK_TRUE, 0), VK_TIMEOUT);
+    }
+  }
 
   GpuDevice device = any_gpu();
   Colliderf collider;
@@ -223,6 +234,22 @@ PFN_vkQueueSubmit submit = nullptr;
 VkResult submit_result = VK_SUCCESS;
 VKAPI_ATTR VkResult VKAPI_CALL no_submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* work, VkFence fence) {
   return calls_left-- > 0 ? submit(queue, count, work, fence) : submit_result;
+}
+
+PFN_vkWaitForFences wait_for = nullptr;
+VkResult wait_result = VK_SUCCESS;
+VKAPI_ATTR VkResult VKAPI_CALL no_wait(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
+                                       std::uint64_t timeout) {
+  if (calls_left-- > 0) return wait_for(device, count, fences, all, timeout);
+  if (wait_result == VK_SUCCESS) throw std::bad_alloc();
+  return wait_result;
+}
+PFN_vkFreeMemory give_back = nullptr;
+int freed = 0;
+VKAPI_ATTR void VKAPI_CALL counted_free(VkDevice device, VkDeviceMemory memory,
+                                        const VkAllocationCallbacks* callbacks) {
+  ++freed;
+  give_back(device, memory, callbacks);
 }
 
 TEST_F(GpuDeviceTest, an_upload_without_memory_changes_nothing) {
@@ -288,6 +315,53 @@ TEST_F(GpuDeviceTest, a_device_that_fails_in_the_middle_leaves_the_rest) {
   EXPECT_EQ(calls_left, 100);
   EXPECT_TRUE(on_gpu.first_hits(paths, hits, {}, {.goes_on_without_device = true}));
   EXPECT_EQ(hits, expected);
+}
+
+/// While two dispatches are under way, an allocation fails. The next batch has other paths, and gets its own answers.
+TEST_F(GpuDeviceTest, a_batch_that_throws_leaves_no_work_under_way) {
+  const GpuCollider on_gpu(device, collider);
+  std::vector<Hitf> hits(paths.size());
+  wait_for = std::exchange(state().vulkan.WaitForFences, no_wait);
+  wait_result = VK_SUCCESS;
+  calls_left = 1;
+  EXPECT_THROW(static_cast<void>(on_gpu.first_hits(paths, hits)), std::bad_alloc);
+  state().vulkan.WaitForFences = wait_for;
+  expect_idle();
+  std::reverse(paths.begin(), paths.end());
+  std::reverse(expected.begin(), expected.end());
+  EXPECT_TRUE(on_gpu.first_hits(paths, hits));
+  EXPECT_EQ(hits, expected);
+}
+
+TEST_F(GpuDeviceTest, an_upload_that_fails_leaves_no_work_under_way) {
+  GpuCollider on_gpu(device, collider);
+  wait_for = std::exchange(state().vulkan.WaitForFences, no_wait);
+  wait_result = VK_ERROR_OUT_OF_HOST_MEMORY;
+  calls_left = 0;
+  const GpuResult updated = on_gpu.try_update();
+  state().vulkan.WaitForFences = wait_for;
+  ASSERT_FALSE(updated);
+  EXPECT_EQ(updated.error().reason, Reason::out_of_memory);
+  expect_idle();
+  std::vector<Hitf> hits(paths.size());
+  EXPECT_TRUE(on_gpu.first_hits(paths, hits));
+  EXPECT_EQ(hits, expected);
+}
+
+/// A device that has not answered may still read the mesh, so it keeps the mesh until it is closed.
+TEST_F(GpuDeviceTest, a_device_that_does_not_answer_keeps_the_mesh) {
+  GpuCollider on_gpu(device, collider);
+  std::vector<Hitf> hits(paths.size());
+  wait_for = std::exchange(state().vulkan.WaitForFences, no_wait);
+  give_back = std::exchange(state().vulkan.FreeMemory, counted_free);
+  wait_result = VK_TIMEOUT;
+  calls_left = 0;
+  EXPECT_EQ(on_gpu.first_hits(paths, hits).error->reason, Reason::device_lost);
+  freed = 0;
+  on_gpu = GpuCollider();
+  EXPECT_EQ(freed, 0);
+  device = GpuDevice();
+  EXPECT_EQ(freed, 14);  // Those of the mesh and of two slots.
 }
 
 /// Khronos's layer looks at each call. It writes what it finds to standard output.
