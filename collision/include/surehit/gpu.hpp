@@ -87,7 +87,7 @@ struct GpuChoice {
 /// An open device of Vulkan. Copies refer to the same device, which closes with the last of them and of its colliders.
 ///
 /// Vulkan's loader is opened when a device is listed or opened, so a program starts without it. Any number of threads
-/// may use a device. Their batches take turns.
+/// may use a device. Their batches take turns: a batch holds the device until its end.
 class GpuDevice {
  public:
   /// Makes a device that is not open.
@@ -185,7 +185,9 @@ class GpuCollider {
   /// Sets `hits[i]` to the first hit of path i, as `Collider::first_hits` does. Lengths are as there.
   ///
   /// If there is a filter, the host answers all paths, because the device cannot call it. An executor spreads the work
-  /// of the host. `BatchOptions::statistics` count the work of the host alone.
+  /// of the host. It must not ask the same device, since it would wait for the end of its own batch. So a pool
+  /// that is the executor of a batch must not begin batches on that device. `BatchOptions::statistics` count the work
+  /// of the host alone.
   ///
   /// Fails if the device fails, or if the collider has changed since it was uploaded. Work is cut into pieces of
   /// bounded length, so that a desktop stays alive. May throw std::bad_alloc.

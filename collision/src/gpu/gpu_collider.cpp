@@ -141,7 +141,6 @@ class GpuBatch {
       answer_on_host(0);
       result.finished = count_;
     } else {
-      const std::lock_guard lock(state_.device->mutex);
       result.error = run_on_device();
       result.finished = finished_;
       if (result.error && gpu_.goes_on_without_device) {
@@ -160,6 +159,7 @@ class GpuBatch {
   /// While the device works on one slot, the host finishes the other.
   std::optional<GpuError> run_on_device() {
     GpuDeviceState& device = *state_.device;
+    const std::lock_guard lock(device.mutex);
     if (device.is_lost) return GpuError(GpuError::Reason::device_lost, "the device was lost; it must be opened anew");
     detail::GpuWork work(device, state_.mesh);
     for (const GpuSlot& slot : device.slots) device.bind(slot, state_.mesh->nodes.get(), state_.mesh->triangles.get());

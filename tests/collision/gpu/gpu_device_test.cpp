@@ -11,6 +11,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -362,6 +363,24 @@ TEST_F(GpuDeviceTest, a_device_that_does_not_answer_keeps_the_mesh) {
   EXPECT_EQ(freed, 0);
   device = GpuDevice();
   EXPECT_EQ(freed, 14);  // Those of the mesh and of two slots.
+}
+
+/// An executor of the host's batch may use the device.
+TEST_F(GpuDeviceTest, a_batch_that_goes_on_without_its_device_does_not_hold_it) {
+  const GpuCollider on_gpu(device, collider);
+  state().is_lost = true;
+  std::vector<Hitf> hits(paths.size());
+  bool is_free = false;
+  const auto run = [&](std::size_t count, const Executor::Task& task) {
+    std::thread([&] {
+      is_free = state().mutex.try_lock();
+      if (is_free) state().mutex.unlock();
+    }).join();
+    for (std::size_t i = 0; i < count; ++i) task(i);
+  };
+  EXPECT_TRUE(on_gpu.first_hits(paths, hits, {.executor = run}, {.goes_on_without_device = true}));
+  EXPECT_EQ(hits, expected);
+  EXPECT_TRUE(is_free);
 }
 
 /// Khronos's layer looks at each call. It writes what it finds to standard output.
