@@ -17,6 +17,7 @@
 #include "gpu/gpu_device_state.hpp"
 #include "gpu/triangle_tree.hpp"
 #include "path_range.hpp"
+#include "support/floating_point_environment.hpp"
 #include "surehit/gpu.hpp"
 #include "surehit/intersect.hpp"
 
@@ -87,8 +88,10 @@ void in_tasks(const std::optional<Executor>& executor, std::size_t count, const 
     work(std::size_t{0}, count);
     return;
   }
-  executor->run((count + paths_in_a_task - 1) / paths_in_a_task,
-                [&](std::size_t task) { work(task * paths_in_a_task, std::min(count, (task + 1) * paths_in_a_task)); });
+  executor->run((count + paths_in_a_task - 1) / paths_in_a_task, [&](std::size_t task) {
+    const FloatingPointEnvironment environment;  // A thread has its own.
+    work(task * paths_in_a_task, std::min(count, (task + 1) * paths_in_a_task));
+  });
 }
 
 /// Returns a view of paths that are copied side by side.
@@ -273,6 +276,7 @@ class GpuBatch {
 template <typename Answer>
 GpuBatchResult answer(const GpuColliderState* state, const PathSpanf& paths, std::span<Answer> answers,
                       const BatchOptionsf& options, const GpuBatchOptions& gpu) {
+  const FloatingPointEnvironment environment;
   GpuBatchResult refused;
   if (state == nullptr) {
     refused.error = GpuError(GpuError::Reason::not_updated, "no collider was uploaded");
@@ -303,6 +307,7 @@ std::optional<GpuError> upload(GpuDeviceState& device, std::span<const std::byte
 
 GpuResult GpuCollider::try_upload(const GpuDevice& device, const Colliderf& collider) {
   if (!device.is_open()) return GpuError(GpuError::Reason::no_device, "the device is not open");
+  const FloatingPointEnvironment environment;
   const detail::TriangleTree tree(collider);
   const auto& now = detail::ColliderState<float>::of(collider);
   auto state = std::make_shared<GpuColliderState>();

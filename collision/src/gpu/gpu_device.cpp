@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gpu/gpu_device_state.hpp"
+#include "support/floating_point_environment.hpp"
 #include "surehit/gpu.hpp"
 
 namespace surehit {
@@ -19,6 +20,7 @@ GpuResult GpuDevice::try_list(std::vector<GpuDescription>& descriptions) {
 }
 
 GpuResult GpuDevice::try_open(const GpuChoice& choice) {
+  const FloatingPointEnvironment environment;
   auto state = std::make_shared<detail::GpuDeviceState>();
   std::vector<std::pair<VkPhysicalDevice, detail::DeviceReport>> found;
   if (auto error = state->start()) return *error;
