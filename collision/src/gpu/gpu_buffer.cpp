@@ -36,7 +36,8 @@ std::optional<GpuError> GpuBuffer::make(const GpuDeviceState& device, std::size_
   info.usage = place == Place::host ? VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT
                                     : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  if (auto error = error_of(vulkan.CreateBuffer(device.device, &info, nullptr, &made.buffer_), purpose)) return error;
+  const VkResult created = vulkan.CreateBuffer(device.device, &info, nullptr, &made.buffer_);
+  if (auto error = error_of(created, purpose, made.buffer_)) return error;
 
   VkMemoryRequirements needs = {};
   vulkan.GetBufferMemoryRequirements(device.device, made.buffer_, &needs);
@@ -46,13 +47,16 @@ std::optional<GpuError> GpuBuffer::make(const GpuDeviceState& device, std::size_
                                       VK_MEMORY_PROPERTY_HOST_CACHED_BIT)
                         : memory_type(device.report.memory, needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
   if (!type) return GpuError(GpuError::Reason::missing_feature, "the device has no memory " + purpose);
+  // More than the heap has may not even be asked for.
+  if (needs.size > device.report.memory.memoryHeaps[device.report.memory.memoryTypes[*type].heapIndex].size) {
+    return error_of(VK_ERROR_OUT_OF_DEVICE_MEMORY, purpose);
+  }
   VkMemoryAllocateInfo wanted = {};
   wanted.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
   wanted.allocationSize = needs.size;
   wanted.memoryTypeIndex = *type;
-  if (auto error = error_of(vulkan.AllocateMemory(device.device, &wanted, nullptr, &made.memory_), purpose)) {
-    return error;
-  }
+  const VkResult allocated = vulkan.AllocateMemory(device.device, &wanted, nullptr, &made.memory_);
+  if (auto error = error_of(allocated, purpose, made.memory_)) return error;
   if (auto error = error_of(vulkan.BindBufferMemory(device.device, made.buffer_, made.memory_, 0), purpose)) {
     return error;
   }

@@ -53,7 +53,8 @@ std::optional<GpuError> GpuDeviceState::start(const char* loader) {
   application.apiVersion = VK_API_VERSION_1_1;
   auto info = of_type<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
   info.pApplicationInfo = &application;
-  if (auto error = error_of(vulkan.CreateInstance(&info, nullptr, &instance), "while starting Vulkan")) return error;
+  const VkResult started = vulkan.CreateInstance(&info, nullptr, &instance);
+  if (auto error = error_of(started, "while starting Vulkan", instance)) return error;
   return vulkan.load(instance);
 }
 
@@ -103,16 +104,18 @@ std::optional<GpuError> GpuDeviceState::open(VkPhysicalDevice chosen, const Devi
   VkDevice opened = VK_NULL_HANDLE;
   if (auto error = error_of(vulkan.CreateDevice(chosen, &info, nullptr, &opened), "while opening " + name))
     return error;
-  if (auto error = vulkan.load(opened)) return error;
+  if (auto error = vulkan.load(opened)) {
+    if (vulkan.DestroyDevice != nullptr) vulkan.DestroyDevice(opened, nullptr);
+    return error;
+  }
   device = opened;
   vulkan.GetDeviceQueue(device, family, 0, &queue_);
 
   auto pool = of_type<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
   pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
   pool.queueFamilyIndex = family;
-  if (auto error = error_of(vulkan.CreateCommandPool(device, &pool, nullptr, &commands_), "while opening " + name)) {
-    return error;
-  }
+  const VkResult made = vulkan.CreateCommandPool(device, &pool, nullptr, &commands_);
+  if (auto error = error_of(made, "while opening " + name, commands_)) return error;
   if (auto error = make_layouts()) return error;
   if (auto error = make_pipeline(GpuTask::roundings, roundings_spirv)) return error;
   if (auto error = make_slots()) return error;
@@ -135,17 +138,15 @@ std::optional<GpuError> GpuDeviceState::make_layouts() {
   auto set = of_type<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
   set.bindingCount = buffer_count;
   set.pBindings = bindings.data();
-  if (auto error =
-          error_of(vulkan.CreateDescriptorSetLayout(device, &set, nullptr, &set_layout_), "while opening " + name)) {
-    return error;
-  }
+  const VkResult made = vulkan.CreateDescriptorSetLayout(device, &set, nullptr, &set_layout_);
+  if (auto error = error_of(made, "while opening " + name, set_layout_)) return error;
   const VkPushConstantRange words = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(PushedWords)};
   auto info = of_type<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
   info.setLayoutCount = 1;
   info.pSetLayouts = &set_layout_;
   info.pushConstantRangeCount = 1;
   info.pPushConstantRanges = &words;
-  return error_of(vulkan.CreatePipelineLayout(device, &info, nullptr, &layout_), "while opening " + name);
+  return error_of(vulkan.CreatePipelineLayout(device, &info, nullptr, &layout_), "while opening " + name, layout_);
 }
 
 std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<const std::uint32_t> shader) {
@@ -168,7 +169,7 @@ std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<co
   VkPipeline& pipeline = pipelines_[static_cast<std::size_t>(task)];
   const VkResult made = vulkan.CreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
   vulkan.DestroyShaderModule(device, compiled, nullptr);
-  return error_of(made, what);
+  return error_of(made, what, pipeline);
 }
 
 std::optional<GpuError> GpuDeviceState::make_slots() {
@@ -179,7 +180,7 @@ std::optional<GpuError> GpuDeviceState::make_slots() {
   pool.maxSets = slot_count;
   pool.poolSizeCount = 1;
   pool.pPoolSizes = &sizes;
-  if (auto error = error_of(vulkan.CreateDescriptorPool(device, &pool, nullptr, &sets_), what)) return error;
+  if (auto error = error_of(vulkan.CreateDescriptorPool(device, &pool, nullptr, &sets_), what, sets_)) return error;
   for (GpuSlot& slot : slots) {
     auto commands = of_type<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
     commands.commandPool = commands_;
@@ -192,7 +193,8 @@ std::optional<GpuError> GpuDeviceState::make_slots() {
     set.pSetLayouts = &set_layout_;
     if (auto error = error_of(vulkan.AllocateDescriptorSets(device, &set, &slot.buffers), what)) return error;
     const auto fence = of_type<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-    if (auto error = error_of(vulkan.CreateFence(device, &fence, nullptr, &slot.fence), what)) return error;
+    const VkResult made = vulkan.CreateFence(device, &fence, nullptr, &slot.fence);
+    if (auto error = error_of(made, what, slot.fence)) return error;
     struct Wanted {
       GpuBuffer *on_host, *on_device;
       std::size_t size;

@@ -80,5 +80,12 @@ struct VulkanFunctions {
 /// Returns what a result means, or nothing if it is a success. `what` says when it failed, such as "while opening
 /// a device", or for what. A success allocates nothing.
 [[nodiscard]] std::optional<GpuError> error_of(VkResult result, std::string_view what);
+/// Returns what making an object failed with. Vulkan leaves the handle undefined then, so it becomes null, and nothing
+/// destroys it.
+template <typename Handle>
+[[nodiscard]] std::optional<GpuError> error_of(VkResult result, std::string_view what, Handle& made) {
+  if (result != VK_SUCCESS) made = VK_NULL_HANDLE;
+  return error_of(result, what);
+}
 
 }  // namespace surehit::detail

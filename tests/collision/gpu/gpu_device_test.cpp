@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -229,7 +230,9 @@ int calls_left = 0;
 PFN_vkAllocateMemory allocate = nullptr;
 VKAPI_ATTR VkResult VKAPI_CALL no_memory(VkDevice device, const VkMemoryAllocateInfo* info,
                                          const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
-  return calls_left-- > 0 ? allocate(device, info, callbacks, memory) : VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  if (calls_left-- > 0) return allocate(device, info, callbacks, memory);
+  std::memset(memory, 0x55, sizeof *memory);  // Vulkan leaves it undefined.
+  return VK_ERROR_OUT_OF_DEVICE_MEMORY;
 }
 PFN_vkQueueSubmit submit = nullptr;
 VkResult submit_result = VK_SUCCESS;
@@ -263,6 +266,14 @@ TEST_F(GpuDeviceTest, an_upload_without_memory_changes_nothing) {
     EXPECT_EQ(updated.error().reason, Reason::out_of_memory);
     EXPECT_NE(std::string(updated.error().what()).find(calls == 0 ? "nodes" : "triangles"), std::string::npos);
   }
+  calls_left = 100;
+  const auto memory = state().report.memory;
+  for (VkMemoryHeap& heap : state().report.memory.memoryHeaps) heap.size = 1000;
+  const GpuResult too_much = on_gpu.try_update();
+  ASSERT_FALSE(too_much);
+  EXPECT_EQ(too_much.error().reason, Reason::out_of_memory);
+  EXPECT_EQ(calls_left, 100);  // The driver is not asked for more than there is.
+  state().report.memory = memory;
   state().vulkan.AllocateMemory = allocate;
   std::vector<Hitf> hits(paths.size());
   EXPECT_TRUE(on_gpu.first_hits(paths, hits));
