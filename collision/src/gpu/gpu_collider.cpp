@@ -43,9 +43,8 @@ using detail::GpuDeviceState;
 using detail::GpuSlot;
 using detail::PathLimits;
 
-// The answers of `tree_walk.comp` that are no triangle.
+/// The answer of `tree_walk.comp` that is a miss. Any other one that is no triangle is undecided.
 constexpr std::uint32_t miss = 0xffffffff;
-constexpr std::uint32_t undecided = 0xfffffffe;
 
 /// The number of paths in a task of the host.
 constexpr std::size_t paths_in_a_task = 4096;
@@ -119,12 +118,19 @@ void set_miss(Hitf& hit) { hit = Hitf{}; }
 void set_miss(std::uint8_t& blocked) { blocked = 0; }
 
 /// Sets the answer of a path that certainly hits this triangle, and certainly first if that was asked. The weights and
-/// t do not depend on the options (G9).
-void set_hit(const Colliderf& collider, const PathSpanf& paths, std::size_t path, std::uint32_t triangle, Hitf& hit) {
-  hit = *intersect<float>(paths[path], collider.triangle(triangle));
-  hit.triangle = triangle;
+/// t do not depend on the options (G9). A faulty device may name a triangle that is not hit.
+void set_hit(const Colliderf& collider, const Pathf& path, const QueryOptionsf& options, std::uint32_t triangle,
+             Hitf& hit) {
+  if (const auto found = intersect<float>(path, collider.triangle(triangle))) {
+    hit = *found;
+    hit.triangle = triangle;
+  } else {
+    hit = collider.first_hit(path, options).value_or(Hitf{});
+  }
 }
-void set_hit(const Colliderf&, const PathSpanf&, std::size_t, std::uint32_t, std::uint8_t& blocked) { blocked = 1; }
+void set_hit(const Colliderf&, const Pathf&, const QueryOptionsf&, std::uint32_t, std::uint8_t& blocked) {
+  blocked = 1;
+}
 
 /// A batch of one kind, on its way through the device and the host.
 template <typename Answer>
@@ -194,7 +200,7 @@ class GpuBatch {
     const bool has_own = !options_.path_options.empty();
     const std::size_t limit_count = has_own ? count : 1;
     for (std::size_t i = 0; i < limit_count; ++i) {
-      limits[i] = limits_of(paths_.kind(), has_own ? options_.path_options[first + i] : options_.options);
+      limits[i] = limits_of(paths_.kind(), options_of(first + i));
     }
     ++statistics_.dispatches;
     const detail::PushedWords pushed = {static_cast<std::uint32_t>(count), paths_.kind() == PathKind::segment ? 1U : 0U,
@@ -205,23 +211,31 @@ class GpuBatch {
                                  count * sizeof(std::uint32_t));
   }
 
+  [[nodiscard]] const QueryOptionsf& options_of(std::size_t path) const {
+    return options_.path_options.empty() ? options_.options : options_.path_options[path];
+  }
+
   void finish(const GpuSlot& slot, std::size_t first) {
     const std::span found(reinterpret_cast<const std::uint32_t*>(slot.host_answers.data()),
                           std::min(step, count_ - first));
+    const std::size_t triangle_count = state_.collider->triangle_count();
     open_.clear();
     for (std::size_t i = 0; i < found.size(); ++i) {
-      if (found[i] == undecided) open_.push_back(first + i);
-      if (found[i] == miss) ++statistics_.misses;
+      if (found[i] == miss) {
+        ++statistics_.misses;
+      } else if (found[i] >= triangle_count) {  // Undecided, or no answer of a sound device.
+        open_.push_back(first + i);
+      }
     }
     statistics_.undecided += open_.size();
     statistics_.hits += static_cast<std::uint64_t>(
-        std::count_if(found.begin(), found.end(), [](std::uint32_t answer) { return answer < undecided; }));
+        std::count_if(found.begin(), found.end(), [&](std::uint32_t answer) { return answer < triangle_count; }));
     in_tasks(options_.executor, found.size(), [&](std::size_t from, std::size_t to) {
       for (std::size_t i = from; i < to; ++i) {
         if (found[i] == miss) {
           set_miss(answers_[first + i]);
-        } else if (found[i] != undecided) {
-          set_hit(*state_.collider, paths_, first + i, found[i], answers_[first + i]);
+        } else if (found[i] < triangle_count) {
+          set_hit(*state_.collider, paths_[first + i], options_of(first + i), found[i], answers_[first + i]);
         }
       }
     });

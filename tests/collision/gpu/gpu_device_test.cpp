@@ -248,6 +248,19 @@ VKAPI_ATTR VkResult VKAPI_CALL no_wait(VkDevice device, std::uint32_t count, con
   if (wait_result == VK_SUCCESS) throw std::bad_alloc();
   return wait_result;
 }
+GpuDeviceState* faulty = nullptr;
+std::uint32_t faulty_answer = 0;
+VKAPI_ATTR VkResult VKAPI_CALL faulty_answers(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
+                                              std::uint64_t timeout) {
+  const VkResult result = wait_for(device, count, fences, all, timeout);
+  for (const detail::GpuSlot& slot : faulty->slots) {
+    if (slot.fence != *fences) continue;
+    for (std::size_t i = 0; i < 1000; ++i) {
+      std::memcpy(slot.host_answers.data() + i * sizeof faulty_answer, &faulty_answer, sizeof faulty_answer);
+    }
+  }
+  return result;
+}
 PFN_vkFreeMemory give_back = nullptr;
 int freed = 0;
 VKAPI_ATTR void VKAPI_CALL counted_free(VkDevice device, VkDeviceMemory memory,
@@ -374,6 +387,29 @@ TEST_F(GpuDeviceTest, a_device_that_does_not_answer_keeps_the_mesh) {
   EXPECT_EQ(freed, 0);
   device = GpuDevice();
   EXPECT_EQ(freed, 14);  // Those of the mesh and of two slots.
+}
+
+/// The host answers the paths whose answers no sound device gives: ids beyond the last, and triangles that are not hit.
+TEST_F(GpuDeviceTest, faulty_answers_of_a_device_are_left_to_the_host) {
+  const GpuCollider on_gpu(device, collider);
+  faulty = &state();
+  wait_for = std::exchange(state().vulkan.WaitForFences, faulty_answers);
+  std::vector<Hitf> hits(paths.size());
+  std::vector<std::uint8_t> blocked(paths.size());
+  std::vector<std::uint8_t> expected_blocked(paths.size());
+  collider.any_hits(paths, expected_blocked);
+  for (const std::size_t answer : {collider.triangle_count(), std::size_t{0xfffffffd}}) {
+    faulty_answer = static_cast<std::uint32_t>(answer);
+    EXPECT_TRUE(on_gpu.first_hits(paths, hits));
+    EXPECT_EQ(hits, expected);
+    EXPECT_TRUE(on_gpu.any_hits(paths, blocked));
+    EXPECT_EQ(blocked, expected_blocked);
+  }
+  // Nearly all paths miss the first triangle.
+  faulty_answer = 0;
+  EXPECT_TRUE(on_gpu.first_hits(paths, hits));
+  EXPECT_EQ(hits, expected);
+  state().vulkan.WaitForFences = wait_for;
 }
 
 /// An executor of the host's batch may use the device.
