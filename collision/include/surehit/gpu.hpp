@@ -127,7 +127,7 @@ class GpuDevice {
 
 /// What batches on a device did. A batch adds to them, and never resets them.
 struct GpuStatistics {
-  std::uint64_t paths = 0;       ///< The number of paths.
+  std::uint64_t paths = 0;       ///< The number of paths. A batch that fails counts all of its paths.
   std::uint64_t misses = 0;      ///< The number of paths that the device found to miss.
   std::uint64_t hits = 0;        ///< The number of paths whose hit the device found. The host rounds a first hit.
   std::uint64_t undecided = 0;   ///< The number of paths that the device left to the host.
