@@ -10,6 +10,7 @@
 #include "picture/pixel_bytes.hpp"
 #include "render/shapes.hpp"
 #include "support/instruction_sets.hpp"
+#include "support/sanitizer.hpp"
 
 namespace surehit::example {
 namespace {
@@ -306,7 +307,8 @@ TEST(ShadedPicture, more_samples_are_a_mean) {
 }
 
 /// So many pixels that there are several batches.
-constexpr ShadingOptions several_batches{.width = 192, .height = 108, .samples = 1};
+constexpr ShadingOptions several_batches{
+    .width = test::has_sanitizer ? 192 : 320, .height = test::has_sanitizer ? 108 : 180, .samples = 1};
 
 TEST(ShadedPicture, is_the_same_for_any_number_of_threads) {
   const Stage stage = exercise_stage();
