@@ -8,10 +8,18 @@
 #include <type_traits>
 
 #include "exact/int128.hpp"
-#include "exact/rounded_to_nearest.hpp"
+#include "exact/limbs.hpp"
 #include "support/inlining.hpp"
 
 namespace surehit::detail {
+
+template <int Bits>
+class WideInt;
+
+/// Returns numerator / denominator × 2^exponent, rounded once to nearest, ties to even. Zero is +0. The denominator
+/// must not be zero.
+template <typename Scalar, int N, int D>
+[[nodiscard]] Scalar rounded_quotient(const WideInt<N>& numerator, const WideInt<D>& denominator, int exponent = 0);
 
 /// An exact integer below 2^Bits in magnitude. The bound is part of the type and grows with each operation. So no
 /// overflow can happen, and none is checked. Only the limbs in use are read or written, so small values are cheap for
@@ -75,138 +83,42 @@ class WideInt {
   [[nodiscard]] bool is_zero() const { return size_ == 0; }
   void negate() { negative_ = !negative_; }
 
+  [[nodiscard]] limbs::Magnitude magnitude() const { return {limb_, size_}; }
+
   /// Returns the number of bits of the magnitude, which is 0 for zero.
-  [[nodiscard]] int bit_length() const { return size_ == 0 ? 0 : 64 * size_ - std::countl_zero(limb_[size_ - 1]); }
+  [[nodiscard]] int bit_length() const { return limbs::bit_length(magnitude()); }
 
   /// Returns 64 bits of the magnitude, of which bit `lowest` is the lowest. Bits below bit 0 are zero.
-  [[nodiscard]] std::uint64_t bits_from(int lowest) const {
-    if (lowest < 0) return lowest <= -64 ? 0 : bits_from(0) << -lowest;
-    const int at = lowest / 64;
-    const int shift = lowest % 64;
-    const std::uint64_t low = at < size_ ? limb_[at] >> shift : 0;
-    const std::uint64_t high = shift != 0 && at + 1 < size_ ? limb_[at + 1] << (64 - shift) : 0;
-    return low | high;
-  }
+  [[nodiscard]] std::uint64_t bits_from(int lowest) const { return limbs::bits_from(magnitude(), lowest); }
 
   /// Multiplies by 2^count. The caller must know that the result is below 2^Bits.
-  void shift_left(int count) {
-    if (size_ == 0 || count == 0) return;
-    const int limbs = count / 64;
-    const int bits = count % 64;
-    for (int i = size_; i >= 0; --i) {
-      const std::uint64_t high = i < size_ ? limb_[i] << bits : 0;
-      const std::uint64_t low = bits != 0 && i > 0 ? limb_[i - 1] >> (64 - bits) : 0;
-      if (i + limbs < capacity) limb_[i + limbs] = high | low;
-    }
-    std::fill_n(limb_, limbs, std::uint64_t{0});
-    size_ = std::min(size_ + limbs + 1, capacity);
-    trim();
-  }
+  void shift_left(int count) { size_ = limbs::shift_left(limb_, size_, count, capacity); }
 
   template <int A, int B>
   void set_product(const WideInt<A>& a, const WideInt<B>& b) {
     static_assert(A + B <= Bits);
-    size_ = 0;
-    if (a.is_zero() || b.is_zero()) return;
-    size_ = a.size_ + b.size_;
-    std::fill_n(limb_, size_, std::uint64_t{0});
-    for (int i = 0; i < a.size_; ++i) {
-      std::uint64_t carry = 0;
-      for (int j = 0; j < b.size_; ++j) {
-        const Uint128 sum = Uint128{a.limb_[i]} * b.limb_[j] + limb_[i + j] + carry;
-        limb_[i + j] = static_cast<std::uint64_t>(sum);
-        carry = static_cast<std::uint64_t>(sum >> 64);
-      }
-      limb_[i + b.size_] = carry;
-    }
+    size_ = limbs::set_product(limb_, a.magnitude(), b.magnitude());
     negative_ = a.negative_ != b.negative_;
-    trim();
   }
 
   /// Adds `other`, or subtracts it. The caller must know that the result is below 2^Bits.
   template <int B>
   void add(const WideInt<B>& other, bool subtract = false) {
     static_assert(B <= Bits);
-    const bool other_negative = other.negative_ != subtract;
-    if (other.size_ == 0) return;
-    if (size_ == 0) {
-      assign(other);
-      negative_ = other_negative;
-    } else if (negative_ == other_negative) {
-      add_magnitude(other);
-    } else if (const int order = compare_magnitude(other); order == 0) {
-      size_ = 0;
-    } else if (order > 0) {
-      subtract_magnitude(limb_, size_, other.limb_, other.size_);
-    } else {
-      subtract_magnitude(other.limb_, other.size_, limb_, size_);
-      negative_ = other_negative;
-    }
-  }
-
-  /// Sets |this| to |this| - factor × |other|, plus |other| as often as needed to bring it into [0, |other|). Returns
-  /// how often that is. The difference must be in (-4 |other|, |other|).
-  template <int B>
-  int reduce(std::uint64_t factor, const WideInt<B>& other) {
-    const int length = std::max(size_, other.size_ + 1);
-    std::fill(limb_ + size_, limb_ + length, std::uint64_t{0});
-    std::uint64_t borrow = 0;  // This is the product's high half plus the borrow of the subtraction.
-    for (int i = 0; i < length; ++i) {
-      const Uint128 product = Uint128{factor} * (i < other.size_ ? other.limb_[i] : 0) + borrow;
-      const auto low = static_cast<std::uint64_t>(product);
-      borrow = static_cast<std::uint64_t>(product >> 64) + (limb_[i] < low ? 1 : 0);
-      limb_[i] -= low;
-    }
-    int times = 0;
-    // A negative value is in two's complement here. A carry out of the top limb shows that it is no longer negative.
-    for (bool below_zero = borrow != 0; below_zero; ++times) {
-      std::uint64_t carry = 0;
-      for (int i = 0; i < length; ++i) {
-        const Uint128 sum = Uint128{limb_[i]} + (i < other.size_ ? other.limb_[i] : 0) + carry;
-        limb_[i] = static_cast<std::uint64_t>(sum);
-        carry = static_cast<std::uint64_t>(sum >> 64);
-      }
-      below_zero = carry == 0;
-    }
-    size_ = length;
-    trim();
-    return times;
+    limbs::add(limb_, size_, negative_, other.magnitude(), other.negative_ != subtract);
   }
 
   /// Returns the sign of |this| - |other|.
   template <int B>
   [[nodiscard]] int compare_magnitude(const WideInt<B>& other) const {
-    if (size_ != other.size_) return size_ < other.size_ ? -1 : 1;
-    for (int i = size_ - 1; i >= 0; --i) {
-      if (limb_[i] != other.limb_[i]) return limb_[i] < other.limb_[i] ? -1 : 1;
-    }
-    return 0;
+    return limbs::compare(magnitude(), other.magnitude());
   }
-
-  /// Returns digit `index` of |a b|, where a is this number. `carry` holds the carry of the digits below, and then that
-  /// of this digit. Products are added by column (Comba 1990), so a product can be read without memory for it.
-  template <int B>
-  [[nodiscard]] std::uint64_t next_product_digit(const WideInt<B>& b, int index,
-                                                 std::array<std::uint64_t, 2>& carry) const {
-    Uint128 low = carry[0];
-    Uint128 high = carry[1];
-    for (int i = std::max(0, index - b.size_ + 1); i < std::min(size_, index + 1); ++i) {
-      const Uint128 product = Uint128{limb_[i]} * b.limb_[index - i];
-      low += static_cast<std::uint64_t>(product);
-      high += static_cast<std::uint64_t>(product >> 64);
-    }
-    high += low >> 64;
-    carry = {static_cast<std::uint64_t>(high), static_cast<std::uint64_t>(high >> 64)};
-    return static_cast<std::uint64_t>(low);
-  }
-
-  /// Returns the sign of |a b| - |c d|.
-  template <int A, int B, int C, int D>
-  friend int compare_products(const WideInt<A>& a, const WideInt<B>& b, const WideInt<C>& c, const WideInt<D>& d);
 
  private:
   template <int>
   friend class WideInt;
+  template <typename Scalar, int N, int D>
+  friend Scalar rounded_quotient(const WideInt<N>& numerator, const WideInt<D>& denominator, int exponent);
 
   template <int B>
   void assign(const WideInt<B>& other) {
@@ -215,52 +127,17 @@ class WideInt {
     std::copy_n(other.limb_, size_, limb_);
   }
 
-  void trim() {
-    while (size_ > 0 && limb_[size_ - 1] == 0) --size_;
-  }
-
-  template <int B>
-  void add_magnitude(const WideInt<B>& other) {
-    const int longest = std::max(size_, other.size_);
-    std::uint64_t carry = 0;
-    for (int i = 0; i < longest; ++i) {
-      const Uint128 sum = Uint128{i < size_ ? limb_[i] : 0} + (i < other.size_ ? other.limb_[i] : 0) + carry;
-      limb_[i] = static_cast<std::uint64_t>(sum);
-      carry = static_cast<std::uint64_t>(sum >> 64);
-    }
-    limb_[longest] = carry;
-    size_ = longest + 1;
-    trim();
-  }
-
-  /// Sets |this| = |large| - |small|. Either may be the limbs of this number.
-  void subtract_magnitude(const std::uint64_t* large, int large_size, const std::uint64_t* small, int small_size) {
-    std::uint64_t borrow = 0;
-    for (int i = 0; i < large_size; ++i) {
-      const Uint128 difference = Uint128{large[i]} - (i < small_size ? small[i] : 0) - borrow;
-      limb_[i] = static_cast<std::uint64_t>(difference);
-      borrow = static_cast<std::uint64_t>(difference >> 64) & 1;
-    }
-    size_ = large_size;
-    trim();
-  }
+  void trim() { size_ = limbs::trimmed(limb_, size_); }
 
   int size_ = 0;
   bool negative_ = false;
   std::uint64_t limb_[capacity];  ///< The lowest limb is first. Limbs from size_ on are not initialized.
 };
 
+/// Returns the sign of |a b| - |c d|.
 template <int A, int B, int C, int D>
-int compare_products(const WideInt<A>& a, const WideInt<B>& b, const WideInt<C>& c, const WideInt<D>& d) {
-  std::array<std::uint64_t, 2> first_carry = {0, 0};
-  std::array<std::uint64_t, 2> second_carry = {0, 0};
-  int order = 0;
-  for (int index = 0; index < std::max(a.size_ + b.size_, c.size_ + d.size_); ++index) {
-    const std::uint64_t first = a.next_product_digit(b, index, first_carry);
-    const std::uint64_t second = c.next_product_digit(d, index, second_carry);
-    if (first != second) order = first < second ? -1 : 1;  // Higher digits come later and overrule lower ones.
-  }
-  return order;
+[[nodiscard]] int compare_products(const WideInt<A>& a, const WideInt<B>& b, const WideInt<C>& c, const WideInt<D>& d) {
+  return limbs::compare_products(a.magnitude(), b.magnitude(), c.magnitude(), d.magnitude());
 }
 
 /// True for the exact integers, whose bound is part of the type.
@@ -320,31 +197,11 @@ struct Decomposed {
   bool negative = false;
 };
 
-/// Returns numerator / denominator × 2^exponent, rounded once to nearest, ties to even. Zero is +0. The denominator
-/// must not be zero.
-///
-/// This is one step of Knuth's long division with digits of 64 bits (The Art of Computer Programming 2, section 4.3.1,
-/// algorithm D). A shift first gives the quotient 63 or 64 bits. The leading bits then give an estimate, which is at
-/// most 3 too large. The remainder corrects it. Of all bits below the quotient, rounding only needs to know whether the
-/// remainder is zero.
 template <typename Scalar, int N, int D>
-[[nodiscard]] SUREHIT_NOINLINE Scalar rounded_quotient(const WideInt<N>& numerator, const WideInt<D>& denominator,
-                                                       int exponent = 0) {
-  if (numerator.is_zero()) return 0;
+SUREHIT_NOINLINE Scalar rounded_quotient(const WideInt<N>& numerator, const WideInt<D>& denominator, int exponent) {
   WideInt<std::max(N, D) + 65> n = numerator;
   WideInt<std::max(N, D) + 65> d = denominator;
-  const int shift = 63 - (n.bit_length() - d.bit_length());
-  if (shift >= 0) {
-    n.shift_left(shift);
-  } else {
-    d.shift_left(-shift);
-  }
-  const int below = d.bit_length() - 64;
-  const Uint128 leading = (Uint128{n.bits_from(below + 64)} << 64) | n.bits_from(below);
-  std::uint64_t estimate = quotient(leading, d.bits_from(below));
-  estimate -= static_cast<std::uint64_t>(n.reduce(estimate, d));
-  const bool negative = (numerator.sign() < 0) != (denominator.sign() < 0);
-  return rounded_to_nearest<Scalar>(estimate, !n.is_zero(), exponent - shift, negative);
+  return limbs::rounded_quotient<Scalar>(n.limb_, n.size_, d.limb_, d.size_, exponent, n.negative_ != d.negative_);
 }
 
 }  // namespace surehit::detail
