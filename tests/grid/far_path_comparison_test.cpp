@@ -36,12 +36,29 @@ class FarPathComparison : public testing::Test {
       SCOPED_TRACE(name_of_instruction_set(target));
       GridComparison<float> comparison(mesh.view(), {}, grids);
       PathDrawer<float> drawer(aimed_at.view(), 12);
+      std::vector<Segment<float>> segments;
+      std::vector<Line<float>> lines;
+      std::vector<QueryOptions<float>> options;
       for (std::size_t i = case_count(paths); i > 0; --i) {
         const Path<float> path = draw(drawer);
         const auto hits = comparison.expect_same(path);
         // Limits that may be exactly those of a hit.
         const float t = hits.empty() ? drawer.random().unit<float>() : hits.front().t;
-        comparison.expect_same(path, draw_options(drawer.random(), t));
+        options.push_back(draw_options(drawer.random(), t));
+        comparison.expect_same(path, options.back());
+        segments.push_back({path.start, path.has_end() ? path.toward : path.start + path.toward});
+        lines.push_back({path.start, path.has_end() ? Vector3<float>(path.toward - path.start) : path.toward});
+      }
+      // Among them are paths that begin near the mesh.
+      for (std::size_t i = 0; i < segments.size(); i += 3) {
+        segments[i] = {drawer.point_around_mesh(), drawer.point_on_mesh()};
+        lines[i] = {segments[i].start, segments[i].end - segments[i].start};
+      }
+      for (const Collider<float>& collider : comparison.colliders()) {
+        expect_batch<float, Segment<float>>(collider, segments);
+        expect_batch<float, Segment<float>>(collider, segments, options);
+        expect_batch<float, Line<float>>(collider, lines);
+        expect_batch<float, Line<float>>(collider, lines, options);
       }
       EXPECT_GT(comparison.hit_count(), case_count(paths) / 8);
     }
@@ -92,6 +109,8 @@ TEST_F(FarPathComparison, of_stacks_whose_hits_have_one_rounded_t) {
       comparison.expect_same(Segment<float>{{0, 0, far}, {0, 0, -far}});
       comparison.expect_same(Segment<float>{{0, 0, far}, {0, 0, -1}});
       comparison.expect_same(Ray<float>{{0, 0, -far}, {0, 0, 3}});
+      const std::vector<Segment<float>> twice(12, Segment<float>{{0, 0, far}, {0, 0, i % 2 == 0 ? -far : -1}});
+      for (const Collider<float>& collider : comparison.colliders()) expect_batch(collider, twice);
     }
   }
 }

@@ -78,4 +78,20 @@ class GridComparison {
   std::size_t hit_count_ = 0;
 };
 
+/// A batch answers as single calls do. Each path has options of its own, or `options` is empty.
+template <typename Scalar, typename AnyPath>
+void expect_batch(const Collider<Scalar>& collider, const std::vector<AnyPath>& paths,
+                  const std::vector<QueryOptions<Scalar>>& options = {}) {
+  std::vector<Hit<Scalar>> hits(paths.size());
+  std::vector<std::uint8_t> blocked(paths.size());
+  collider.first_hits(paths, hits, {.path_options = options});
+  collider.any_hits(paths, blocked, {.path_options = options});
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const QueryOptions<Scalar> its = options.empty() ? QueryOptions<Scalar>() : options[i];
+    const auto single = collider.first_hit(paths[i], its);
+    EXPECT_TRUE(same_bits(hits[i], single.value_or(Hit<Scalar>{}))) << hex_text(Path<Scalar>(paths[i]));
+    EXPECT_EQ(blocked[i], single ? 1 : 0) << hex_text(Path<Scalar>(paths[i]));
+  }
+}
+
 }  // namespace surehit::test

@@ -85,22 +85,8 @@ class InnerGridComparison : public testing::Test {
     }
     EXPECT_GT(comparison.hit_count(), 0U);
     for (const Collider<Scalar>& collider : comparison.colliders()) {
-      expect_batch<Segment<Scalar>>(collider, segments);
-      expect_batch<Ray<Scalar>>(collider, rays);
-    }
-  }
-
-  /// A batch answers as single calls do.
-  template <typename AnyPath>
-  static void expect_batch(const Collider<Scalar>& collider, const std::vector<AnyPath>& paths) {
-    std::vector<Hit<Scalar>> hits(paths.size());
-    std::vector<std::uint8_t> blocked(paths.size());
-    collider.first_hits(paths, hits);
-    collider.any_hits(paths, blocked);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      const auto single = collider.first_hit(paths[i]);
-      EXPECT_TRUE(same_bits(hits[i], single.value_or(Hit<Scalar>{}))) << hex_text(Path<Scalar>(paths[i]));
-      EXPECT_EQ(blocked[i], single ? 1 : 0) << hex_text(Path<Scalar>(paths[i]));
+      expect_batch<Scalar, Segment<Scalar>>(collider, segments);
+      expect_batch<Scalar, Ray<Scalar>>(collider, rays);
     }
   }
 
@@ -155,7 +141,7 @@ TYPED_TEST(InnerGridComparison, of_far_edges_beyond_a_prop) {
     const Vector3<TypeParam> start = of_prop.point_around_mesh();
     rays.push_back({start, of_few.point_on_mesh() - start});
     if (rays.size() < 12) continue;  // There is room for so many outer walks.
-    this->template expect_batch<Ray<TypeParam>>(collider, rays);
+    expect_batch<TypeParam, Ray<TypeParam>>(collider, rays);
     rays.clear();
   }
 }

@@ -53,8 +53,8 @@ class LaneClip {
     hn::LoadInterleaved3(d, paths, near_half[0], near_half[1], near_half[2]);
     hn::LoadInterleaved3(d, paths + 3 * hn::Lanes(d), far_half[0], far_half[1], far_half[2]);
     const Floats zero = hn::Zero(d);
-    Floats enters = lanes_of(first_t);
-    Floats leaves = lanes_of(last_t);
+    Floats enters = in_all_lanes(first_t);
+    Floats leaves = in_all_lanes(last_t);
     Floats fastest = zero;
     Floats start_size = zero;
     Floats way_size = zero;
@@ -115,7 +115,7 @@ class LaneClip {
       hn::Store(entered, d, clipped.start[axis].data());
       hn::Store(hn::Floor(entered), d, clipped.finest[axis].data());
     }
-    const Floats last = lanes_of(last_t);
+    const Floats last = in_all_lanes(last_t);
     const Floats rounding = hn::MulAdd(hn::Add(hn::Abs(last), hn::Abs(enters)), hn::Set(d, 0x1p-22F),
                                        hn::Set(d, std::numeric_limits<float>::min()));
     hn::Store(hn::Add(hn::Sub(last, enters), rounding), d, clipped.end.data());
@@ -258,11 +258,6 @@ class LaneClip {
     const auto in_some = [&](hn::Mask<DoubleTag> mask) { return static_cast<std::uint32_t>(bits_of(d, mask)) & some; };
     return {in_some(inside), in_some(hn::Not(is_plain))};
   }
-
-  /// Returns a vector that has this number in all lanes.
-  static HWY_INLINE Floats lanes_of(float one_for_all) { return hn::Set(FloatTag(), one_for_all); }
-  /// Returns the vector itself.
-  static HWY_INLINE Floats lanes_of(Floats one_each) { return one_each; }
 
   const GridFrame& frame_;
 };

@@ -34,6 +34,11 @@ using Words = hn::Vec<BitsTag>;
 /// The maximum number of lanes. On some instruction sets, only the machine knows the number itself.
 constexpr std::size_t max_lanes = hn::MaxLanes(FloatTag());
 
+/// Returns a vector that has this number in all lanes.
+HWY_INLINE Floats in_all_lanes(float one_for_all) { return hn::Set(FloatTag(), one_for_all); }
+/// Returns the vector itself.
+HWY_INLINE Floats in_all_lanes(Floats one_each) { return one_each; }
+
 /// Rounds toward zero. The numbers must fit an integer. On x86, Highway's own function needs four more operations for
 /// numbers that do not fit.
 HWY_INLINE Ints to_ints(Floats x) {

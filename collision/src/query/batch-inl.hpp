@@ -46,6 +46,7 @@ class Batch {
         walk_(query_.grid, query_.mesh.slabs()),
         paths_(paths),
         queue_(walk_, queries, paths, alone),
+        jobs_(queries),
         finish_(finish),
         visitors_(for_all_slots(query_, std::make_index_sequence<slots>())) {
     for (WalkingPaths& walks : walks_) walk_.set_stops(walks);
@@ -147,7 +148,10 @@ class Batch {
       }
       return jobs_.path(slot);
     };
-    walking_ |= slots_of(vector, queue_.template fill<has_levels>(idle, walks_[vector], enter));
+    const auto move_start = [&]([[maybe_unused]] std::size_t lane, const auto&... numbers) {
+      if constexpr (is_float) jobs_.move_start(vector * max_lanes + lane, numbers...);
+    };
+    walking_ |= slots_of(vector, queue_.template fill<has_levels>(idle, walks_[vector], enter, move_start));
   }
 
   /// Gives the lists of these paths' cells to their visitors. Returns the paths that are done.
@@ -157,7 +161,7 @@ class Batch {
     for (std::size_t from = 0; arriving != 0; from += Jobs::max_at_once) {
       const std::uint64_t longer = from == 0 ? list_jobs<true>(arriving, 0) : list_jobs<false>(arriving, from);
       for (std::size_t first_job = 0; first_job < jobs_.count(); first_job += Jobs::max_jobs) {
-        for (const typename Jobs::Open& open : jobs_.classify(first_job, from, queries_, visitors_)) {
+        for (const typename Jobs::Open& open : jobs_.classify(first_job, from, visitors_)) {
           done |= visit_job(open);
         }
       }
@@ -233,7 +237,8 @@ class Batch {
     } else {
       taus_[slot] = clipped.tau;
     }
-    jobs_.path(slot).reach = KernelPath<Scalar>(path, frame).reach;
+    // A start that was moved is near the outermost grid, and has the reach of that grid.
+    if (!jobs_.is_moved(slot)) jobs_.path(slot).reach = KernelPath<Scalar>(path, frame).reach;
     in_inner_frame_ |= bit;
     return true;
   }
@@ -268,7 +273,7 @@ class Batch {
       const auto slot = static_cast<std::size_t>(std::countr_zero(of_slots));
       if constexpr (loads_lists) {
         const CellWord word(words_[slot]);
-        jobs_.load_list(slot, query_, word, queries_.weights_in(slot));
+        jobs_.load_list(slot, query_, word);
         in_inner_ |= std::uint64_t{word.has_inner_grid()} << slot;
       }
       longer |= std::uint64_t{jobs_.add(slot, from, count)} << slot;
@@ -286,7 +291,7 @@ class Batch {
     const auto& range = queries_.range(index_[slot]);
     const PathOfSlot path{paths_, index_[slot]};
     const bool shorter = visit(CandidateBlock<Scalar, PathOfSlot>{query, range, path, jobs_.list(slot),
-                                                                  jobs_.path(slot).reach, from, verdicts, first},
+                                                                  jobs_.reach_from_start(slot), from, verdicts, first},
                                visitors_[slot]);
     if constexpr (Visitor::wants_order) {
       if (shorter) shorten(slot, visitors_[slot].limit());
@@ -320,6 +325,7 @@ class Batch {
       LaneWalk::set_stop(slot % max_lanes, query_.grid.frame(), walks_[slot / max_lanes]);
     }
     in_inner_frame_ &= ~ended;
+    jobs_.forget_moved(ended, queries_);
   }
 
   /// Forgets the outer walks of some slots.

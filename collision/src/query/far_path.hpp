@@ -17,6 +17,26 @@
 
 namespace surehit::detail {
 
+/// The parameter of a kernel that begins where the start of a path was moved to.
+struct MovedParameter {
+  double moved_t;  ///< The kernel has t - `moved_t`.
+
+  /// Gives the hits of the kernel the parameter of the path. The sums are rounded outward.
+  template <typename FirstHits>
+  SUREHIT_ALWAYS_INLINE void set(FirstHits& first) const {
+    const double lower = moved_t + double{first.t_lower};
+    const double upper = moved_t + double{first.t_upper};
+    constexpr double min = std::numeric_limits<float>::min();
+    first.t_lower = static_cast<float>(lower - (std::fabs(lower) * 0x1p-23 + min));
+    first.t_upper = static_cast<float>(upper + (std::fabs(upper) * 0x1p-23 + min));
+  }
+  /// Returns an upper bound on the kernel's parameter at the t of a visitor, which may be rounded to nearest.
+  [[nodiscard]] float limit(float t) const {
+    const double limit = t + std::fabs(double{t}) * 0x1p-23 + std::numeric_limits<float>::min() - moved_t;
+    return static_cast<float>(limit + std::fabs(limit) * 0x1p-22);
+  }
+};
+
 /// A path of floats whose start was moved to a point near a frame. The kernel begins there, so that its bounds are
 /// small. It has a parameter of its own: t - `moved_t`.
 class FarPath {
@@ -69,19 +89,16 @@ class FarPath {
     return (way + kernel.reach) * (1 + 0x1p-20F);
   }
   /// Returns the range for the kernel. No hit is where the range begins or ends, except for the end of a segment.
-  [[nodiscard]] PathRange<float> kernel_range() const {
+  [[nodiscard]] PathRange<float> kernel_range() const { return kernel_range(clip.is_end); }
+  [[nodiscard]] static PathRange<float> kernel_range(bool is_end) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    return {-infinity, clip.is_end ? 0 : infinity};
+    return {-infinity, is_end ? 0 : infinity};
   }
 
   /// Gives the hits of the kernel the parameter of the path. The sums are rounded outward.
   template <typename FirstHits>
   SUREHIT_ALWAYS_INLINE void set_parameter(FirstHits& first) const {
-    const double lower = clip.moved_t + double{first.t_lower};
-    const double upper = clip.moved_t + double{first.t_upper};
-    constexpr double min = std::numeric_limits<float>::min();
-    first.t_lower = static_cast<float>(lower - (std::fabs(lower) * 0x1p-23 + min));
-    first.t_upper = static_cast<float>(upper + (std::fabs(upper) * 0x1p-23 + min));
+    MovedParameter{clip.moved_t}.set(first);
   }
 
   const Path<float>& path;  ///< The path as it was given.
@@ -95,8 +112,7 @@ template <typename Scalar, typename AnyPath>
   return t;
 }
 [[nodiscard]] inline float kernel_limit(const FarPath& path, float t) {
-  const double limit = t + std::fabs(double{t}) * 0x1p-23 + std::numeric_limits<float>::min() - path.clip.moved_t;
-  return static_cast<float>(limit + std::fabs(limit) * 0x1p-22);
+  return MovedParameter{path.clip.moved_t}.limit(t);
 }
 
 }  // namespace surehit::detail

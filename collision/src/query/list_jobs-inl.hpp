@@ -15,9 +15,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "filter/block_kernel-inl.hpp"
 #include "query/batch_queries-inl.hpp"
+#include "query/far_path.hpp"
 #include "query/query_walk-inl.hpp"
 #include "walk/lane_walk-inl.hpp"
 
@@ -32,7 +34,8 @@ class ListJobs {
   using Kernel = typename Visitor::Kernel;
   /// The number of lanes of the kernel, at most that of the widest vectors of today.
   static constexpr std::size_t kernel_lanes = std::min(hn::MaxLanes(hn::ScalableTag<Scalar>()), 64 / sizeof(Scalar));
-  static constexpr std::size_t slots = max_slots<Scalar>;  ///< The number of slots.
+  static constexpr std::size_t slots = max_slots<Scalar>;          ///< The number of slots.
+  static constexpr bool may_move = std::is_same_v<Scalar, float>;  ///< Starts of paths of doubles are not moved.
 
  public:
   /// The maximum number of triangles of a list that become jobs before their verdicts are used. It is lower if any hit
@@ -50,17 +53,48 @@ class ListJobs {
     FirstLanes<Scalar> first;  ///< The hits that may be first. It is set only if the visitor wants an order.
   };
 
+  /// The paths of the slots have the weights of these queries.
+  template <typename Queries>
+  explicit ListJobs(const Queries& queries) {
+    for (std::size_t slot = 0; slot < slots; ++slot) weights_[slot] = &queries.weights_in(slot);
+  }
+
+  /// Notes that the path of a slot begins at a point to which its start was moved, as a `FarPath` does.
+  void move_start(std::size_t slot, double moved_t, bool is_end, Scalar reach_from_start) {
+    moved_ |= std::uint64_t{1} << slot;
+    moved_t_[slot] = moved_t;
+    own_reach_[slot] = reach_from_start;
+    weights_[slot] = &moved_weights_[is_end ? 1 : 0];
+  }
+  /// Returns whether the start of the path of a slot was moved.
+  [[nodiscard]] bool is_moved(std::size_t slot) const { return (moved_ >> slot & 1) != 0; }
+  /// Forgets which of these slots have paths whose start was moved.
+  template <typename Queries>
+  HWY_INLINE void forget_moved(std::uint64_t of_slots, const Queries& queries) {
+    for (std::uint64_t moved = moved_ & of_slots; moved != 0; moved &= moved - 1) {
+      const auto slot = static_cast<std::size_t>(std::countr_zero(moved));
+      weights_[slot] = &queries.weights_in(slot);
+    }
+    moved_ &= ~of_slots;
+  }
+  /// Returns the reach of the path of a slot from its own start, which may be farther away than that of the kernel.
+  [[nodiscard]] Scalar reach_from_start(std::size_t slot) const {
+    if constexpr (may_move) {
+      if (is_moved(slot)) return own_reach_[slot];
+    }
+    return kernel_path_[slot].reach;
+  }
+
   /// Returns the path of a slot, which the caller sets.
   [[nodiscard]] KernelPath<Scalar>& path(std::size_t slot) { return kernel_path_[slot]; }
   /// Returns the list of a slot.
   [[nodiscard]] const TriangleList<Scalar>& list(std::size_t slot) const { return lists_[slot]; }
 
   /// Loads the list of the cell of a slot, and computes the bounds of its path with this list.
-  HWY_INLINE void load_list(std::size_t slot, const Query<Scalar>& query, CellWord word,
-                            const RangeWeights<Scalar>& weights) {
+  HWY_INLINE void load_list(std::size_t slot, const Query<Scalar>& query, CellWord word) {
     const TriangleList<Scalar>& list = lists_[slot] = list_of(query, word);
     prefetch(list);
-    bounds_[slot] = Kernel::bounds(kernel_path_[slot], weights, list);
+    bounds_[slot] = Kernel::bounds(kernel_path_[slot], *weights_[slot], list);
     query.statistics.candidates += list.count;
   }
 
@@ -82,9 +116,8 @@ class ListJobs {
 
   /// Runs the kernel over up to `max_jobs` jobs, from job `first_job` on. `from` must be that of `add`. Returns the
   /// jobs whose path may meet a triangle. The next call overwrites them.
-  template <typename Queries, typename Visitors>
-  HWY_NOINLINE std::span<const Open> classify(std::size_t first_job, std::size_t from, const Queries& queries,
-                                              const Visitors& visitors) {
+  template <typename Visitors>
+  HWY_NOINLINE std::span<const Open> classify(std::size_t first_job, std::size_t from, const Visitors& visitors) {
     const hn::ScalableTag<Scalar> d;
     const auto some = std::span(jobs_).subspan(first_job, std::min(count_ - first_job, max_jobs));
     std::size_t open = 0;
@@ -93,7 +126,7 @@ class ListJobs {
       const Kernel kernel(kernel_path_[job.slot], lists_[job.slot], first_triangle);
       open_[open].slot = job.slot;
       open_[open].from = first_triangle;
-      open_[open].verdicts = kernel.classify(queries.weights_in(job.slot), bounds_[job.slot]);
+      open_[open].verdicts = kernel.classify(*weights_[job.slot], bounds_[job.slot]);
       if constexpr (Visitor::wants_order) {
         const typename Kernel::Crossing crossing = kernel.crossing();
         hn::Store(crossing.height, d, crossings_[open].height.data());
@@ -128,11 +161,17 @@ class ListJobs {
     if (verdicts.certain == verdicts.possible && std::has_single_bit(verdicts.certain)) [[likely]] {
       const auto lane = static_cast<std::size_t>(std::countr_zero(verdicts.certain));
       first = Kernel::first_of_one(bounds_[slot], height[lane], det[lane], verdicts.certain);
-      return;
+    } else {
+      Scalar limit = visitors[slot].t_upper();
+      if constexpr (may_move) {
+        if (is_moved(slot)) limit = MovedParameter{moved_t_[slot]}.limit(limit);
+      }
+      first = Kernel::first_of(bounds_[slot], {hn::Load(d, height.data()), hn::Load(d, det.data())}, verdicts.certain,
+                               limit);
     }
-    const Scalar limit = visitors[slot].t_upper();
-    first =
-        Kernel::first_of(bounds_[slot], {hn::Load(d, height.data()), hn::Load(d, det.data())}, verdicts.certain, limit);
+    if constexpr (may_move) {
+      if (is_moved(slot) && verdicts.certain != 0) MovedParameter{moved_t_[slot]}.set(first);
+    }
   }
 
   /// Fetches the beginning of a list into the cache. If the list is short, it also fetches what lies after it. More
@@ -144,11 +183,18 @@ class ListJobs {
   }
 
   std::array<KernelPath<Scalar>, slots> kernel_path_;         ///< The path of each slot.
+  std::array<const RangeWeights<Scalar>*, slots> weights_;    ///< The weights of its range for the kernel.
   std::array<TriangleList<Scalar>, slots> lists_;             ///< The list that the path has come to.
   std::array<typename Kernel::Bounds, slots> bounds_;         ///< The bounds of the path and the list.
   std::array<Job, slots * max_at_once / kernel_lanes> jobs_;  ///< Each slot has at most max_at_once / lanes jobs.
   std::size_t count_ = 0;                                     ///< The number of jobs.
-  std::array<Open, max_jobs> open_;                           ///< The open jobs of the last call.
+  std::uint64_t moved_ = 0;                                   ///< The slots whose path has a start that was moved.
+  std::array<double, may_move ? slots : 0> moved_t_;          ///< The t by which it was moved.
+  std::array<Scalar, may_move ? slots : 0> own_reach_;        ///< The reach from its own start.
+  /// The weights of paths whose start was moved. The second ones are for segments that count up to their end.
+  std::array<RangeWeights<float>, 2> moved_weights_ = {RangeWeights<float>(FarPath::kernel_range(false)),
+                                                       RangeWeights<float>(FarPath::kernel_range(true))};
+  std::array<Open, max_jobs> open_;                                      ///< The open jobs of the last call.
   std::array<Crossing, Visitor::wants_order ? max_jobs : 0> crossings_;  ///< The crossings of `open_`.
 };
 

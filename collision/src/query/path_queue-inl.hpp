@@ -21,6 +21,7 @@
 #include "filter/kernel_path.hpp"
 #include "path_range.hpp"
 #include "surehit/path_span.hpp"
+#include "walk/far_lanes-inl.hpp"
 #include "walk/lane_clip-inl.hpp"
 #include "walk/lane_walk-inl.hpp"
 
@@ -39,9 +40,12 @@ class PathQueue {
 
   /// Puts waiting paths into idle lanes, and returns the lanes that it filled. For each of them it calls
   /// `enter(lane, index, parameter)`, which returns where its KernelPath goes. The parameter is that of the walk: for
-  /// paths of doubles a `WalkParameter`, for paths of floats what `WalkingPaths::enters` leaves out.
-  template <bool has_levels, typename Enter>
-  HWY_INLINE std::uint32_t fill(std::uint32_t idle, WalkingPaths& lanes, const Enter& enter) {
+  /// paths of doubles a `WalkParameter`, for paths of floats what `WalkingPaths::enters` leaves out. If the KernelPath
+  /// begins at a point to which the start was moved, it also calls `move_start(lane, moved_t, is_end, reach)`. The
+  /// reach is that from the path's own start.
+  template <bool has_levels, typename Enter, typename MoveStart>
+  HWY_INLINE std::uint32_t fill(std::uint32_t idle, WalkingPaths& lanes, const Enter& enter,
+                                const MoveStart& move_start) {
     std::uint32_t all_filled = 0;
     while (idle != 0) {
       if (waiting_ == 0 && !clip_next<has_levels>()) break;
@@ -55,6 +59,11 @@ class PathQueue {
           kernel_paths_.copy(from, enter(to, first_ + from, enters_rest_[from]));
         } else {
           enter(to, first_ + from, taus_[from]) = kernel_paths_[from];
+        }
+        if constexpr (is_float) {
+          if ((far_.free >> from & 1) != 0) [[unlikely]] {
+            move_start(to, far_.moved_t[from], (far_.ends >> from & 1) != 0, kernel_paths_.reach_from_start(from));
+          }
         }
         filled |= std::uint32_t{1} << to;
       }
@@ -114,8 +123,20 @@ class PathQueue {
     enters_rest_ = {};
     const LaneClip::Clipped clipped =
         clip_.clip(numbers, paths_.kind() == PathKind::segment, ends.first, ends.last, count, clipped_, kernel_paths_);
+    far_.free = 0;
     if (!can_clip_in_float_) return clip_apart({0, static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1)});
-    return clipped.apart == 0 ? clipped : clip_apart(clipped);
+    return clipped.apart == 0 ? clipped : clip_from_afar(numbers, count, clipped);
+  }
+
+  /// Clips the paths of floats that do not begin near the grid, or are very slow or fast.
+  HWY_NOINLINE LaneClip::Clipped clip_from_afar(const float* numbers, std::size_t count, LaneClip::Clipped result) {
+    const auto ends = queries_.ends(first_, count);
+    const PathLanes paths(numbers, paths_.kind() == PathKind::segment, ends.first, ends.last);
+    const GridFrame& frame = queries_.of_batch().grid.frame();
+    const auto far = far_.template clip<LaneClip::Clipped>(frame, paths, result.apart, clipped_, kernel_paths_);
+    if (far.inside != 0) enters_rest_ = far_.enters_rest;
+    const LaneClip::Clipped all = {result.inside | far.inside, far.apart};
+    return all.apart == 0 ? all : clip_apart(all);
   }
 
   /// Clips the paths of floats that the lanes could not clip in float. Those that must be scaled, or that are too far
@@ -197,7 +218,8 @@ class PathQueue {
     return (inside & ~leaving) | walk_.advance(cells, leaving, clipped_);
   }
 
-  /// Takes the place of `taus_` for paths of floats.
+  /// Takes the place of what only paths of floats or of doubles have.
+  template <int>
   struct None {};
 
   WalkingPaths clipped_ = {};  ///< The last paths that were clipped, one in each lane.
@@ -205,8 +227,10 @@ class PathQueue {
   std::conditional_t<is_float, KernelLanes, std::array<KernelPath<Scalar>, max_lanes>> kernel_paths_ = {};
   /// What `WalkingPaths::enters` leaves out of the t where tau is 0, for paths of floats.
   LaneFloats enters_rest_ = {};
+  /// The paths of floats that do not begin near the grid.
+  [[no_unique_address]] std::conditional_t<is_float, FarLanes, None<0>> far_;
   /// The parameters of their walks, for paths of doubles.
-  [[no_unique_address]] std::conditional_t<is_float, None, std::array<WalkParameter, max_lanes>> taus_;
+  [[no_unique_address]] std::conditional_t<is_float, None<1>, std::array<WalkParameter, max_lanes>> taus_;
   const LaneWalk& walk_;
   const Queries& queries_;  ///< The queries of the paths.
   const LaneClip clip_{queries_.of_batch().grid.frame()};
