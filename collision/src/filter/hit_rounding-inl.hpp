@@ -103,6 +103,85 @@ struct RoundedHits {
   std::uint64_t front;    ///< The mask of the lanes whose path arrives at the front.
 };
 
+/// Returns true in the lanes in which x - y is exactly `difference` (Knuth).
+template <class D>
+HWY_INLINE hn::Mask<D> is_exact(D d, hn::Vec<D> x, hn::Vec<D> y, hn::Vec<D> difference) {
+  const auto of_y = hn::Sub(difference, x);
+  const auto rest = hn::Sub(hn::Sub(x, hn::Sub(difference, of_y)), hn::Add(y, of_y));
+  return hn::Eq(rest, hn::Zero(d));
+}
+template <class D>
+HWY_INLINE hn::Mask<D> is_exact(D d, const Vectors<D>& x, const Vectors<D>& y, const Vectors<D>& difference) {
+  return hn::And(is_exact(d, x.x, y.x, difference.x),
+                 hn::And(is_exact(d, x.y, y.y, difference.y), is_exact(d, x.z, y.z, difference.z)));
+}
+
+/// Intervals of the same hits from starts that are moved along the paths to the hits. From a start far away, u and v
+/// are known to a small share of the way, which may be a large share of the triangle. From the moved start they are
+/// known to a small share of the triangle. There must be fused operations.
+///
+/// Let t0 be the middle of the interval of t in `from_start`, and S' = S + t0 D.
+///
+/// R6. U, V and det are those of S' and D too, and the T of S' is (t - t0) det.
+/// Proof. S' is the S of the start p + t0 D. It is on the same line, with the parameter t - t0.
+///
+/// R7. If the computed S and D are exact, R1 to R4 hold with S' for S and t - t0 for t.
+/// Proof. A fused operation rounds S' once, as K2 allows for a difference of coordinates. Both t and t0 lie in the
+///     interval of t. So its length bounds |t - t0|, up to a rounding that R4 has room for.
+///
+/// R8. Products of S' do not underflow if |t0| is at least 2^-200. In other lanes nothing is certain.
+/// Proof. The last places of t0, S and D are at least 2^-252, 2^-149 and 2^-149. So a component of S' is zero or at
+/// least
+///     2^-401. The other factors of its products are zero or at least 2^-149, and there are two of them.
+///
+/// R9. The sum of t0 and an end of the interval of t - t0 is rounded by 2^-53 of itself. Twice as much is added.
+template <class D>
+HWY_INLINE HitIntervals<D> intervals_from_hits(D d, PathKind kind, const Vectors<D>& start, const Vectors<D>& toward,
+                                               const Vectors<D>& a, const Vectors<D>& b, const Vectors<D>& c,
+                                               hn::Vec<D> edge_size, const HitIntervals<D>& from_start) {
+  using V = hn::Vec<D>;
+  const V zero = hn::Zero(d);
+  const Vectors<D> direction = directions_of<D>(kind, start, toward);
+  const Vectors<D> s = difference<D>(start, a);
+  auto are_known = is_exact(d, start, a, s);
+  if (kind == PathKind::segment) are_known = hn::And(are_known, is_exact(d, toward, start, direction));
+  const V t0 = hn::Mul(hn::Set(d, 0.5), hn::Add(from_start.t.lower, from_start.t.upper));
+  are_known = hn::And(are_known, hn::Ge(hn::Abs(t0), hn::Set(d, 0x1p-200)));  // R8
+  const Vectors<D> moved = {hn::MulAdd(t0, direction.x, s.x), hn::MulAdd(t0, direction.y, s.y),
+                            hn::MulAdd(t0, direction.z, s.z)};
+  const V length = hn::Sub(from_start.t.upper, from_start.t.lower);
+  const Vectors<D> origin = {zero, zero, zero};
+  HitIntervals<D> hits(d, moved, direction, origin, difference<D>(b, a), difference<D>(c, a), length, edge_size);
+  const V rounding = hn::Mul(hn::Add(hn::Abs(t0), length), hn::Set(d, 0x1p-52));  // R9
+  const V infinity = hn::Inf(d);
+  hits.t.lower = hn::IfThenElse(are_known, hn::Sub(hn::Add(t0, hits.t.lower), rounding), hn::Neg(infinity));
+  hits.t.upper = hn::IfThenElse(are_known, hn::Add(hn::Add(t0, hits.t.upper), rounding), infinity);
+  return hits;
+}
+
+/// Rounds hits. Looks again from moved starts if some of `lanes` are not rounded.
+template <class D>
+HWY_INLINE RoundedHits<D> rounded_hits(D d, PathKind kind, const Vectors<D>& start, const Vectors<D>& toward,
+                                       const Vectors<D>& a, const Vectors<D>& b, const Vectors<D>& c, hn::Vec<D> t_size,
+                                       hn::Vec<D> edge_size, std::uint64_t lanes) {
+  const HitIntervals<D> hits(d, start, directions_of<D>(kind, start, toward), a, b, c, t_size, edge_size);
+  RoundedHits<D> rounded(d, hits);
+#if HWY_NATIVE_FMA != 0
+  if ((lanes & ~rounded.rounded) != 0) {
+    const typename RoundedHits<D>::FloatTag df;
+    const RoundedHits<D> again(d, intervals_from_hits<D>(d, kind, start, toward, a, b, c, edge_size, hits));
+    const auto first = mask_of(df, rounded.rounded);
+    rounded.t = hn::IfThenElse(first, rounded.t, again.t);
+    rounded.u = hn::IfThenElse(first, rounded.u, again.u);
+    rounded.v = hn::IfThenElse(first, rounded.v, again.v);
+    rounded.rounded |= again.rounded;
+  }
+#else
+  (void)lanes;
+#endif
+  return rounded;
+}
+
 /// Sets a hit from the only lane of `RoundedHits` or `RoundedDoubleHits`, except for the triangle's id. Returns whether
 /// its numbers are right.
 template <typename Scalar, class Rounded>
@@ -123,11 +202,10 @@ HWY_INLINE bool try_round(const Path<float>& path, const Triangle<float>& triang
   const auto lane_of = [&](const Vector3<float>& x) -> Vectors<Tag> {
     return {hn::Set(d, double{x[0]}), hn::Set(d, double{x[1]}), hn::Set(d, double{x[2]})};
   };
-  const auto start = lane_of(path.start);
-  const auto direction = directions_of<Tag>(path.kind, start, lane_of(path.toward));
-  const HitIntervals<Tag> intervals(d, start, direction, lane_of(triangle.a), lane_of(triangle.b), lane_of(triangle.c),
-                                    hn::Set(d, double{t_size}), hn::Set(d, double{edge_size}));
-  return set_hit(RoundedHits<Tag>(d, intervals), hit);
+  const RoundedHits<Tag> rounded = rounded_hits<Tag>(d, path.kind, lane_of(path.start), lane_of(path.toward),
+                                                     lane_of(triangle.a), lane_of(triangle.b), lane_of(triangle.c),
+                                                     hn::Set(d, double{t_size}), hn::Set(d, double{edge_size}), 1);
+  return set_hit(rounded, hit);
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE

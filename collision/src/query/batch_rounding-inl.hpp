@@ -65,8 +65,8 @@ class WaitingHits<float> {
     copy(i, 4, &first.triangle(), 5);
   }
 
-  /// Rounds all hits.
-  HWY_INLINE RoundedBatch<float> round(PathKind kind) const {
+  /// Rounds all hits, which are the first `count` ones.
+  HWY_INLINE RoundedBatch<float> round(PathKind kind, std::size_t count) const {
     const DoubleTag d;
     const FloatTag df;
     const auto vectors = [&](std::size_t which, bool has_one_before = false) -> Vectors<DoubleTag> {
@@ -77,14 +77,11 @@ class WaitingHits<float> {
       };
       return has_one_before ? of(second, third, fourth) : of(first, second, third);
     };
-    const Vectors<DoubleTag> start = vectors(0);
-    const Vectors<DoubleTag> direction = directions_of<DoubleTag>(kind, start, vectors(1, true));
     const auto doubles = [&](const std::array<float, max_hits>& floats) {
       return hn::PromoteTo(d, hn::Load(df, floats.data()));
     };
-    const HitIntervals<DoubleTag> intervals(d, start, direction, vectors(2), vectors(3), vectors(4, true),
-                                            doubles(t_size_), doubles(edge_size_));
-    return {df, RoundedHits<DoubleTag>(d, intervals)};
+    return {df, rounded_hits<DoubleTag>(d, kind, vectors(0), vectors(1, true), vectors(2), vectors(3), vectors(4, true),
+                                        doubles(t_size_), doubles(edge_size_), (std::uint64_t{1} << count) - 1)};
   }
 
  private:
@@ -120,7 +117,7 @@ class WaitingHits<double> {
   }
 
   /// Rounds all hits.
-  HWY_INLINE RoundedBatch<double> round(PathKind kind) const {
+  HWY_INLINE RoundedBatch<double> round(PathKind kind, std::size_t /*count*/) const {
     const DoubleTag d;
     const auto vectors = [&](std::size_t k) -> Vectors<DoubleTag> {
       const auto load = [&](std::size_t which) { return hn::Load(d, numbers_[which].data()); };
@@ -163,7 +160,7 @@ class BatchRounding {
   /// Rounds all hits that were added and not rounded yet.
   HWY_NOINLINE void flush() {
     if (count_ == 0) return;
-    const RoundedBatch<Scalar> batch = waiting_.round(paths_.kind());
+    const RoundedBatch<Scalar> batch = waiting_.round(paths_.kind(), count_);
     for (std::size_t i = 0; i < count_; ++i) {
       if ((batch.rounded >> i & 1) != 0) {
         hits_[index_[i]] = {batch.t[i], batch.u[i], batch.v[i], query_.grid.entries()[entry_[i]],

@@ -6,6 +6,9 @@
 #include <hwy/foreach_target.h>
 // Behind foreach_target.h.
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 #include "filter/double_hit_rounding-inl.hpp"
 #include "filter/double_kernel-inl.hpp"
@@ -100,6 +103,43 @@ void intervals_of(std::span<const test::PairCoordinates> pairs, std::span<const 
   });
 }
 
+void intervals_from_hits_of(std::span<const test::PairCoordinates> pairs, std::span<const std::array<double, 3>> ends,
+                            std::span<const test::HitSizes> sizes, std::span<test::LaneIntervals> results) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const std::array<double, 2> nothing = {-infinity, infinity};
+  std::fill(results.begin(), results.end(), test::LaneIntervals{nothing, nothing, nothing});
+#if HWY_NATIVE_FMA != 0
+  for_each_vector(pairs.size(), [&](std::size_t first, std::size_t count) {
+    const auto vectors = [&](std::size_t k) { return gather_vectors(pairs, first, count, k); };
+    const auto size = [&](float test::HitSizes::*part) {
+      return gather(count, [&](std::size_t i) { return double{sizes[first + i].*part}; });
+    };
+    const auto end_on = [&](std::size_t axis) {
+      return gather(count, [&](std::size_t i) { return ends[first + i][axis]; });
+    };
+    using Intervals = HitIntervals<DoubleTag>;
+    const Vectors<DoubleTag> end = {end_on(0), end_on(1), end_on(2)};
+    const auto edge = size(&test::HitSizes::edge);
+    const Intervals from_start(DoubleTag(), vectors(0), vectors(3), vectors(6), vectors(9), vectors(12),
+                               size(&test::HitSizes::t), edge);
+    const Intervals of = intervals_from_hits<DoubleTag>(DoubleTag(), PathKind::segment, vectors(0), end, vectors(6),
+                                                        vectors(9), vectors(12), edge, from_start);
+    const LaneNumbers t_lower = numbers_of(of.t.lower);
+    const LaneNumbers t_upper = numbers_of(of.t.upper);
+    const LaneNumbers u_lower = numbers_of(of.u.lower);
+    const LaneNumbers u_upper = numbers_of(of.u.upper);
+    const LaneNumbers v_lower = numbers_of(of.v.lower);
+    const LaneNumbers v_upper = numbers_of(of.v.upper);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!std::isfinite(t_lower[i]) || !std::isfinite(t_upper[i])) continue;
+      results[first + i] = {{t_lower[i], t_upper[i]}, {u_lower[i], u_upper[i]}, {v_lower[i], v_upper[i]}};
+    }
+  });
+#else
+  (void)pairs, (void)ends, (void)sizes;
+#endif
+}
+
 void hits_of(std::span<const Path<double>> paths, std::span<const Triangle<double>> triangles,
              std::span<test::LaneHit> results) {
   for_each_vector(paths.size(), [&](std::size_t first, std::size_t count) {
@@ -144,6 +184,7 @@ namespace surehit::detail {
 HWY_EXPORT(determinants_of);
 HWY_EXPORT(quotients_of);
 HWY_EXPORT(intervals_of);
+HWY_EXPORT(intervals_from_hits_of);
 HWY_EXPORT(hits_of);
 HWY_EXPORT(lanes_of_double);
 void chosen_determinants(std::span<const test::PairCoordinates> pairs, std::span<test::LaneDeterminants> results) {
@@ -156,6 +197,11 @@ void chosen_quotients(std::span<const Bounded> numerators, std::span<const Bound
 void chosen_intervals(std::span<const test::PairCoordinates> pairs, std::span<const test::HitSizes> sizes,
                       std::span<test::LaneIntervals> results) {
   HWY_DYNAMIC_DISPATCH(intervals_of)(pairs, sizes, results);
+}
+void chosen_intervals_from_hits(std::span<const test::PairCoordinates> pairs,
+                                std::span<const std::array<double, 3>> ends, std::span<const test::HitSizes> sizes,
+                                std::span<test::LaneIntervals> results) {
+  HWY_DYNAMIC_DISPATCH(intervals_from_hits_of)(pairs, ends, sizes, results);
 }
 void chosen_hits(std::span<const Path<double>> paths, std::span<const Triangle<double>> triangles,
                  std::span<test::LaneHit> results) {
@@ -177,6 +223,10 @@ void quotients(std::span<const detail::Bounded> numerators, std::span<const deta
 void hit_intervals(std::span<const PairCoordinates> pairs, std::span<const HitSizes> sizes,
                    std::span<LaneIntervals> results) {
   detail::chosen_intervals(pairs, sizes, results);
+}
+void hit_intervals_from_hits(std::span<const PairCoordinates> pairs, std::span<const std::array<double, 3>> ends,
+                             std::span<const HitSizes> sizes, std::span<LaneIntervals> results) {
+  detail::chosen_intervals_from_hits(pairs, ends, sizes, results);
 }
 void round_hits(std::span<const Path<double>> paths, std::span<const Triangle<double>> triangles,
                 std::span<LaneHit> results) {

@@ -52,6 +52,11 @@ struct LaneIntervals {
 void hit_intervals(std::span<const PairCoordinates> pairs, std::span<const HitSizes> sizes,
                    std::span<LaneIntervals> results);
 
+/// What `detail::intervals_from_hits` makes of them there, for segments with these ends. Where it knows nothing, or
+/// where there are no fused operations, all ends are infinite.
+void hit_intervals_from_hits(std::span<const PairCoordinates> pairs, std::span<const std::array<double, 3>> ends,
+                             std::span<const HitSizes> sizes, std::span<LaneIntervals> results);
+
 /// A `detail::DoubleHitIntervals::Interval` of a pair.
 struct WordInterval {
   double high, low, bound;

@@ -49,8 +49,15 @@ class CheckedHits {
     sizes_.push_back(sizes);
     exact_.push_back(exact);
     text_.push_back(hex_text(path) + hex_text(triangle));
+    // Nothing is known of a path without an end there.
+    const double no_end = std::numeric_limits<double>::quiet_NaN();
+    for (double& x : ends_.emplace_back()) x = no_end;
+    if (!path.has_end()) return;
+    for (std::size_t axis = 0; axis < 3; ++axis) ends_.back()[axis] = path.toward[static_cast<Eigen::Index>(axis)];
   }
   [[nodiscard]] std::size_t count() const { return pairs_.size(); }
+  /// Returns how many hits were known from their own starts, on all instruction sets.
+  [[nodiscard]] std::size_t known_from_hits() const { return known_from_hits_; }
 
   /// Returns how many intervals were told.
   std::size_t check() const {
@@ -71,12 +78,34 @@ class CheckedHits {
           told += std::isfinite(lower) && std::isfinite(upper) ? 1 : 0;
         }
       }
+      worst = std::max(worst, check_from_hits());
     });
     testing::Test::RecordProperty("worst_share", std::to_string(worst));
     return told;
   }
 
  private:
+  /// Checks intervals from starts that are moved to the hits, and returns the worst share.
+  double check_from_hits() const {
+    std::vector<LaneIntervals> of(pairs_.size());
+    hit_intervals_from_hits(pairs_, ends_, sizes_, of);
+    double worst = 0;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      SCOPED_TRACE(text_[i] + " from the hit");
+      const RationalDeterminants& exact = exact_[i];
+      if (!std::isfinite(of[i].t[0])) continue;
+      ++known_from_hits_;
+      for (const double share : {share_of(of[i].t, exact.height / exact.det), share_of(of[i].u, exact.u / exact.det),
+                                 share_of(of[i].v, exact.v / exact.det)}) {
+        EXPECT_LE(share, 1);
+        worst = std::max(worst, share);
+      }
+    }
+    return worst;
+  }
+
+  mutable std::size_t known_from_hits_ = 0;
+  std::vector<std::array<double, 3>> ends_;
   std::vector<PairCoordinates> pairs_;
   std::vector<HitSizes> sizes_;
   std::vector<RationalDeterminants> exact_;
@@ -121,6 +150,26 @@ TEST(HitIntervals, hold_what_is_exact_at_all_magnitudes) {
   EXPECT_EQ(hits.check(), instruction_sets().size() * 3 * hits.count());
 }
 
+/// Segments from far away, whose u and v are known well only from the hit.
+TEST(HitIntervals, hold_what_is_exact_of_far_paths) {
+  Random random(68);
+  CheckedHits hits;
+  for (std::size_t i = case_count(2'000); i > 0; --i) {
+    const auto vector_of = [&](int exponent) -> Vector3<float> {
+      return Vector3<float>::NullaryExpr([&] { return std::ldexp(random.symmetric<float>(), exponent); });
+    };
+    const Triangle<float> triangle{vector_of(-7), vector_of(-7), vector_of(-7)};
+    const float b = random.unit<float>();
+    const float c = (1 - b) * random.unit<float>();
+    const Vector3<float> point = triangle.a + b * (triangle.b - triangle.a) + c * (triangle.c - triangle.a);
+    const Vector3<float> start = point + vector_of(static_cast<int>(random.between(-7, 16)));
+    hits.add_if_they_meet(Segment<float>{start, start + (point - start) * (1 + random.unit<float>())}, triangle);
+  }
+  EXPECT_GT(hits.count(), case_count(1'000));
+  hits.check();
+  EXPECT_GT(2 * hits.known_from_hits(), hits.count());
+}
+
 double worst_share(const std::array<float, 15>& x) {
   const Path<float> path = Segment<float>{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
   const Triangle<float> triangle{{x[6], x[7], x[8]}, {x[9], x[10], x[11]}, {x[12], x[13], x[14]}};
@@ -130,8 +179,15 @@ double worst_share(const std::array<float, 15>& x) {
   const HitSizes sizes = sizes_of(exact, triangle);
   LaneIntervals of;
   hit_intervals({&pair, 1}, {&sizes, 1}, {&of, 1});
-  return std::max({share_of(of.t, exact.height / exact.det), share_of(of.u, exact.u / exact.det),
-                   share_of(of.v, exact.v / exact.det)});
+  LaneIntervals from_hit;
+  const std::array<double, 3> end = {x[3], x[4], x[5]};
+  hit_intervals_from_hits({&pair, 1}, {&end, 1}, {&sizes, 1}, {&from_hit, 1});
+  double worst = 0;
+  for (const LaneIntervals& intervals : {of, from_hit}) {
+    worst = std::max({worst, share_of(intervals.t, exact.height / exact.det),
+                      share_of(intervals.u, exact.u / exact.det), share_of(intervals.v, exact.v / exact.det)});
+  }
+  return worst;
 }
 
 TEST(HitIntervals, hold_what_is_exact_where_hill_climbing_makes_the_error_worst) {
