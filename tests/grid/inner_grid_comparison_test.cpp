@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "collider_state.hpp"
@@ -88,6 +89,15 @@ class InnerGridComparison : public testing::Test {
       expect_batch<Scalar, Segment<Scalar>>(collider, segments);
       expect_batch<Scalar, Ray<Scalar>>(collider, rays);
     }
+  }
+
+  /// A single call answers as asking every triangle does.
+  static void expect_as_all(const Collider<Scalar>& collider, const GeneratedMesh<Scalar>& mesh,
+                            const Path<Scalar>& path) {
+    const auto expected = brute_force_hits<Scalar>(mesh.view(), path);
+    const Hit<Scalar> first = expected.empty() ? Hit<Scalar>{} : expected.front();
+    EXPECT_TRUE(same_bits(collider.first_hit(path).value_or(Hit<Scalar>{}), first)) << hex_text(path);
+    EXPECT_EQ(collider.any_hit(path), !expected.empty()) << hex_text(path);
   }
 
   Random random_{77};
@@ -189,6 +199,47 @@ TYPED_TEST(InnerGridComparison, of_a_stray_triangle) {
     GeneratedMesh<TypeParam> stray;
     stray.add({{far, far, far}, {far * TypeParam{1.5F}, far, far}, {far, far * TypeParam{1.5F}, far}});
     this->compare(stray, ground, 80);
+  }
+}
+
+/// Nearly all triangles are in one inner grid, wherever they lie in the box. Paths that miss the others begin there.
+TYPED_TEST(InnerGridComparison, of_a_main_part_and_a_few_others) {
+  for (const double distance : {100., 1e3, 1e9, 1e30}) {
+    SCOPED_TRACE(distance);
+    const auto far = static_cast<TypeParam>(distance);
+    for (const TypeParam other_side : {TypeParam{0}, TypeParam{0.9F}, TypeParam{0.5F}}) {
+      const auto ground = rough_ground<TypeParam>(20, TypeParam{0.3F}, this->random_);
+      GeneratedMesh<TypeParam> few;
+      few.add({{far, far, far}, {far * TypeParam{0.9F}, far, far}, {far, far * TypeParam{0.9F}, far}});
+      if (other_side != 0) {
+        const TypeParam to = -far * other_side;
+        few.add({{to, to, to}, {to / 2, to, to}, {to, to, to / 2}});
+      }
+      const auto mesh = joined(ground, few);
+      const Collider<TypeParam> collider(mesh.view());
+      const Grid& grid = detail::ColliderState<TypeParam>::of(collider).grid;
+      EXPECT_EQ(grid.inner_frames().size(), 1U);
+      EXPECT_LE(grid.top().size(), 27U);
+      constexpr bool is_float = std::is_same_v<TypeParam, float>;
+      EXPECT_TRUE(grid.main_grid().exists() || !is_float);  // Only paths of floats begin there.
+      this->compare(few, ground, 20);
+      // Few of the first paths come near the others, so all of them begin in the main grid.
+      PathDrawer<TypeParam> of_ground(ground.view(), 3);
+      PathDrawer<TypeParam> of_few(few.view(), 4);
+      std::vector<Segment<TypeParam>> segments;
+      std::vector<Ray<TypeParam>> rays;
+      for (std::size_t i = 0; i < case_count(300); ++i) {
+        const Vector3<TypeParam> start = of_ground.point_around_mesh();
+        const bool is_aimed_at_few = i >= 64 && i % 3 == 0;
+        const Vector3<TypeParam> end = is_aimed_at_few ? of_few.point_on_mesh() : of_ground.point_on_mesh();
+        const Vector3<TypeParam> from = i % 2 == 0 ? start : Vector3<TypeParam>(start + 80 * (start - end));
+        segments.push_back({from, start + TypeParam{1.01F} * (end - start)});
+        rays.push_back({from, end - start});
+        this->expect_as_all(collider, mesh, Path<TypeParam>(segments.back()));
+      }
+      expect_batch<TypeParam, Segment<TypeParam>>(collider, segments);
+      expect_batch<TypeParam, Ray<TypeParam>>(collider, rays);
+    }
   }
 }
 

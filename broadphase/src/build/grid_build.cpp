@@ -8,6 +8,7 @@
 #include "build/grid_scratch.hpp"
 #include "build/inner_grid_rule.hpp"
 #include "build/listed_triangles.hpp"
+#include "build/main_part.hpp"
 #include "build/triangle_overlap.hpp"
 #include "grid/grid.hpp"
 #include "support/floating_point_environment.hpp"
@@ -59,12 +60,16 @@ class GridBuild {
     const double cells_left = std::max(1.0, max_cells - max_inner_grids - static_cast<double>(grid.top_.size()));
     std::array<double, 3> wished =
         detail::wished_resolution(GridFrame::around(listed.box(), {1, 1, 1}, division), listed, options, cells_left);
-    for (;;) {
-      frame_ = GridFrame::around(listed.box(), wished, division);
-      listed.compute_points(frame_, executor);
-      for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame_.padding(axis);
-      if (try_list_all(budget)) break;
+    while (!try_list_in(wished, budget)) {
       for (double& cells : wished) cells = std::max(1.0, std::floor(cells / 2));
+    }
+    const bool may_choose = depth == 0 && options.resolution == std::array<std::uint32_t, 3>{0, 0, 0};
+    if (may_choose && crowded_ < listed.count() && listed.count() > many_triangles) {
+      const auto& lists = scratch.lists_[0];
+      if (const auto few = detail::resolution_around_main_part(frame_, lists, scratch.boxes_, scratch.words_)) {
+        // Each triangle is listed about once.
+        if (!try_list_in(*few, budget)) static_cast<void>(try_list_in({1, 1, 1}, budget));
+      }
     }
     emit_all();
   }
@@ -86,6 +91,14 @@ class GridBuild {
   /// The maximum number of cells in bricks. So all cells together have no more lists than a word can number.
   static constexpr std::size_t max_brick_cells = CellWord::max_lists / 2 - static_cast<std::size_t>(max_cells);
   static_assert(max_brick_cells / Grid::brick_size <= CellWord::max_bricks);
+
+  /// Lists all triangles in a frame with as many top cells as wished. Returns false if that takes too many entries.
+  bool try_list_in(const std::array<double, 3>& wished, std::size_t budget) {
+    frame_ = GridFrame::around(listed_.box(), wished, division);
+    listed_.compute_points(frame_, executor_);
+    for (std::size_t axis = 0; axis < 3; ++axis) padding_[axis] = frame_.padding(axis);
+    return try_list_all(budget);
+  }
 
   /// Finds the cells that the triangles meet: `id(i)` for each i from `first` to below `last`. Returns false if there
   /// are more than `max_entries` entries. Each triangle comes once among the top cells. There its box is stored too.
@@ -338,7 +351,7 @@ class GridBuild {
   Grid& grid_;
   GridFrame& frame_;
   GridScratch& scratch_;
-  const Listed& listed_;
+  Listed& listed_;
   const Executor* executor_;
   std::size_t crowded_;
   std::size_t spare_entries_ = 0;  ///< The number of entries that divisions may add. 32 bits cannot number more.
@@ -393,6 +406,7 @@ void Grid::complete(std::size_t outer_entries) {
   is_mostly_inner_ = outer_entries < entries_.size() / 4;
   is_one_list_ = top_count_ == 1 && lists_.size() == 2 && entries_.size() <= max_unwalked;
   cover_ = GridCover(*this);
+  main_grid_ = MainGrid(*this);
 }
 
 template <typename Scalar>

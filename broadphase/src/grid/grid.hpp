@@ -10,6 +10,7 @@
 #include "grid/cell_word.hpp"
 #include "grid/grid_cover.hpp"
 #include "grid/grid_frame.hpp"
+#include "grid/main_grid.hpp"
 #include "grid/packed_ids.hpp"
 #include "support/default_init_allocator.hpp"
 #include "support/inlining.hpp"
@@ -78,6 +79,10 @@ class Grid {
   }
   /// Returns a few boxes around all lists of the outermost grid.
   [[nodiscard]] const GridCover& cover() const noexcept { return cover_; }
+  /// Returns the inner grid that lists nearly all triangles, if there is one.
+  [[nodiscard]] const MainGrid& main_grid() const noexcept { return main_grid_; }
+  /// Returns its frame.
+  [[nodiscard]] const GridFrame& main_frame() const noexcept { return inner_frames_[main_grid_.frame_index()]; }
   /// Returns the number of top cells of the outermost grid on each axis.
   [[nodiscard]] const std::array<std::uint32_t, 3>& resolution() const noexcept { return frame_.cells; }
   [[nodiscard]] bool is_empty() const noexcept { return entries_.empty(); }
@@ -143,6 +148,7 @@ class Grid {
   GridFrame frame_;
   std::vector<GridFrame> inner_frames_;
   GridCover cover_;
+  MainGrid main_grid_;
   std::uint32_t levels_ = 0;
   bool is_one_list_ = false;
   bool is_mostly_inner_ = false;

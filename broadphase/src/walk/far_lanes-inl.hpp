@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "grid/grid_frame.hpp"
+#include "grid/main_grid.hpp"
 #include "support/lane_bits-inl.hpp"
 #include "walk/grid_traversal.hpp"
 #include "walk/walking_paths-inl.hpp"
@@ -94,6 +95,16 @@ struct BoxLanes {
   static constexpr float max_way = 0x1p100F;   ///< Nor does an axis with more motion.
   static constexpr float slack = 0x1p-20F;     ///< The share of itself by which each end is moved outward.
 };
+
+/// Returns the lanes whose path may meet what is not in the main grid (L18).
+HWY_INLINE std::uint32_t lanes_beside(const MainGrid& main, const PathLanes& paths) {
+  const FloatTag d;
+  std::uint32_t lanes = 0;
+  for (const MainGrid::OtherBox& box : main.boxes()) {
+    lanes |= static_cast<std::uint32_t>(bits_of(d, hn::Not(BoxLanes(paths, box.low, box.high).misses)));
+  }
+  return lanes;
+}
 
 /// Clips paths of floats that do not begin near a frame, one in each lane. Their starts are moved along them to points
 /// near the frame, in double, so that the rest can be done in float (L16). What looks at triangles may begin there too.

@@ -24,7 +24,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// Clips paths to the outermost frame of a grid, one in each lane.
+/// Clips paths to a frame of a grid, one in each lane.
 class LaneClip {
  public:
   /// The frame must outlive this.
@@ -59,7 +59,7 @@ class LaneClip {
     Floats start_size = zero;
     Floats way_size = zero;
     Floats reach = zero;
-    Floats first_cell = zero;
+    Floats first_cell = hn::Set(d, static_cast<float>(frame_.first_top));
     Words octant = hn::Zero(du);
     Floats from[3];
     Floats by[3];
@@ -95,7 +95,7 @@ class LaneClip {
       enters = hn::Max(enters, hn::Mul(hn::Neg(from[k]), inverse));
       leaves = hn::Min(leaves, hn::Mul(hn::Sub(stop, from[k]), inverse));
       const Floats pitch = hn::Set(d, static_cast<float>(frame_.top_orders[0].pitch[k]));
-      const Floats turned = hn::Set(d, static_cast<float>(frame_.top_orders[std::size_t{1} << k].first));
+      const Floats turned = hn::Set(d, static_cast<float>(mirrored_first(k)));
       hn::Store(hn::IfThenElse(is_mirrored, hn::Neg(pitch), pitch), d, clipped.pitch[k].data());
       hn::Store(inverse, d, clipped.inverse_rate[k].data());
       hn::Store(by[k], d, clipped.rate[k].data());
@@ -202,7 +202,7 @@ class LaneClip {
     const Doubles last_t = hn::LoadU(d, &paths.last_t[from]);
     Doubles enters = hn::Sub(first_t, outward(first_t));
     Doubles leaves = hn::Add(last_t, outward(last_t));
-    Doubles first_cell = zero;
+    Doubles first_cell = number(static_cast<double>(frame_.first_top));
     auto passes = hn::Eq(zero, zero);
     auto moves = hn::Lt(zero, zero);
     std::array<std::uint64_t, 3> mirrored;
@@ -223,10 +223,9 @@ class LaneClip {
       const Doubles high = hn::Mul(hn::Sub(stop, position[k]), inverse);
       enters = hn::IfThenElse(is_still, enters, hn::Max(enters, low));
       leaves = hn::IfThenElse(is_still, leaves, hn::Min(leaves, high));
-      const GridFrame::TopOrder& turned = frame_.top_orders[std::size_t{1} << k];
       const Doubles pitch = number(static_cast<double>(frame_.top_orders[0].pitch[k]));
       keep(clipped.pitch[k], hn::IfThenElse(is_mirrored, hn::Neg(pitch), pitch));
-      first_cell = hn::Add(first_cell, hn::IfThenElseZero(is_mirrored, number(static_cast<double>(turned.first))));
+      first_cell = hn::Add(first_cell, hn::IfThenElseZero(is_mirrored, number(static_cast<double>(mirrored_first(k)))));
       keep(clipped.rate[k], by[k]);
       keep(clipped.inverse_rate[k], inverse);
       mirrored[k] = bits_of(d, is_mirrored);
@@ -257,6 +256,11 @@ class LaneClip {
     }
     const auto in_some = [&](hn::Mask<DoubleTag> mask) { return static_cast<std::uint32_t>(bits_of(d, mask)) & some; };
     return {in_some(inside), in_some(hn::Not(is_plain))};
+  }
+
+  /// Returns what is added to the index of the first cell if a path is mirrored on an axis.
+  [[nodiscard]] std::int32_t mirrored_first(std::size_t axis) const {
+    return frame_.top_orders[std::size_t{1} << axis].first - frame_.top_orders[0].first;
   }
 
   const GridFrame& frame_;

@@ -24,10 +24,14 @@ namespace surehit::detail::HWY_NAMESPACE {
 /// Walks paths of one grid, one in each lane. `LaneClip` clips them.
 class LaneWalk {
  public:
-  /// `slabs` has the slabs of the grid's lists, or is null. The grid and the slabs must outlive this.
-  LaneWalk(const Grid& grid, const CellSlab* slabs) : grid_(grid), frame_(grid.frame()), slabs_(slabs) {}
+  /// The paths are clipped to a frame of the grid. `slabs` has the slabs of the grid's lists, or is null. The grid, the
+  /// frame and the slabs must outlive this.
+  LaneWalk(const Grid& grid, const GridFrame& frame, const CellSlab* slabs)
+      : grid_(grid), frame_(frame), slabs_(slabs) {}
+  /// The paths are clipped to the outermost frame.
+  LaneWalk(const Grid& grid, const CellSlab* slabs) : LaneWalk(grid, grid.frame(), slabs) {}
 
-  /// Sets `stop` of all lanes to that of the outermost frame.
+  /// Sets `stop` of all lanes to that of the frame.
   HWY_INLINE void set_stops(WalkingPaths& paths) const {
     const FloatTag d;
     for (std::size_t axis = 0; axis < 3; ++axis) {

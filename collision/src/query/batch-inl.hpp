@@ -40,12 +40,14 @@ namespace surehit::detail::HWY_NAMESPACE {
 template <typename Scalar, typename Visitor, typename Queries, typename Finish, typename Alone>
 class Batch {
  public:
-  Batch(Queries& queries, const PathSpan<Scalar>& paths, Finish& finish, const Alone& alone)
+  /// The paths begin in a frame of the grid: the outermost one, or that of the main grid.
+  Batch(Queries& queries, const GridFrame& frame, const PathSpan<Scalar>& paths, Finish& finish, const Alone& alone)
       : query_(queries.of_batch()),
         queries_(queries),
-        walk_(query_.grid, query_.mesh.slabs()),
+        frame_(frame),
+        walk_(query_.grid, frame, query_.mesh.slabs()),
         paths_(paths),
-        queue_(walk_, queries, paths, alone),
+        queue_(walk_, frame, queries, paths, alone),
         jobs_(queries),
         finish_(finish),
         visitors_(for_all_slots(query_, std::make_index_sequence<slots>())) {
@@ -248,8 +250,8 @@ class Batch {
     const std::uint64_t bit = std::uint64_t{1} << slot;
     WalkingPaths& lanes = walks_[slot / max_lanes];
     const OuterWalk& outer = outer_[outer_of_[slot]];
-    LaneWalk::put(slot % max_lanes, query_.grid.frame(), outer.path, lanes);
-    LaneWalk::set_stop(slot % max_lanes, query_.grid.frame(), lanes);
+    LaneWalk::put(slot % max_lanes, frame_, outer.path, lanes);
+    LaneWalk::set_stop(slot % max_lanes, frame_, lanes);
     jobs_.path(slot).reach = outer.reach;
     if constexpr (is_float) {
       enters_rest_[slot] = outer.parameter;
@@ -322,7 +324,7 @@ class Batch {
     free_outer(ended);
     for (std::uint64_t inner = ended & in_inner_frame_; inner != 0; inner &= inner - 1) {
       const auto slot = static_cast<std::size_t>(std::countr_zero(inner));
-      LaneWalk::set_stop(slot % max_lanes, query_.grid.frame(), walks_[slot / max_lanes]);
+      LaneWalk::set_stop(slot % max_lanes, frame_, walks_[slot / max_lanes]);
     }
     in_inner_frame_ &= ~ended;
     jobs_.forget_moved(ended, queries_);
@@ -347,6 +349,7 @@ class Batch {
   std::array<LaneWalk::Cells, vectors> cells_;    ///< The cells that they are in.
   const Query<Scalar>& query_;                    ///< The query of the batch.
   Queries& queries_;                              ///< The queries of its paths.
+  const GridFrame& frame_;                        ///< The frame in which they begin.
   LaneWalk walk_;
   const PathSpan<Scalar>& paths_;
   PathQueue<Scalar, Queries, Alone> queue_;  ///< The paths that wait for a lane.
@@ -373,6 +376,35 @@ class Batch {
 
 #endif  // HWY_TARGET != HWY_SCALAR
 
+#if HWY_TARGET != HWY_SCALAR
+/// Returns true if there is a main grid, and only few paths of a batch may meet what is not in it. It looks at the
+/// first paths. No answer depends on this. Paths of doubles always begin in the outermost grid.
+template <typename Scalar, typename Queries>
+HWY_INLINE bool mostly_miss_the_others(const Queries& queries, const PathSpan<Scalar>& paths) {
+  constexpr std::size_t samples = 64;
+  constexpr std::size_t few_share = 16;
+  if constexpr (std::is_same_v<Scalar, float>) {
+    const MainGrid& main = queries.of_batch().grid.main_grid();
+    if (!main.exists()) return false;
+    const std::size_t lanes = hn::Lanes(FloatTag());
+    std::size_t asked = 0;
+    std::size_t others = 0;
+    for (; asked < std::min(samples, paths.size()); asked += lanes) {
+      const std::size_t count = std::min(lanes, paths.size() - asked);
+      std::array<float, 6 * max_lanes> numbers = {};
+      for (std::size_t i = 0; i < count; ++i) paths.copy(asked + i, &numbers[6 * i]);
+      const auto ends = queries.ends(asked, count);
+      const PathLanes some(numbers.data(), paths.kind() == PathKind::segment, ends.first, ends.last);
+      const std::uint64_t taken = (std::uint64_t{1} << count) - 1;
+      others += static_cast<std::size_t>(std::popcount(lanes_beside(main, some) & taken));
+    }
+    return others * few_share <= asked;
+  } else {
+    return false;
+  }
+}
+#endif
+
 /// Answers all paths. They walk side by side if lanes can walk them. Otherwise `alone(index)` answers each path.
 template <typename Visitor, typename Scalar, typename Queries, typename Finish, typename Alone>
 HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[maybe_unused]] Finish& finish,
@@ -384,7 +416,8 @@ HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[
   }
 #if HWY_TARGET != HWY_SCALAR
   if (!queries.admits_nothing() && !grid.is_one_list()) {
-    Batch<Scalar, Visitor, Queries, Finish, Alone>(queries, paths, finish, alone).run();
+    const GridFrame& frame = mostly_miss_the_others(queries, paths) ? grid.main_frame() : grid.frame();
+    Batch<Scalar, Visitor, Queries, Finish, Alone>(queries, frame, paths, finish, alone).run();
     return;
   }
 #endif

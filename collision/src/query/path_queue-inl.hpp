@@ -33,8 +33,10 @@ namespace surehit::detail::HWY_NAMESPACE {
 template <typename Scalar, typename Queries, typename Alone>
 class PathQueue {
  public:
-  PathQueue(const LaneWalk& walk, const Queries& queries, const PathSpan<Scalar>& paths, const Alone& alone)
-      : walk_(walk), queries_(queries), paths_(paths), alone_(alone) {
+  /// The paths are clipped to a frame of the grid: the outermost one, or that of the main grid.
+  PathQueue(const LaneWalk& walk, const GridFrame& frame, const Queries& queries, const PathSpan<Scalar>& paths,
+            const Alone& alone)
+      : walk_(walk), queries_(queries), frame_(frame), paths_(paths), alone_(alone) {
     walk_.set_stops(clipped_);
   }
 
@@ -124,16 +126,27 @@ class PathQueue {
     const LaneClip::Clipped clipped =
         clip_.clip(numbers, paths_.kind() == PathKind::segment, ends.first, ends.last, count, clipped_, kernel_paths_);
     far_.free = 0;
+    if (is_main_) return clip_to_main(numbers, count, clipped);
     if (!can_clip_in_float_) return clip_apart({0, static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1)});
     return clipped.apart == 0 ? clipped : clip_from_afar(numbers, count, clipped);
+  }
+
+  /// Clips paths of floats to the main grid. Those that may meet something beside it stay apart (L18).
+  HWY_NOINLINE LaneClip::Clipped clip_to_main(const float* numbers, std::size_t count, LaneClip::Clipped result) {
+    const auto ends = queries_.ends(first_, count);
+    const PathLanes paths(numbers, paths_.kind() == PathKind::segment, ends.first, ends.last);
+    const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+    const std::uint32_t others = lanes_beside(queries_.of_batch().grid.main_grid(), paths) & all;
+    result = {result.inside & ~others, result.apart & ~others};
+    if (result.apart != 0) result = clip_from_afar(numbers, count, result);
+    return {result.inside, result.apart | others};
   }
 
   /// Clips the paths of floats that do not begin near the grid, or are very slow or fast.
   HWY_NOINLINE LaneClip::Clipped clip_from_afar(const float* numbers, std::size_t count, LaneClip::Clipped result) {
     const auto ends = queries_.ends(first_, count);
     const PathLanes paths(numbers, paths_.kind() == PathKind::segment, ends.first, ends.last);
-    const GridFrame& frame = queries_.of_batch().grid.frame();
-    const auto far = far_.template clip<LaneClip::Clipped>(frame, paths, result.apart, clipped_, kernel_paths_);
+    const auto far = far_.template clip<LaneClip::Clipped>(frame_, paths, result.apart, clipped_, kernel_paths_);
     if (far.inside != 0) enters_rest_ = far_.enters_rest;
     const LaneClip::Clipped all = {result.inside | far.inside, far.apart};
     return all.apart == 0 ? all : clip_apart(all);
@@ -153,24 +166,23 @@ class PathQueue {
 
   /// Clips `count` paths of doubles. They walk in float, like all paths.
   HWY_NOINLINE LaneClip::Clipped clip_doubles(std::size_t count) {
-    const Grid& grid = queries_.of_batch().grid;
     LaneDoubles enters;
     LaneClip::Clipped result = clip_in_double(static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1), enters);
     for (std::uint32_t inside = result.inside; inside != 0; inside &= inside - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(inside));
-      kernel_paths_[lane] = KernelPath<Scalar>(paths_[first_ + lane], grid.frame());
+      kernel_paths_[lane] = KernelPath<Scalar>(paths_[first_ + lane], frame_);
       taus_[lane] = {{1, 1, 1}, {0, 0, enters[lane]}};
     }
     for (std::uint32_t apart = std::exchange(result.apart, 0); apart != 0; apart &= apart - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(apart));
       const auto range = queries_.range(first_ + lane);
       const Path<Scalar> path = paths_[first_ + lane];
-      const ClippedPath clipped(grid, path, range.first, range.last);
+      const ClippedPath clipped(frame_, path, range.first, range.last);
       if (clipped.status == ClippedPath::Status::too_far) result.apart |= std::uint32_t{1} << lane;
       if (clipped.status != ClippedPath::Status::clipped) continue;
       result.inside |= std::uint32_t{1} << lane;
-      LaneWalk::put(lane, grid.frame(), clipped, clipped_);
-      kernel_paths_[lane] = KernelPath<Scalar>(path, grid.frame());
+      LaneWalk::put(lane, frame_, clipped, clipped_);
+      kernel_paths_[lane] = KernelPath<Scalar>(path, frame_);
       taus_[lane] = clipped.tau;
     }
     return result;
@@ -233,9 +245,11 @@ class PathQueue {
   [[no_unique_address]] std::conditional_t<is_float, None<1>, std::array<WalkParameter, max_lanes>> taus_;
   const LaneWalk& walk_;
   const Queries& queries_;  ///< The queries of the paths.
-  const LaneClip clip_{queries_.of_batch().grid.frame()};
+  const GridFrame& frame_;  ///< The frame that the paths are clipped to.
+  const LaneClip clip_{frame_};
+  const bool is_main_ = &frame_ != &queries_.of_batch().grid.frame();  ///< True if it is that of the main grid.
   /// True if floats hold the numbers of the grid's frame. Else `LaneClip::clip` only sets the paths of the kernel.
-  const bool can_clip_in_float_ = queries_.of_batch().grid.frame().has_floats;
+  const bool can_clip_in_float_ = frame_.has_floats;
   const PathSpan<Scalar>& paths_;              ///< All paths of the batch.
   const bool is_packed_ = paths_.is_packed();  ///< True if paths can be read in place.
   const Alone& alone_;                         ///< Answers a path that no lane can walk.

@@ -31,6 +31,7 @@
 #include "scene/placed_path.hpp"
 #include "walk/far_clip.hpp"
 #include "walk/grid_traversal.hpp"
+#include "walk/main_grid_path.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
@@ -337,18 +338,18 @@ HWY_NOINLINE void walk_inner(const Query<Scalar>& query, const AnyPath& path, co
   }
 }
 
-/// Walks the path through the outermost grid from tau `enters` on, until the visitor is done. `When` is `AtOnce` or
-/// `OnDemand`.
+/// Walks the path through a frame from tau `enters` on, until the visitor is done. `When` is `AtOnce` or `OnDemand`.
 template <template <typename> class When, typename Scalar, typename AnyPath, typename Visitor>
-HWY_INLINE void walk_from(float enters, const Query<Scalar>& query, const AnyPath& path, const PathRange<Scalar>& range,
-                          const ClippedPath& clipped, Visitor& visitor) {
+HWY_INLINE void walk_from(const GridFrame& frame, float enters, const Query<Scalar>& query, const AnyPath& path,
+                          const PathRange<Scalar>& range, const ClippedPath& clipped, Visitor& visitor) {
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (std::is_same_v<Visitor, AnyHit<float>>) {
+    // It returns false if there is a main grid.
     if (walk_in_lanes(enters, query, path, range, clipped, visitor)) return;
   }
 #endif
-  When<Scalar> when(path, range, query.grid.frame());
-  walk_frame(query.grid.frame(), enters, query, path, range, clipped, when, visitor);
+  When<Scalar> when(path, range, frame);
+  walk_frame(frame, enters, query, path, range, clipped, when, visitor);
 }
 
 /// Gives the visitor all triangles of a grid of one list, if the path comes to their box.
@@ -368,12 +369,12 @@ HWY_INLINE void visit_only_list(const Query<Scalar>& query, const Path<Scalar>& 
   visit_list(query, range, path, input, list_of(query, query.grid.top()[0]), visitor);
 }
 
-/// Gives the visitor the triangles that a clipped path may meet, until the visitor is done. A long path of floats walks
-/// only through the grid's cover, if this is useful. Paths of doubles have one walk for all lengths, because two would
-/// take too much stack.
+/// Gives the visitor the triangles that a path may meet, until the visitor is done. The path is clipped to the
+/// outermost frame or to that of the main grid. A long path of floats walks only through the grid's cover, if this is
+/// useful. Paths of doubles have one walk for all lengths, because two would take too much stack.
 template <typename Scalar, typename AnyPath, typename Visitor>
-HWY_INLINE void walk_clipped(const Query<Scalar>& query, const AnyPath& path, const PathRange<Scalar>& range,
-                             ClippedPath& clipped, Visitor& visitor) {
+HWY_INLINE void walk_clipped(const GridFrame& frame, const Query<Scalar>& query, const AnyPath& path,
+                             const PathRange<Scalar>& range, ClippedPath& clipped, Visitor& visitor) {
   if (clipped.status == ClippedPath::Status::miss) return;
   if (clipped.status == ClippedPath::Status::too_far) {
     visit_all<Scalar, Path<Scalar>>(query, path, range, visitor);
@@ -381,7 +382,7 @@ HWY_INLINE void walk_clipped(const Query<Scalar>& query, const AnyPath& path, co
   }
   constexpr float few_cells = 4;
   const bool is_far = is_long(few_cells, query.grid, clipped, 0);
-  if (!is_far && clipped.stays_in_empty_space(query.grid, query.grid.frame())) {
+  if (!is_far && clipped.stays_in_empty_space(query.grid, frame)) {
     ++query.statistics.cells;
     return;
   }
@@ -389,26 +390,27 @@ HWY_INLINE void walk_clipped(const Query<Scalar>& query, const AnyPath& path, co
     if (is_far) {
       float enters = 0;
       const GridCover& cover = query.grid.cover();
-      if (cover.is_useful()) {
+      if (cover.is_useful() && &frame == &query.grid.frame()) {
         const GridCover::Part part = cover.part_of(clipped.start, clipped.inverse_rate, clipped.octant, clipped.end);
         if (part.enters > part.leaves) return;
         enters = part.enters;
         clipped.end = part.leaves;
       }
-      walk_from<AtOnce>(enters, query, path, range, clipped, visitor);
+      walk_from<AtOnce>(frame, enters, query, path, range, clipped, visitor);
       return;
     }
   }
-  walk_from<OnDemand>(0, query, path, range, clipped, visitor);
+  walk_from<OnDemand>(frame, 0, query, path, range, clipped, visitor);
 }
 
 /// Clips a path of floats that does not begin near the grid, or is very slow or fast. Returns true if it misses the
 /// grid, or if it has walked.
 template <typename Visitor>
-HWY_NOINLINE bool walk_from_afar(const Query<float>& query, const Path<float>& path, const PathRange<float>& range,
-                                 ClippedPath::InFloat in_float, ClippedPath& clipped, Visitor& visitor) {
-  const FarClip far(query.grid.frame(), path, range.first, range.last, in_float, clipped);
-  if (far.is_free) walk_clipped(query, FarPath(path, far), range, clipped, visitor);
+HWY_NOINLINE bool walk_from_afar(const GridFrame& frame, const Query<float>& query, const Path<float>& path,
+                                 const PathRange<float>& range, ClippedPath::InFloat in_float, ClippedPath& clipped,
+                                 Visitor& visitor) {
+  const FarClip far(frame, path, range.first, range.last, in_float, clipped);
+  if (far.is_free) walk_clipped(frame, query, FarPath(path, far), range, clipped, visitor);
   return far.is_free || far.status == FarClip::Status::miss;
 }
 
@@ -424,15 +426,18 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
   }
   if (query.grid.is_empty()) return;
   if constexpr (std::is_same_v<Scalar, float>) {
+    const bool is_in_main =
+        query.grid.main_grid().exists() && misses_others(query.grid.main_grid(), path, range.first, range.last);
+    const GridFrame& frame = is_in_main ? query.grid.main_frame() : query.grid.frame();
     ClippedPath clipped;
-    const auto in_float = clipped.clip_in_float(query.grid.frame(), path, range.first, range.last);
+    const auto in_float = clipped.clip_in_float(frame, path, range.first, range.last);
     if (in_float != ClippedPath::InFloat::done) [[unlikely]] {
-      if (walk_from_afar(query, path, range, in_float, clipped, visitor)) return;
+      if (walk_from_afar(frame, query, path, range, in_float, clipped, visitor)) return;
     }
-    walk_clipped(query, path, range, clipped, visitor);
+    walk_clipped(frame, query, path, range, clipped, visitor);
   } else {
     ClippedPath clipped(query.grid, path, range.first, range.last);
-    walk_clipped(query, path, range, clipped, visitor);
+    walk_clipped(query.grid.frame(), query, path, range, clipped, visitor);
   }
 }
 
