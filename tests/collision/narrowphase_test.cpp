@@ -164,6 +164,19 @@ TYPED_TEST(NarrowphaseOf, order_of_two_triangles_that_share_the_end_takes_no_exa
   }
 }
 
+/// A path in the plane of one triangle ends where it touches both.
+TYPED_TEST(NarrowphaseOf, order_of_two_bounds_that_are_one_number_takes_no_exact_arithmetic) {
+  const Triangle<TypeParam> tilted{{0, 0, 0}, {0, 1, 1}, {1, 0, -1}};
+  this->path_ = Segment<TypeParam>{{-2, -1, 0}, {0, 0, 0}};
+  const auto flat = this->candidate_of(unit_triangle<TypeParam>(), 9);
+  for (const std::uint32_t id : {4U, 12U}) {
+    const auto crossed = this->candidate_of(tilted, id);
+    EXPECT_EQ(this->narrowphase_.comes_before(crossed, flat), id < 9);
+    EXPECT_EQ(this->narrowphase_.comes_before(flat, crossed), id > 9);
+  }
+  EXPECT_EQ(this->statistics_.exact_orders, 0u);
+}
+
 /// The path starts in the first triangle alone. It meets the second one so little after the begin of the range that
 /// bounds in double do not tell.
 TEST(NarrowphaseOfDouble, order_of_a_start_in_a_plane_and_a_contact_right_after_the_begin) {

@@ -63,6 +63,14 @@ std::optional<Eigen::Index> axis_of_plane(const Path<Scalar>& path, const Triang
 ///
 /// G6. Let the interval begin with -s / d of one weight, and let this be certain. Another weight is s' + t d' there.
 ///     This is (s' d - s d') / d, and the weight itself is zero.
+///
+/// G7. If a point is at a corner, the weights by both edges of this corner are zero there. The arithmetic may not see
+///     this, because both products of `cross` are rounded.
+///
+/// G8. Let e be the weight at t = 1 of a segment. If s < 0 and e < 0, the pair is a miss in the range [0, 1]. If s < 0
+///     and e = 0, the contact can only be at t = 1. Then it is a hit if no weight is negative there. If no weight is
+///     negative at t = 0, the first contact is there.
+/// Proof. The weight is linear in t. In the second case it is negative at all t below 1.
 struct PlaneWeight {
   Bounded s, d;
 };
@@ -107,6 +115,16 @@ struct PlaneInterval {
   }
 };
 
+/// Returns whether no weight is negative at an end of the path, if this is certain.
+std::optional<bool> are_positive(const std::array<Bounded, 3>& weights) {
+  bool are_certain = true;
+  for (const Bounded& weight : weights) {
+    if (weight.value < -weight.radius) return false;
+    are_certain &= weight.value > weight.radius || (weight.value == 0 && weight.radius == 0);
+  }
+  return are_certain ? std::optional(true) : std::nullopt;
+}
+
 /// Returns the weight at t.
 Bounded weight_at(double t, const PlaneWeight& weight) { return weight.s + exact(t) * weight.d; }
 
@@ -142,15 +160,50 @@ BoundedContact plane_contact(const Path<Scalar>& path, const Triangle<Scalar>& t
   // The weights of b, c and a, each by the edge opposite the corner.
   const std::array<const Vector3<Scalar>*, 4> corners = {&triangle.c, &triangle.a, &triangle.b, &triangle.c};
   std::array<PlaneWeight, 3> weights;
-  PlaneInterval interval;
+  std::array<Bounded, 3> starts;
+  std::array<Bounded, 3> ends;
   for (std::size_t i = 0; i < 3; ++i) {
     const PlaneVector edge = difference(*corners[i + 1], *corners[i]);
-    weights[i] = {cross(edge, difference(path.start, *corners[i])), cross(edge, d)};
+    const auto weight_of = [&](const Vector3<Scalar>& point) {
+      const auto is_at = [&](const Vector3<Scalar>& corner) { return point[x] == corner[x] && point[y] == corner[y]; };
+      const bool is_at_corner = is_at(*corners[i]) || is_at(*corners[i + 1]);
+      return is_at_corner ? exact(0) : cross(edge, difference(point, *corners[i]));  // G7
+    };
+    weights[i] = {weight_of(path.start), cross(edge, d)};
     if (*side < 0) weights[i] = {-weights[i].s, -weights[i].d};
-    if (!interval.add(weights[i], i)) return {};
+    starts[i] = weights[i].s;
+    if (path.has_end()) ends[i] = *side < 0 ? -weight_of(path.toward) : weight_of(path.toward);
   }
   BoundedContact result;
   result.u_scaled.radius = result.v_scaled.radius = unlimited;
+  const Bounded size = *side < 0 ? -normal : normal;
+  std::optional<bool> at_start = path.has_start() ? are_positive(starts) : false;
+  std::optional<bool> at_end = path.has_end() ? are_positive(ends) : false;
+  if (path.has_end() && range.first == 0 && range.last == 1) {  // G8
+    bool is_behind = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (starts[i].sign() != -1) continue;
+      const std::optional<int> at_one = ends[i].sign();
+      if (at_one == -1 || (at_one == 0 && at_end == false)) {
+        result.verdict = Verdict::miss;
+        return result;
+      }
+      is_behind |= at_one == 0;
+    }
+    const bool is_known = (at_start == true && at_end) || (is_behind && at_end == true);
+    if (is_known) {
+      const double t = *at_start ? 0 : 1;
+      result.verdict = Verdict::hit;
+      result.contact = {t, t, Side::edge_on, *at_start, *at_end};
+      const std::array<Bounded, 3>& there = *at_start ? starts : ends;
+      set_quotients(result, there[0], there[1], size);
+      return result;
+    }
+  }
+  PlaneInterval interval;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!interval.add(weights[i], i)) return {};
+  }
   const double first = range.first;
   const double last = range.last;
   // G5
@@ -159,13 +212,12 @@ BoundedContact plane_contact(const Path<Scalar>& path, const Triangle<Scalar>& t
     return result;
   }
   const bool meets = interval.first_upper <= std::min(interval.last_lower, last) && interval.last_lower >= first;
-  const std::optional<bool> at_start = path.has_start() ? interval.contains(0) : false;
-  const std::optional<bool> at_end = path.has_end() ? interval.contains(1) : false;
+  if (!at_start) at_start = interval.contains(0);
+  if (!at_end) at_end = interval.contains(1);
   if (!meets || !at_start || !at_end) return result;
   result.verdict = Verdict::hit;
   result.contact = {std::max(interval.first_lower, first), std::max(interval.first_upper, first), Side::edge_on,
                     *at_start, *at_end};
-  const Bounded size = *side < 0 ? -normal : normal;
   if (interval.first_upper <= first) {
     set_quotients(result, weight_at(first, weights[0]), weight_at(first, weights[1]), size);
   } else if (interval.knows_entry && interval.first_lower >= first) {

@@ -24,6 +24,7 @@
 #include "filter/classify_in_double-inl.hpp"
 #include "filter/kernel_path.hpp"
 #include "filter/path_box.hpp"
+#include "filter/plane_lanes-inl.hpp"
 #include "narrowphase.hpp"
 #include "path_range.hpp"
 #include "query/query.hpp"
@@ -67,7 +68,7 @@ struct OpenLanes {
 };
 
 /// Classifies some lanes of a block of floats in double. The visitor takes what is certain now. Returns the lanes that
-/// are still to be decided. If the path is shorter now, `shorter` is true.
+/// are still to be decided. Sets `shorter` if the path is shorter now.
 template <typename AnyPath, typename Visitor>
 HWY_INLINE OpenLanes look_again(const CandidateBlock<float, AnyPath>& block, const Path<float>& path,
                                 std::uint64_t lanes, Visitor& visitor, bool& shorter) {
@@ -83,38 +84,90 @@ HWY_INLINE OpenLanes look_again(const CandidateBlock<float, AnyPath>& block, con
                                               block.reach, block.from,  verdicts,   first};
   // Without a bound of the list, each pair may still be decided by its own sizes.
   const std::uint64_t close = std::isfinite(block.list.edge_size) ? verdicts.possible & ~verdicts.certain : 0;
-  return {(lanes & ~again) | visitor.take_certain(now, shorter), close};
+  bool is_nearer = false;
+  const std::uint64_t left = visitor.take_certain(now, is_nearer);
+  shorter |= is_nearer;
+  return {(lanes & ~again) | left, close};
 }
 
-/// Gives the candidates of some lanes to the visitor one by one, with a narrowphase that can decide them. Lanes of
-/// floats are classified in double before. Returns true if the path is shorter now.
+/// Returns the lanes of `lanes` whose triangle has a box that meets the box of the path up to `limit`. It is not
+/// inlined, so that its frame is gone when the exact stage needs the stack.
+template <typename Scalar, typename AnyPath>
+HWY_NOINLINE std::uint64_t lanes_near(const CandidateBlock<Scalar, AnyPath>& block, const Path<Scalar>& path,
+                                      double limit, std::uint64_t lanes) {
+  return lanes & lanes_that_meet(PathBox<Scalar>(path, limit), block.list, block.from);
+}
+
+/// Removes from `lanes` those that a path in the plane of a wall certainly misses. Returns those of the others that
+/// contain the start of the path.
+template <typename Scalar, typename AnyPath>
+HWY_NOINLINE std::uint64_t look_at_start(const CandidateBlock<Scalar, AnyPath>& block, const Path<Scalar>& path,
+                                         std::uint64_t& lanes) {
+  if (!path.has_start()) return 0;
+  const SharingLanes sharing = lanes_that_share(path, block.list, block.from);
+  std::uint64_t at_start = sharing.corner;
+  for (std::size_t axis = 0; axis < 3 && path.has_end(); ++axis) {
+    const auto on = static_cast<Eigen::Index>(axis);
+    if (path.start[on] != path.toward[on] || (sharing.plane[axis] & lanes) == 0) continue;
+    const SeenLanes seen = lanes_seen_along(axis, path, block.list, block.from, lanes);
+    lanes &= ~seen.misses;
+    at_start |= seen.around & sharing.plane[axis];
+  }
+  return at_start & lanes;
+}
+
+/// Gives the candidates of some lanes to the visitor one by one, with a narrowphase that can decide them. A triangle
+/// that contains the start comes first, because then few others count. Lanes of floats are classified in double before.
+/// Returns true if the path is shorter now.
 template <typename Scalar, typename AnyPath, typename Visitor>
 HWY_NOINLINE bool visit_one_by_one(const CandidateBlock<Scalar, AnyPath>& block, std::uint64_t lanes,
                                    Visitor& visitor) {
+  // The ids are needed soon.
+  hwy::Prefetch(block.query.grid.entries().address(block.entry(static_cast<std::size_t>(std::countr_zero(lanes)))));
   bool shorter = false;
   if constexpr (Visitor::wants_order) {
     if (visitor.take_tie(block, lanes, shorter)) return shorter;
   }
   // A Path that is made here lives as long as this reference.
   const typename Visitor::AnyPath& path = block.path;
+  std::uint64_t at_start = 0;
   if constexpr (std::is_same_v<typename Visitor::AnyPath, Path<Scalar>>) {
     double limit = double{block.range.last};
     if constexpr (Visitor::shortens) {
       limit = std::min(limit, visitor.limit());
       lanes = visitor.lanes_that_may_come_first(block, lanes);
     }
-    lanes &= lanes_that_meet(PathBox<Scalar>(path, limit), block.list, block.from);
+    if constexpr (std::is_same_v<Scalar, float>) {
+      lanes &= lanes_that_meet(PathBox<Scalar>(path, limit), block.list, block.from);
+    } else {
+      lanes = lanes_near(block, path, limit, lanes);  // Stack is scarce in double.
+    }
     if (lanes == 0) return shorter;
+    // A triangle alone is decided as fast without this.
+    if (!std::has_single_bit(lanes)) at_start = look_at_start(block, path, lanes);
   }
-  OpenLanes open = {lanes, 0};
-  if constexpr (std::is_same_v<typename Visitor::AnyPath, Path<float>>)
-    open = look_again(block, path, lanes, visitor, shorter);
   const typename Visitor::Narrowphase narrowphase(path, block.query.options, block.range, block.query.statistics);
-  for (; open.lanes != 0 && !visitor.is_done(); open.lanes &= open.lanes - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(open.lanes));
+  OpenLanes open = {lanes, 0};
+  bool has_looked = !std::is_same_v<typename Visitor::AnyPath, Path<float>>;
+  while (open.lanes != 0 && !visitor.is_done()) {
+    if constexpr (std::is_same_v<typename Visitor::AnyPath, Path<float>>) {
+      if (at_start == 0 && !has_looked) {
+        open = look_again(block, path, open.lanes, visitor, shorter);
+        has_looked = true;
+        continue;
+      }
+    }
+    const auto lane = static_cast<std::size_t>(std::countr_zero(at_start != 0 ? at_start : open.lanes));
+    const bool is_close = at_start != 0 || (open.close >> lane & 1) != 0;
     Candidate<Scalar> candidate{block.query.grid.entries()[block.entry(lane)], block.triangle(lane), {}};
-    const Closeness closeness = (open.close >> lane & 1) != 0 ? Closeness::close : Closeness::unknown;
-    shorter |= visitor.take(block.query, narrowphase, candidate, closeness);
+    shorter |= visitor.take(block.query, narrowphase, candidate, is_close ? Closeness::close : Closeness::unknown);
+    open.lanes &= ~(std::uint64_t{1} << lane);
+    if (at_start == 0) continue;
+    at_start = 0;
+    if constexpr (Visitor::shortens && std::is_same_v<typename Visitor::AnyPath, Path<Scalar>>) {
+      open.lanes = visitor.lanes_that_may_come_first(block, open.lanes);
+      if (open.lanes != 0) open.lanes = lanes_near(block, path, visitor.limit(), open.lanes);
+    }
   }
   return shorter;
 }
@@ -202,7 +255,9 @@ class FirstHit {
   template <typename AnyPath>
   [[nodiscard]] std::uint64_t lanes_that_may_come_first(const CandidateBlock<Scalar, AnyPath>& block,
                                                         std::uint64_t lanes) const {
-    if (!is_decided() || !best_.contact.at_start) return lanes;
+    if (!is_decided() || !best_.contact.at_start || lanes == 0) return lanes;
+    const auto first = static_cast<std::size_t>(std::countr_zero(lanes));
+    if (comes_later(block.query.grid.entries()[block.entry(first)])) return 0;
     const auto last = [&] { return static_cast<std::size_t>(std::bit_width(lanes)) - 1; };
     while (lanes != 0 && comes_later(block.query.grid.entries()[block.entry(last())])) {
       lanes &= ~(std::uint64_t{1} << last());

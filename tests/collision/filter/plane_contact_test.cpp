@@ -158,6 +158,32 @@ TYPED_TEST(PlaneContact, along_an_edge_on_an_axis_is_certain) {
   EXPECT_EQ(beside.verdict, Verdict::miss);
 }
 
+TYPED_TEST(PlaneContact, at_a_corner_of_any_size_is_certain) {
+  using Scalar = TypeParam;
+  const Vector3<Scalar> corner(Scalar(0.1), Scalar(0.7), 0);
+  const Vector3<Scalar> b(Scalar(4.3), Scalar(0.9), 0);
+  const Vector3<Scalar> c(Scalar(1.1), Scalar(3.7), 0);
+  const Vector3<Scalar> behind(Scalar(-1.3), Scalar(0.1), 0);
+  const Vector3<Scalar> beyond(Scalar(5.9), Scalar(4.7), 0);
+  for (const Triangle<Scalar>& triangle :
+       {Triangle<Scalar>{corner, b, c}, Triangle<Scalar>{corner, c, b}, Triangle<Scalar>{b, c, corner}}) {
+    const BoundedContact touched = this->contact_of(Segment<Scalar>{behind, corner}, triangle);
+    EXPECT_EQ(touched.verdict, Verdict::hit);
+    EXPECT_EQ(touched.contact.t_lower, 1);
+    EXPECT_EQ(touched.contact.t_upper, 1);
+    EXPECT_TRUE(!touched.contact.at_start && touched.contact.at_end);
+    const BoundedContact left = this->contact_of(Segment<Scalar>{corner, behind}, triangle);
+    EXPECT_EQ(left.verdict, Verdict::hit);
+    EXPECT_EQ(left.contact.t_upper, 0);
+    EXPECT_TRUE(left.contact.at_start && !left.contact.at_end);
+    const BoundedContact crossed = this->contact_of(Segment<Scalar>{beyond, corner}, triangle);
+    EXPECT_EQ(crossed.verdict, Verdict::hit);
+    EXPECT_GT(crossed.contact.t_lower, 0.2);
+    EXPECT_LT(crossed.contact.t_upper, 0.8);
+    EXPECT_TRUE(!crossed.contact.at_start && crossed.contact.at_end);
+  }
+}
+
 TYPED_TEST(PlaneContact, leaves_a_path_through_a_corner_alone_undecided) {
   const Segment<TypeParam> through_corner{{3, -1, 0}, {5, 1, 0}};
   EXPECT_EQ(this->contact_of(through_corner, this->triangle_).verdict, Verdict::undecided);
