@@ -25,56 +25,75 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <typename Number>
 struct LanePrecision {
   static constexpr double u = 0x1p-53;
-  static constexpr double smallest = 0x1p-150;  ///< Sizes must be above this,
-  static constexpr double largest = 0x1p200;    ///< and below this.
+  static constexpr double largest = largest_double;  ///< Sizes must be below this.
 };
 template <>
 struct LanePrecision<float> {
   static constexpr double u = 0x1p-24;
-  static constexpr double smallest = ShapeFilter<float>::smallest_float;
-  static constexpr double largest = ShapeFilter<float>::largest_float;
+  static constexpr double largest = largest_float;
 };
 
 /// Tests triangles in lanes of floats or doubles.
 ///
 /// An axis m separates the shape from the triangle if all corners have a lower product with m than every centre of the
 /// way has, by more than the reach r |m| + c(m). Here c(m) is how far the core comes along m: 0 for a point, the sum of
-/// all |m_i| h_i for a box with half extents h, and |m·h| for a segment from -h to h. The axes are the normal n, the
-/// outward directions e × n of the edges, the directions D × e across the step and an edge, and the axes of
-/// coordinates. On most of them, the distance of the centre changes at a constant rate, so the shape is near enough
-/// during one interval of t. Where these intervals do not meet, the shape does not touch the triangle. It does not
-/// touch it before the latest of them begins.
+/// all |m_i| h_i for a box with half extents h, and |m·h| for a segment from -h to h.
 ///
-/// E is the largest component of an edge, W that of a centre less a corner, H that of h, and S that of
-/// the step. Let u be 2^-53 in double and 2^-24 in float.
+/// Let w be start - a, p = b - a, q = c - a and D the step. Let f = D × p, g = D × q, n = p × q and A = D·n. First come
+/// f, g and f - g, which are across the step and an edge, and n. They leave out nearly all triangles, without quotients
+/// and roots. Of the others, the axes of coordinates are asked, and the outward directions e × n of the edges. There
+/// and on n, the distance of the centre changes at a constant rate. So the shape is near enough during one interval of
+/// t. Where these intervals do not meet, the shape does not touch the triangle. It does not touch it before the latest
+/// of them begins.
 ///
-/// V1. n·w is off by less than 54 u E² W, D·n by as much with S for W, and (D × e)·w by less than 54 u S E W.
-/// Proof. A difference has one rounding. So a component of n has two products of two differences each, off by 3 u of
-///     itself, and the rounded difference of both: less than 8 u E², and it is at most 2 E². A product with a
-///     component of w adds 3 u of itself. The three products and two sums are off by less than 3 (8 + 2 · 3) u E² W,
-///     and 12 u E² W for the sums.
+/// A = f·q = -g·p. So the corners are at 0, 0 and A along f and along -g, and at 0, A and A along f - g.
 ///
-/// V2. (e × n)·w is off by less than 132 u E³ W.
-/// Proof. A component of e × n is off by 2 (8 + 2 · 2) u E³, and 4 u E³ for the difference, which is 28 u E³. It is at
+/// E is the largest component of p and q, W that of w, S that of the step, H that of h, and F is W + E + r + H. Let u
+/// be 2^-53 in double and 2^-24 in float.
+///
+/// V1. f·w is off by less than 54 u S E W, (f - g)·w by less than 120 u S E W, A by less than 54 u S E², and n·w by
+/// less than 54 u E² W.
+/// Proof. A difference has one rounding. So a component of f has two products of two differences each, off by 3 u of
+///     itself, and the rounded difference of both: less than 8 u S E, and it is at most 2 S E. A product with a
+///     component of w adds 3 u of itself. The three products and two sums are off by less than 3 (8 + 2 · 3) u S E W,
+///     and 12 u S E W for the sums. The difference of f·w and g·w adds 12 u S E W. A fused multiplication has fewer
+///     roundings.
+///
+/// V2. f, g or f - g separates if the height above the corners, less c(m) and 256 u S E F, is more than r |m|.
+/// Proof. By V1, the height is off by 120 u S E W + 54 u S E², and 18 u S E (W + E) for its own rounding. The
+///     components of m are off by at most 20 u S E. So r |m| is off by 35 u S E r. c(m) is off by 60 u S E H for them,
+///     and by 32 u S E H for its products and sums. The differences add 12 u S E (W + E + H).
+///
+/// V3. n separates until t if the height above the corners, less c(n), 256 u E² F and t times the approach, is more
+/// than r |n|. The approach is the rate |n·D| toward the plane, with its sign, and 256 u S E².
+/// Proof. The height is off as V1 says, and A is n·D. The components of n are off by 8 u E². So r |n| is off by 14 u E²
+///     r, and c(n) by 54 u E² H as n·w is.
+///
+/// V4. e × n separates if the height is more than r |e| |n| + c(e × n) + 1024 u E³ (F + S), at the start and at the
+/// end.
+/// Proof. A component of p × n is off by 2 (8 + 2 · 2) u E³, and 4 u E³ for the difference, which is 28 u E³. It is at
 ///     most 4 E³. The products with w have 3 u of this more, and take part in two, two and one sums. That is 3 · 28 u
-///     E³ W and (4 + 4 + 3) 4 u E³ W, or 128 u E³ W in all.
+///     E³ W and 11 · 4 u E³ W: less than 132 u E³ W. The third edge has q × n - p × n, whose height above b is the
+///     difference of those above a, less n·n. It is off by 288 u E³ W, and n·n by 144 u E⁴. r |e| |n| is off by 16 u of
+///     itself, which is below 14 r E³, and by 56 u r E³ for e and n. c(e × n) is off as the height is, with H for W.
+///     The end adds D, and an error with S for W.
 ///
-/// V3. r |m| is off by less than 16 u of itself, and by r times what the components of m are off, for the axes above.
-///     |e × n| is |e| |n|, because n is across e.
+/// V5. The squares of two numbers have the order of the numbers, so V2 and V3 take no root. The product r² |m|² is off
+/// by less than 16 u of itself.
+/// Proof. If a square overflows, it is infinite, and infinity is not above infinity. In float, underflow changes both
+///     squares by less than 2^-147 (1 + |m|² + r²), whose root is below 2^-73 (1 + |m| + r). Let S, E and F be above
+///     2^-18. Then 64 u S E F and 64 u E² F are above it. V2 and V3 have at least as much left over. In double they are
+///     above 2^-150, which covers 2^-500 (1 + |m| + r) likewise.
 ///
-/// V4. c(m) is off by what V1 and V2 say of m·w, with H for W. It is a sum of the same products.
+/// On an axis of coordinates, the heights are off by less than 16 u (W + E + S). The reach r + h_i has one rounding,
+/// and counts only if it is less than W + E + S.
 ///
-/// So a reach of r |m| (1 + 256 u) + c(m) + 256 u B (W + r + H) is enough, where B is E² for n, E³ for e × n and S E
-/// for D × e. On an axis of coordinates, the reach r + h_i has one rounding, and counts only if it is less than W.
-///
-/// Coordinates outside of the sizes of `LanePrecision` may underflow or overflow, and are not tested. Let E, W + r + H
-/// and S be inside, or S be 0. In double, the products of all sizes are above 2^-1000. In float, a product that
-/// underflows is off by at most 2^-149, and the root of a sum of squares by at most 2^-73. All terms with u are larger:
-/// 256 u E² r is the least one that has to cover a root of n·n, and 256 u S E r one of f·f.
+/// Coordinates outside of the sizes of `LanePrecision` may underflow or overflow. Then the axes of coordinates alone
+/// are asked.
 ///
 /// On the axes of coordinates, a product with one over the step takes the place of a quotient. Where the step or its
 /// inverse might be infinite, the inverse is a NaN. Then only a constant distance counts. A time that is above 0 is at
-/// least 2^-50, so none underflows: its height is more than 8 u W above the reach, and falls by at most 2 W.
+/// least 2^-50, so none underflows: its height is more than 8 u S above the reach, and falls by at most 2 S.
 template <typename Scalar, typename Number, Core core>
 class FilterLanes {
   using Tag = hn::ScalableTag<Number>;
@@ -82,15 +101,18 @@ class FilterLanes {
   using V = hn::Vec<Tag>;
   using Mask = hn::Mask<Tag>;
   using Precision = LanePrecision<Number>;
+  using Numbers = FilterNumbers<Number>;
   using Point = V[3];
 
  public:
-  static std::uint64_t find(const ShapeFilter<Scalar>& shape, const Scalar* corners, std::size_t count,
-                            std::size_t from, double limit, double* enters) {
+  static std::uint64_t find(const Numbers& shape, const Scalar* corners, std::size_t count, std::size_t from,
+                            double limit, double* enters) {
     const std::size_t last = std::min(count, from + ShapeFilter<Scalar>::max_count);
+    // A limit that is rounded is within the errors of V3 and of the times. The smallest times always count.
+    const V until = set(static_cast<Number>(std::max(limit, 0x1p-100)));
     std::uint64_t found = 0;
     for (std::size_t at = from; at < last; at += hn::Lanes(d)) {
-      found |= test(shape, corners + at, count, limit, enters + (at - from)) << (at - from);
+      found |= test(shape, corners + at, count, until, enters + (at - from)) << (at - from);
     }
     return last - from == 64 ? found : found & ((std::uint64_t{1} << (last - from)) - 1);
   }
@@ -103,18 +125,23 @@ class FilterLanes {
       return hn::PromoteTo(d, hn::LoadU(hn::Rebind<Scalar, Tag>(), from));
     }
   }
-  static HWY_INLINE V set(double x) { return hn::Set(d, static_cast<Number>(x)); }
+  static HWY_INLINE V set(Number x) { return hn::Set(d, x); }
+  static HWY_INLINE V errors(double count) { return set(static_cast<Number>(count * Precision::u)); }
   static HWY_INLINE V dot(const Point& x, const Point& y) {
-    return hn::Add(hn::Add(hn::Mul(x[0], y[0]), hn::Mul(x[1], y[1])), hn::Mul(x[2], y[2]));
+    return hn::MulAdd(x[0], y[0], hn::MulAdd(x[1], y[1], hn::Mul(x[2], y[2])));
   }
   static HWY_INLINE void cross(const Point& x, const Point& y, Point& out) {
-    out[0] = hn::Sub(hn::Mul(x[1], y[2]), hn::Mul(x[2], y[1]));
-    out[1] = hn::Sub(hn::Mul(x[2], y[0]), hn::Mul(x[0], y[2]));
-    out[2] = hn::Sub(hn::Mul(x[0], y[1]), hn::Mul(x[1], y[0]));
+    out[0] = hn::MulSub(x[1], y[2], hn::Mul(x[2], y[1]));
+    out[1] = hn::MulSub(x[2], y[0], hn::Mul(x[0], y[2]));
+    out[2] = hn::MulSub(x[0], y[1], hn::Mul(x[1], y[0]));
+  }
+  static HWY_INLINE void subtract(const Point& x, const Point& y, Point& out) {
+    for (std::size_t i = 0; i < 3; ++i) out[i] = hn::Sub(x[i], y[i]);
   }
   /// Returns how far the core comes along m.
-  static HWY_INLINE V reach_of_core(const Point& m, const Point& half) {
+  static HWY_INLINE V reach_of_core(const Point& m, const Numbers& shape) {
     if constexpr (core == Core::point) return hn::Zero(d);
+    const Point half = {set(shape.half[0]), set(shape.half[1]), set(shape.half[2])};
     if constexpr (core == Core::segment) return hn::Abs(dot(m, half));
     const Point sizes = {hn::Abs(m[0]), hn::Abs(m[1]), hn::Abs(m[2])};
     return dot(sizes, half);
@@ -130,18 +157,15 @@ class FilterLanes {
     HWY_INLINE Mask outside_before(V limit) const {
       return hn::Or(beside, hn::Or(hn::Gt(enters, leaves), hn::Gt(enters, limit)));
     }
-    /// Returns true if these are all lanes.
-    HWY_INLINE bool is_empty_before(V limit) const { return hn::AllTrue(d, outside_before(limit)); }
-
-    /// Cuts the interval to where a height that goes from `first` to `last` is at most `reach`.
-    HWY_INLINE void keep_below(V first, V last, V reach) {
+    /// Cuts the interval to where a height that begins at `first` and grows by `rate` is at most `reach`.
+    HWY_INLINE void keep_below(V first, V rate, V reach) {
       const V above = hn::Sub(first, reach);
-      keep_until(hn::Div(above, hn::Sub(first, last)), above, hn::Sub(last, reach));
+      keep_until(hn::Div(above, hn::Neg(rate)), above, hn::Add(above, rate));
     }
-    /// Does the same for a height that falls by the same amount for all triangles, where `inverse` is one over it.
-    HWY_INLINE void keep_below(V first, V last, V reach, V inverse) {
+    /// Does the same for a rate that all triangles share, where `inverse` is one over it, negated.
+    HWY_INLINE void keep_below(V first, V rate, V reach, V inverse) {
       const V above = hn::Sub(first, reach);
-      keep_until(hn::Mul(above, inverse), above, hn::Sub(last, reach));
+      keep_until(hn::Mul(above, inverse), above, hn::Add(above, rate));
     }
 
    private:
@@ -153,105 +177,145 @@ class FilterLanes {
       const Mask ends_above = hn::Gt(last, zero);
       beside = hn::Or(beside, hn::And(starts_above, ends_above));
       // t has four roundings at most. A 0 / 0 is a NaN, and comparisons skip it.
-      const V in = hn::Mul(t, set(1 - 16 * Precision::u));
-      const V out = hn::Mul(t, set(1 + 16 * Precision::u));
+      const V in = hn::Mul(t, set(static_cast<Number>(1 - 16 * Precision::u)));
+      const V out = hn::Mul(t, set(static_cast<Number>(1 + 16 * Precision::u)));
       enters = hn::IfThenElse(hn::And(hn::AndNot(ends_above, starts_above), hn::Gt(in, enters)), in, enters);
       leaves = hn::IfThenElse(hn::And(hn::AndNot(starts_above, ends_above), hn::Lt(out, leaves)), out, leaves);
     }
   };
 
-  /// Returns a bit for each triangle that the shape may touch.
-  static HWY_INLINE std::uint64_t test(const ShapeFilter<Scalar>& shape, const Scalar* corners, std::size_t count,
-                                       double limit, double* enters) {
-    Point corner[3];
-    for (std::size_t k = 0; k < 9; ++k) corner[k / 3][k % 3] = load(corners + k * count);
-    const V radius = set(shape.radius);
-    Interval interval{hn::Zero(d), set(1), hn::Lt(radius, hn::Zero(d))};
+  /// A vector of triangles, seen from the shape.
+  struct Terms {
+    Point p, q, w, n, step;
+    V size;    ///< E
+    V far;     ///< F
+    V height;  ///< n·w
+    V rate;    ///< n·D
+    V nn;      ///< n·n
+    Mask is_usable;
 
-    Point w[3];    // The start less each corner.
-    Point end[3];  // The end less each corner.
-    Point edge[3];
-    Point step;
-    Point half;
-    V size = hn::Zero(d);
-    V reach_of_w = hn::Zero(d);
-    for (std::size_t i = 0; i < 3; ++i) {
-      step[i] = set(shape.step[i]);
-      half[i] = set(shape.half[i]);
-      for (std::size_t k = 0; k < 3; ++k) {
-        w[k][i] = hn::Sub(set(shape.start[i]), corner[k][i]);
-        end[k][i] = hn::Sub(set(shape.end[i]), corner[k][i]);
-        edge[k][i] = hn::Sub(corner[k == 2 ? 0 : k + 1][i], corner[k][i]);
-        size = hn::Max(size, hn::Abs(edge[k][i]));
-        reach_of_w = hn::Max(reach_of_w, hn::Max(hn::Abs(w[k][i]), hn::Abs(end[k][i])));
+    HWY_INLINE Terms(const Numbers& shape, const Scalar* corners, std::size_t count) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const V a = load(corners + i * count);
+        w[i] = hn::Sub(set(shape.start[i]), a);
+        p[i] = hn::Sub(load(corners + (3 + i) * count), a);
+        q[i] = hn::Sub(load(corners + (6 + i) * count), a);
+        step[i] = set(shape.step[i]);
       }
-      // On an axis of coordinates, the highest corner is below the centre by the lowest w.
-      const V slack = hn::Mul(reach_of_w, set(8 * Precision::u));
-      const V reach = hn::Add(set(shape.radius + std::fabs(shape.half[i])), slack);
-      const auto lowest = [&](const Point* x) { return hn::Min(hn::Min(x[0][i], x[1][i]), x[2][i]); };
-      const auto highest = [&](const Point* x) { return hn::Max(hn::Max(x[0][i], x[1][i]), x[2][i]); };
-      const V inverse = set(shape.inverse_step[i]);
-      interval.keep_below(lowest(w), lowest(end), reach, hn::Neg(inverse));
-      interval.keep_below(hn::Neg(highest(w)), hn::Neg(highest(end)), reach, inverse);
+      size = hn::Max(size_of(p), size_of(q));
+      far = hn::Add(hn::Add(size_of(w), size), set(shape.size));
+      cross(p, q, n);
+      height = dot(n, w);
+      rate = dot(n, step);
+      nn = dot(n, n);
+      is_usable = hn::And(hn::Gt(hn::Min(size, far), set(shape.smallest)),
+                          hn::Lt(far, set(static_cast<Number>(Precision::largest))));
     }
-    // A rounded limit is above the times that count, since these have a share of 16 u taken off. The smallest ones may
-    // be rounded up, so they always count.
-    const V last = set(std::max(limit, 0x1p-100));
-    if (interval.is_empty_before(last)) return 0;
-    const V far = hn::Add(reach_of_w, set(shape.radius + shape.size_of_half));
-    const V size_2 = hn::Mul(size, size);
-    const V size_3 = hn::Mul(size_2, size);
-    const V error = hn::Mul(far, set(256 * Precision::u));
-    const V grown = set(shape.radius * (1 + 256 * Precision::u));
-    const V smallest = set(shape.is_usable ? Precision::smallest : std::numeric_limits<double>::infinity());
-    const Mask is_usable =
-        hn::And(hn::Gt(hn::Min(size, far), smallest), hn::Lt(hn::Max(size, far), set(Precision::largest)));
+  };
 
+  /// Returns a bit for each triangle that the shape may touch.
+  static HWY_INLINE std::uint64_t test(const Numbers& shape, const Scalar* corners, std::size_t count, V limit,
+                                       double* enters) {
+    const Terms terms(shape, corners, count);
+    const Mask apart =
+        hn::And(terms.is_usable, hn::Or(are_apart_across(shape, terms), are_apart_until(shape, terms, limit)));
+    if (hn::AllTrue(d, apart)) return 0;
+    return test_intervals(shape, terms, apart, limit, enters);
+  }
+
+  /// Returns the lanes where f, g or f - g separates (V2).
+  static HWY_INLINE Mask are_apart_across(const Numbers& shape, const Terms& terms) {
+    Point f, g, h;
+    cross(terms.step, terms.p, f);
+    cross(terms.step, terms.q, g);
+    subtract(f, g, h);
+    const V along_f = dot(f, terms.w);
+    const V along_g = hn::Neg(dot(g, terms.w));
+    const V across = dot(f, terms.q);
+    const V low = hn::Min(across, hn::Zero(d));
+    const V high = hn::Max(across, hn::Zero(d));
+    const V error = hn::Mul(hn::Mul(set(shape.size_of_step), terms.size), hn::Mul(terms.far, errors(256)));
+    const V square = set(shape.squared_radius);
+    const auto separates = [&](const Point& m, V height) HWY_ATTR {
+      const V gap = hn::Max(hn::Sub(low, height), hn::Sub(height, high));
+      return is_above_root(hn::Sub(gap, hn::Add(error, reach_of_core(m, shape))), hn::Mul(square, dot(m, m)));
+    };
+    return hn::Or(hn::Or(separates(f, along_f), separates(g, along_g)), separates(h, hn::Add(along_f, along_g)));
+  }
+
+  /// Returns the lanes where n separates until a limit (V3).
+  static HWY_INLINE Mask are_apart_until(const Numbers& shape, const Terms& terms, V limit) {
+    const V size_2 = hn::Mul(terms.size, terms.size);
+    const V error = hn::Mul(size_2, hn::Mul(terms.far, errors(256)));
+    const V of_rate = hn::Mul(size_2, hn::Mul(set(shape.size_of_step), errors(256)));
+    const V approach = hn::Sub(of_rate, hn::CopySignToAbs(hn::Abs(terms.rate), hn::Xor(terms.rate, terms.height)));
+    const V comes = hn::Max(hn::Mul(limit, approach), hn::Zero(d));
+    const V gap = hn::Sub(hn::Abs(terms.height), hn::Add(error, reach_of_core(terms.n, shape)));
+    return is_above_root(hn::Sub(gap, comes), hn::Mul(set(shape.squared_radius), terms.nn));
+  }
+
+  /// Returns the lanes where x is certainly above the root of `square` (V5).
+  static HWY_INLINE Mask is_above_root(V x, V square) {
+    return hn::And(hn::Gt(x, hn::Zero(d)), hn::Gt(hn::Mul(x, x), square));
+  }
+
+  /// Does what `test` does, for lanes that are not apart yet. It also sets when the shape may enter them.
+  static HWY_NOINLINE std::uint64_t test_intervals(const Numbers& shape, const Terms& terms, Mask apart, V limit,
+                                                   double* enters) {
+    Interval interval{hn::Zero(d), set(1), apart};
+    const Point& p = terms.p;
+    const Point& q = terms.q;
+    const V zero = hn::Zero(d);
+    const V slack = hn::Mul(hn::Add(terms.far, set(shape.size_of_step)), errors(16));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const V lowest = hn::Sub(terms.w[i], hn::Max(hn::Max(p[i], q[i]), zero));
+      const V highest = hn::Sub(terms.w[i], hn::Min(hn::Min(p[i], q[i]), zero));
+      const V reach = hn::Add(set(shape.reach[i]), slack);
+      const V inverse = set(shape.inverse_step[i]);
+      interval.keep_below(lowest, terms.step[i], reach, hn::Neg(inverse));
+      interval.keep_below(hn::Neg(highest), hn::Neg(terms.step[i]), reach, inverse);
+    }
     Interval tilted = interval;
-    Point n;
-    cross(edge[0], edge[1], n);
-    const V reach_of_n = hn::Mul(grown, hn::Sqrt(dot(n, n)));
+    const V size_2 = hn::Mul(terms.size, terms.size);
+    const V far = hn::Add(terms.far, set(shape.size_of_step));
+    const V reach_of_n = hn::Mul(set(shape.grown_radius), hn::Sqrt(terms.nn));
     {
-      const V of_ball = hn::MulAdd(size_2, error, reach_of_n);
-      const V reach = hn::Add(of_ball, reach_of_core(n, half));
-      const V first = dot(n, w[0]);
-      const V at_end = dot(n, end[0]);
-      tilted.keep_below(first, at_end, reach);
-      tilted.keep_below(hn::Neg(first), hn::Neg(at_end), reach);
+      const V of_ball = hn::MulAdd(hn::Mul(size_2, far), errors(256), reach_of_n);
+      const V reach = hn::Add(of_ball, reach_of_core(terms.n, shape));
+      tilted.keep_below(terms.height, terms.rate, reach);
+      tilted.keep_below(hn::Neg(terms.height), hn::Neg(terms.rate), reach);
     }
-    const V across = dot(n, step);
-    const V across_error = hn::Mul(hn::Mul(size_2, set(shape.size_of_step)), set(256 * Precision::u));
-    for (std::size_t k = 0; k < 3; ++k) {
-      Point outward;
-      cross(edge[k], n, outward);
-      const V of_ball = hn::MulAdd(reach_of_n, hn::Sqrt(dot(edge[k], edge[k])), hn::Mul(size_3, error));
-      const V reach = hn::Add(of_ball, reach_of_core(outward, half));
-      tilted.keep_below(dot(outward, w[k]), dot(outward, end[k]), reach);
-      // Along f = D × e, the corners of the edge are at 0, and the third corner is at D·n.
-      Point f;
-      cross(step, edge[k], f);
-      const V of_f = hn::MulAdd(grown, hn::Sqrt(dot(f, f)), hn::Mul(hn::Mul(set(shape.size_of_step), size), error));
-      const V reach_of_f = hn::Add(hn::Add(of_f, reach_of_core(f, half)), across_error);
-      const V height = dot(f, w[k]);
-      const V low = hn::Min(across, hn::Zero(d));
-      const V high = hn::Max(across, hn::Zero(d));
-      tilted.beside = hn::Or(
-          tilted.beside, hn::Or(hn::Gt(hn::Sub(height, high), reach_of_f), hn::Gt(hn::Sub(low, height), reach_of_f)));
-    }
-    interval.enters = hn::IfThenElse(is_usable, tilted.enters, interval.enters);
-    interval.leaves = hn::IfThenElse(is_usable, tilted.leaves, interval.leaves);
-    interval.beside = hn::Or(interval.beside, hn::And(is_usable, tilted.beside));
+    const V error = hn::Mul(hn::Mul(size_2, terms.size), hn::Mul(far, errors(1024)));
+    const auto keep_inside = [&](const Point& e, const Point& outward, V height, V rate) HWY_ATTR {
+      const V of_ball = hn::MulAdd(reach_of_n, hn::Sqrt(dot(e, e)), error);
+      tilted.keep_below(height, rate, hn::Add(of_ball, reach_of_core(outward, shape)));
+    };
+    Point of_p, of_q, of_third, third;
+    cross(p, terms.n, of_p);
+    cross(q, terms.n, of_q);
+    const V height_p = dot(of_p, terms.w);
+    const V height_q = dot(of_q, terms.w);
+    const V rate_p = dot(of_p, terms.step);
+    const V rate_q = dot(of_q, terms.step);
+    keep_inside(p, of_p, height_p, rate_p);
+    keep_inside(q, of_q, hn::Neg(height_q), hn::Neg(rate_q));
+    subtract(q, p, third);
+    subtract(of_q, of_p, of_third);
+    keep_inside(third, of_third, hn::Sub(hn::Sub(height_q, height_p), terms.nn), hn::Sub(rate_q, rate_p));
+    interval.enters = hn::IfThenElse(terms.is_usable, tilted.enters, interval.enters);
+    interval.leaves = hn::IfThenElse(terms.is_usable, tilted.leaves, interval.leaves);
+    interval.beside = hn::Or(interval.beside, hn::And(terms.is_usable, tilted.beside));
     Number times[HWY_MAX_BYTES / sizeof(Number)];
     hn::StoreU(interval.enters, d, times);
     std::copy_n(times, hn::Lanes(d), enters);
-    return ~bits_of(d, interval.outside_before(last)) & ((std::uint64_t{1} << hn::Lanes(d)) - 1);
+    return ~bits_of(d, interval.outside_before(limit)) & ((std::uint64_t{1} << hn::Lanes(d)) - 1);
   }
 };
 
 template <typename Scalar, typename Number>
-HWY_INLINE std::uint64_t find(const ShapeFilter<Scalar>& shape, const Scalar* corners, std::size_t count,
+HWY_INLINE std::uint64_t find(Core core, const FilterNumbers<Number>& shape, const Scalar* corners, std::size_t count,
                               std::size_t from, double limit, double* enters) {
-  switch (shape.core) {
+  switch (core) {
     case Core::box:
       return FilterLanes<Scalar, Number, Core::box>::find(shape, corners, count, from, limit, enters);
     case Core::segment:
@@ -263,12 +327,12 @@ HWY_INLINE std::uint64_t find(const ShapeFilter<Scalar>& shape, const Scalar* co
 }
 std::uint64_t find_floats(const ShapeFilter<float>& shape, const float* corners, std::size_t count, std::size_t from,
                           double limit, double* enters) {
-  if (shape.fits_float) return find<float, float>(shape, corners, count, from, limit, enters);
-  return find<float, double>(shape, corners, count, from, limit, enters);
+  if (shape.fits_float) return find(shape.core, shape.floats, corners, count, from, limit, enters);
+  return find(shape.core, shape.doubles, corners, count, from, limit, enters);
 }
 std::uint64_t find_doubles(const ShapeFilter<double>& shape, const double* corners, std::size_t count, std::size_t from,
                            double limit, double* enters) {
-  return find<double, double>(shape, corners, count, from, limit, enters);
+  return find(shape.core, shape.doubles, corners, count, from, limit, enters);
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE
@@ -280,30 +344,66 @@ namespace surehit::detail {
 HWY_EXPORT(find_floats);
 HWY_EXPORT(find_doubles);
 
+namespace {
+
+/// Returns whether the sizes of V5 hold for a step and all other numbers of a shape.
+bool are_between(double smallest, double size_of_step, double largest_number, double largest) {
+  return (size_of_step == 0 || size_of_step > smallest) && largest_number < largest;
+}
+
+template <typename Number>
+void convert(const std::array<double, 3>& from, std::array<Number, 3>& to) {
+  for (std::size_t i = 0; i < 3; ++i) to[i] = static_cast<Number>(from[i]);
+}
+
+}  // namespace
+
 template <typename Scalar>
 void ShapeFilter<Scalar>::set(Core any_core, const Vector3<Scalar>& any_start, const Vector3<Scalar>& any_end,
                               const Vector3<Scalar>& any_half, Scalar any_radius) {
   // The inverse of a smaller step might not be finite, in float or in double.
   const double least = std::is_same_v<Scalar, float> ? 0x1p-100 : 0x1p-1000;
   core = any_core;
-  radius = any_radius;
-  size_of_half = size_of_step = 0;
-  double largest = radius;
+  const double radius = any_radius;
+  double size_of_half = 0;
+  double size_of_step = 0;
+  double size_of_ends = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    start[i] = any_start[axis];
-    end[i] = any_end[axis];
-    half[i] = any_half[axis];
-    step[i] = end[i] - start[i];
-    const double size = std::fabs(step[i]);
-    inverse_step[i] = size >= least && size <= 0x1p1000 ? 1 / step[i] : std::numeric_limits<double>::quiet_NaN();
-    size_of_half = std::max(size_of_half, std::fabs(half[i]));
-    size_of_step = std::max(size_of_step, std::fabs(step[i]));
-    largest = std::max({largest, std::fabs(start[i]), std::fabs(end[i]), std::fabs(half[i])});
+    const double half = any_half[axis];
+    const double step = double{any_end[axis]} - double{any_start[axis]};
+    const double size = std::fabs(step);
+    doubles.start[i] = any_start[axis];
+    doubles.step[i] = step;
+    doubles.half[i] = half;
+    doubles.reach[i] = radius + std::fabs(half);
+    doubles.inverse_step[i] = size >= least && size <= 0x1p1000 ? 1 / step : std::numeric_limits<double>::quiet_NaN();
+    size_of_half = std::max(size_of_half, std::fabs(half));
+    size_of_step = std::max(size_of_step, size);
+    size_of_ends = std::max({size_of_ends, std::fabs(double{any_start[axis]}), std::fabs(double{any_end[axis]})});
   }
-  is_usable = (size_of_step == 0 || size_of_step > 0x1p-200) && largest < 0x1p200;
-  fits_float = (size_of_step == 0 || size_of_step > smallest_float) &&
-               std::max({radius, size_of_half, size_of_step}) < largest_float;
+  doubles.grown_radius = radius * (1 + 256 * 0x1p-53);
+  doubles.squared_radius = radius * radius * (1 + 16 * 0x1p-53);
+  doubles.size_of_step = size_of_step;
+  doubles.size = radius + size_of_half;
+  const bool is_usable =
+      are_between(smallest_double, size_of_step, std::max({radius, size_of_half, size_of_ends}), largest_double);
+  doubles.smallest = is_usable ? smallest_double : std::numeric_limits<double>::infinity();
+  if constexpr (std::is_same_v<Scalar, float>) {
+    fits_float =
+        are_between(smallest_float, size_of_step, std::max({radius, size_of_half, size_of_step}), largest_float);
+    if (!fits_float) return;
+    convert(doubles.start, floats.start);
+    convert(doubles.step, floats.step);
+    convert(doubles.half, floats.half);
+    convert(doubles.reach, floats.reach);
+    convert(doubles.inverse_step, floats.inverse_step);
+    floats.grown_radius = static_cast<float>(radius * (1 + 256 * 0x1p-24));
+    floats.squared_radius = static_cast<float>(radius * radius * (1 + 16 * 0x1p-24));
+    floats.size_of_step = static_cast<float>(size_of_step);
+    floats.size = static_cast<float>(doubles.size);
+    floats.smallest = static_cast<float>(smallest_float);
+  }
 }
 
 template <typename Scalar>

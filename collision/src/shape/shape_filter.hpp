@@ -18,6 +18,27 @@ enum class Core : std::uint8_t {
   segment,  ///< A segment with the centre in its middle.
 };
 
+// Sizes above the smallest ones and below the largest ones can be tested in lanes of doubles or floats.
+inline constexpr double smallest_double = 0x1p-150;
+inline constexpr double largest_double = 0x1p200;
+inline constexpr double smallest_float = 0x1p-18;
+inline constexpr double largest_float = 0x1p20;
+
+/// The numbers of a shape that the lanes need.
+template <typename Number>
+struct FilterNumbers {
+  std::array<Number, 3> start;         ///< The centre at t = 0.
+  std::array<Number, 3> step;          ///< The centre at t = 1 less that at t = 0.
+  std::array<Number, 3> inverse_step;  ///< One over each component of the step, or NaN.
+  std::array<Number, 3> half;          ///< The half extents of a box, or half of a segment. A point has zeros.
+  std::array<Number, 3> reach;         ///< How far the shape reaches from its centre on each axis.
+  Number grown_radius;                 ///< The radius, and what covers the roundings of its products.
+  Number squared_radius;               ///< Its square, likewise.
+  Number size_of_step;                 ///< The largest component of the step.
+  Number size;                         ///< The radius and the largest component of `half`.
+  Number smallest;                     ///< What the sizes of triangles must be above. It is infinite for no triangle.
+};
+
 /// Finds out which triangles of a list a moving shape may touch, many of them at once. What it leaves out is certainly
 /// not touched.
 template <typename Scalar>
@@ -36,21 +57,11 @@ class ShapeFilter {
   [[nodiscard]] std::uint64_t find(const Scalar* corners, std::size_t count, std::size_t from, double limit,
                                    Times& enters) const;
 
-  static constexpr double smallest_float = 0x1p-20;  ///< Sizes above this can be tested in float,
-  static constexpr double largest_float = 0x1p20;    ///< if they are below this.
-
   // What the functions for each instruction set need.
-  Core core;                           ///< What the core is.
-  std::array<double, 3> start;         ///< The centre at t = 0.
-  std::array<double, 3> end;           ///< The centre at t = 1.
-  std::array<double, 3> step;          ///< The difference of the two, rounded.
-  std::array<double, 3> inverse_step;  ///< One over each component of the step, or NaN.
-  std::array<double, 3> half;          ///< The half extents of a box, or half of a segment. A point has zeros.
-  double radius;                       ///< The radius.
-  double size_of_half;                 ///< The largest component of `half`.
-  double size_of_step;                 ///< The largest component of the step.
-  bool is_usable;                      ///< True if the sizes of these numbers are such that the bounds hold.
-  bool fits_float;                     ///< The same for bounds in float.
+  Core core;                      ///< What the core is.
+  FilterNumbers<double> doubles;  ///< For lanes of doubles.
+  FilterNumbers<float> floats;    ///< For lanes of floats, if they fit.
+  bool fits_float = false;        ///< True if the sizes are such that the bounds hold in float.
 
  private:
   /// Sets all members.
