@@ -85,6 +85,14 @@ struct LanePrecision<float> {
 ///     2^-18. Then 64 u S E F and 64 u E² F are above it. V2 and V3 have at least as much left over. In double they are
 ///     above 2^-150, which covers 2^-500 (1 + |m| + r) likewise.
 ///
+/// V6. Let the height along n be at least h + c(n) + 256 u E² (F + S) at all times when the shape may touch the
+/// triangle. Then V4 holds with the root of r² (n·n + 256 u E⁴) - h² in place of r |n|.
+/// Proof. Let z be a point of the core that is at most r from the triangle, and beyond the plane through an edge and
+///     along n. The distance beyond it and that along n belong to a triangle with a right angle. Times |n|, the latter
+///     is at least h. So the square of the former, times n·n, is at most r² n·n - h². n·n is off by less than 96 u E⁴
+///     for its components, and by 36 u E⁴ for products and sums. Roundings of r² and h² are in the 16 u of V5, since h
+///     is at most r |n|. Underflow changes the root by less than 2^-73 (1 + r), and 1024 u E² F is above it.
+///
 /// On an axis of coordinates, the heights are off by less than 16 u (W + E + S). The reach r + h_i has one rounding,
 /// and counts only if it is less than W + E + S.
 ///
@@ -278,16 +286,22 @@ class FilterLanes {
     Interval tilted = interval;
     const V size_2 = hn::Mul(terms.size, terms.size);
     const V far = hn::Add(terms.far, set(shape.size_of_step));
-    const V reach_of_n = hn::Mul(set(shape.grown_radius), hn::Sqrt(terms.nn));
+    V reach_beside;  // V6
     {
-      const V of_ball = hn::MulAdd(hn::Mul(size_2, far), errors(256), reach_of_n);
-      const V reach = hn::Add(of_ball, reach_of_core(terms.n, shape));
+      const V of_core = hn::MulAdd(hn::Mul(size_2, far), errors(256), reach_of_core(terms.n, shape));
+      const V reach = hn::MulAdd(set(shape.grown_radius), hn::Sqrt(terms.nn), of_core);
       tilted.keep_below(terms.height, terms.rate, reach);
       tilted.keep_below(hn::Neg(terms.height), hn::Neg(terms.rate), reach);
+      const V first = hn::MulAdd(terms.rate, tilted.enters, terms.height);
+      const V last = hn::MulAdd(terms.rate, tilted.leaves, terms.height);
+      const V lowest = hn::Max(hn::Min(first, last), hn::Neg(hn::Max(first, last)));
+      const V gap = hn::Max(hn::Sub(lowest, of_core), zero);
+      const V square = hn::Mul(set(shape.squared_radius), hn::MulAdd(hn::Mul(size_2, size_2), errors(256), terms.nn));
+      reach_beside = hn::Sqrt(hn::Max(hn::NegMulAdd(gap, gap, square), zero));
     }
     const V error = hn::Mul(hn::Mul(size_2, terms.size), hn::Mul(far, errors(1024)));
     const auto keep_inside = [&](const Point& e, const Point& outward, V height, V rate) HWY_ATTR {
-      const V of_ball = hn::MulAdd(reach_of_n, hn::Sqrt(dot(e, e)), error);
+      const V of_ball = hn::MulAdd(reach_beside, hn::Sqrt(dot(e, e)), error);
       tilted.keep_below(height, rate, hn::Add(of_ball, reach_of_core(outward, shape)));
     };
     Point of_p, of_q, of_third, third;

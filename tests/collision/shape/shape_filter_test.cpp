@@ -95,5 +95,18 @@ TYPED_TEST(ShapeFilterOf, keeps_the_capsules_that_touch) {
   }
 }
 
+/// A ball that rolls at a height of the radius touches nothing beside it (V6).
+TYPED_TEST(ShapeFilterOf, leaves_out_what_is_beside_a_rolling_ball) {
+  using Scalar = TypeParam;
+  const SweptSphere<Scalar> sphere{{0, 0, 1}, {4, 0, 1}, 1};
+  const auto is_kept = [&](Scalar y) {
+    const typename TestFixture::List list({{0, y, 0}, {4, y, 0}, {2, y + 3, 0}});
+    typename ShapeFilter<Scalar>::Times enters;
+    return (ShapeFilter<Scalar>(sphere).find(list.corners.data(), 1, 0, 1, enters) & 1) != 0;
+  };
+  EXPECT_TRUE(is_kept(0));
+  EXPECT_FALSE(is_kept(Scalar(0.25)));
+}
+
 }  // namespace
 }  // namespace surehit::test
