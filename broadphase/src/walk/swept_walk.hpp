@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "grid/grid.hpp"
 #include "grid/list_cells.hpp"
@@ -20,7 +21,7 @@ struct SweptExtents {
 };
 
 /// Visits all cells of a grid that a moving box comes to and that list triangles. It visits at least each cell that
-/// has a point which the box meets before t = `visitor.limit()`. SHAPES.md has the proof (W1 to W4).
+/// has a point which the box meets before t = `visitor.limit()`. SHAPES.md has the proof (W1 to W5).
 ///
 /// `visitor.visit_list(word)` gets the word of each cell, with its list. `visitor.is_done()` ends the walk.
 /// `visitor.count_cell()` counts a step. `slabs` has the slab of each list, or is null.
@@ -64,6 +65,19 @@ class SweptWalk {
       const double s = first * inverse;
       const double t = last * inverse;
       return {std::max(0.0, std::min(s, t)), std::min(1.0, std::max(s, t))};
+    }
+    /// Returns the one of two cells that the box comes to first.
+    [[nodiscard]] std::int64_t first_of(const std::array<std::int64_t, 2>& range) const {
+      return way < 0 ? range[1] : range[0];
+    }
+    /// Returns when the box comes to a cell beyond so many cells of this size, where the first one is that of a range
+    /// (W5).
+    [[nodiscard]] double comes_beyond(const std::array<std::int64_t, 2>& range, double count, double size) const {
+      if (std::fabs(way) < 0x1p-300) {
+        return static_cast<double>(range[1] - range[0]) < count ? std::numeric_limits<double>::infinity() : 0;
+      }
+      if (way < 0) return ((static_cast<double>(range[1] + 1) - count) * size + reach - start) * inverse;
+      return ((static_cast<double>(range[0]) + count) * size - reach - start) * inverse;
     }
     /// Returns the first and the last top cell that the box meets during some times. `inverse_size` is one over the
     /// number of finest cells along a top cell, which is a power of two.
@@ -116,8 +130,18 @@ class SweptWalk {
       const std::int64_t i = outer.way < 0 ? last - step : first + step;
       const Times in_slab = outer.during(static_cast<double>(i) * size, static_cast<double>(i + 1) * size);
       if (is_late(in_slab)) continue;
-      const auto [low, high] = middle.range(in_slab, inverse_size);
-      for (std::int64_t j = low; j <= high; ++j) {
+      const auto rows = middle.range(in_slab, inverse_size);
+      const double empty_until = empty_from(frame, axes, order, {i, i}, rows, inner.range(in_slab, inverse_size));
+      if (empty_until > std::min(1.0, visitor_.limit())) return;
+      if (empty_until > in_slab.enters) {
+        const std::int64_t next = outer.first_of(outer.range({empty_until, empty_until}, inverse_size));
+        const std::int64_t next_step = outer.way < 0 ? last - next : next - first;
+        if (next_step > step) {
+          step = next_step - 1;
+          continue;
+        }
+      }
+      for (std::int64_t j = rows[0]; j <= rows[1]; ++j) {
         const Times in_row =
             middle.during(static_cast<double>(j) * size, static_cast<double>(j + 1) * size).within(in_slab);
         if (is_late(in_row)) continue;
@@ -125,6 +149,31 @@ class SweptWalk {
         if (visitor_.is_done()) return;
       }
     }
+  }
+
+  /// Returns a time before which all cells are empty that the box meets in a slab and after it, or 0. It begins to meet
+  /// the slab in the cells of these ranges (W5).
+  [[nodiscard]] double empty_from(const GridFrame& frame, const std::array<Axis, 3>& axes,
+                                  const std::array<std::size_t, 3>& order, const std::array<std::int64_t, 2>& slab,
+                                  const std::array<std::int64_t, 2>& rows,
+                                  const std::array<std::int64_t, 2>& columns) const {
+    if (rows[0] > rows[1] || columns[0] > columns[1]) return 0;
+    const std::array<const std::array<std::int64_t, 2>*, 3> ranges = {&slab, &rows, &columns};
+    std::size_t index = frame.first_top;
+    std::uint32_t octant = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Axis& axis = axes[order[k]];
+      index += static_cast<std::size_t>(axis.first_of(*ranges[k])) * axis.pitch;
+      if (axis.way < 0) octant |= 1U << order[k];
+    }
+    visitor_.count_cell();
+    const CellWord word = grid_.all_top()[index];
+    if (!word.is_empty()) return 0;
+    double until = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+      until = std::min(until, axes[order[k]].comes_beyond(*ranges[k], word.distance(octant), frame.division));
+    }
+    return until;
   }
 
   /// Goes through a row of top cells.

@@ -147,6 +147,27 @@ TYPED_TEST(ColliderSpheres, FindWhatBruteForceFindsInMeshesThatAreHardForGrids) 
   ASSERT_NO_FATAL_FAILURE(compare(far, "far"));
 }
 
+TYPED_TEST(ColliderSpheres, FindWhatIsBehindEmptySpace) {
+  using Scalar = TypeParam;
+  Random random(6);
+  for (std::size_t i = 0; i < case_count(4); ++i) {
+    // Tiny triangles far from each other in a fine grid, so the walk leaps over many cells. Balls are wider than a
+    // cell.
+    const auto mesh = scattered_triangles<Scalar>(100, Scalar(0.001), random);
+    const Collider<Scalar> collider(mesh.view(), {.grid = {.resolution = {24, 24, 24}}});
+    const auto draw = [&] {
+      return Vector3<Scalar>(random.symmetric<Scalar>(), random.symmetric<Scalar>(), random.symmetric<Scalar>());
+    };
+    for (std::size_t k = 0; k < 600; ++k) {
+      const SweptSphere<Scalar> sphere{draw(), draw(), Scalar(0.15) * random.unit<Scalar>()};
+      const auto expected = brute_force(mesh.view(), sphere);
+      const ShapeHit<Scalar> first = expected.empty() ? ShapeHit<Scalar>{} : expected.front();
+      ASSERT_TRUE(collider.first_hit(sphere).value_or(ShapeHit<Scalar>{}) == first);
+      ASSERT_EQ(collider.any_hit(sphere), !expected.empty());
+    }
+  }
+}
+
 TYPED_TEST(ColliderSpheres, FindAllThatIsThereFromAfarAndWithAnySize) {
   using Scalar = TypeParam;
   Random random(9);
