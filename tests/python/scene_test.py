@@ -104,6 +104,27 @@ class SceneTest(unittest.TestCase):
         self.assertEqual((caught.exception.status, caught.exception.element), (205, first.index))
         self.assertEqual(scene.first_hit(surehit.Ray((-1, 0.5, 0.5), (1, 0, 0))).instance, second)
 
+    def test_snapshots_stay_the_same(self):
+        scene, box = surehit.Scene(np.float32), surehit.Collider(BOX, SIDES)
+        instance = scene.add(box, surehit.translation_pose((4, 0, 0), np.float32), user_data=3)
+        self.assertEqual(len(scene.snapshot()), 0)  # it was not committed
+        scene.commit()
+        snapshot = scene.snapshot()
+        ray = surehit.Ray((-1, 0.5, 0.5), (1, 0, 0))
+        expected = scene.first_hit(ray)
+        scene.set_pose(instance, surehit.translation_pose((9, 0, 0), np.float32))
+        scene.add(box)
+        scene.commit()
+        self.assertEqual((scene.first_hit(ray).t, len(scene)), (1, 2))
+        again = snapshot.snapshot()
+        del scene, box, snapshot  # a snapshot keeps its share
+        self.assertEqual((again.first_hit(ray), again.first_hits(surehit.Rays([ray.start], ray.toward))[0]),
+                         (expected, expected))
+        ball = surehit.SweptSphere((-1, 0.5, 0.5), (9, 0.5, 0.5), 0.25)
+        self.assertEqual(again.first_hit(ball).instance, instance)
+        self.assertEqual((again.instances(), again.user_data(instance), again.pose(instance)[0, 3]), ([instance], 3, 4))
+        self.assertFalse(hasattr(again, "commit"))
+
     def test_poses_that_cannot_be_used(self):
         scene, box = surehit.Scene(), surehit.Collider(BOX, SIDES)
         singular = np.zeros((3, 4))

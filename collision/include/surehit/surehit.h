@@ -6,8 +6,8 @@
 ///
 /// - A name that ends in f is for float, and the same name with d is for double. `surehit_colliderf_first_hit` asks a
 ///   collider of floats.
-/// - Colliders and scenes are handles: pointers to what only the library sees. Everything else is a plain struct. No
-///   struct has bit fields or enumerations. A truth value is a `uint8_t` of 0 or 1.
+/// - Colliders, scenes and their snapshots are handles: pointers to what only the library sees. Everything else is a
+///   plain struct. No struct has bit fields or enumerations. A truth value is a `uint8_t` of 0 or 1.
 /// - Each function that can fail returns a `surehit_status`, and its results go to its last parameters. A failure
 ///   changes no result, except where a function says so. `surehit_last_error` says what is wrong, in one line.
 /// - A pointer to options, a filter, statistics or an executor may be null, for none. Other pointers may not, except

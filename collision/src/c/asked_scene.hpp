@@ -5,9 +5,12 @@
 
 #include "c/arguments.hpp"
 #include "c/asked.hpp"
+#include "c/handle.hpp"
 #include "surehit/c/scene_values_d.h"
 #include "surehit/c/scene_values_f.h"
 #include "surehit/scene.hpp"
+#include "surehit/scene_queries.hpp"
+#include "surehit/scene_snapshot.hpp"
 
 namespace surehit::c {
 
@@ -31,16 +34,8 @@ SUREHIT_SCENE_STRUCTS(double, d)
 inline InstanceId from_c(surehit_instance_id id) { return {id.index, id.generation}; }
 inline surehit_instance_id to_c(InstanceId id) { return {id.index, id.generation}; }
 
-/// Fails if there is no such instance.
 template <typename Scalar>
-void check_instance(Arguments& arguments, const Scene<Scalar>* scene, surehit_instance_id id) {
-  if (!arguments.are_valid() || scene->contains(from_c(id))) return;
-  arguments.refuse(SUREHIT_STALE_ID, id.index, "there is no instance with index %u and generation %u", id.index,
-                   id.generation);
-}
-
-template <typename Scalar>
-struct Asked<Scene<Scalar>> : AskedAboutPaths<Scene<Scalar>, Scalar, SceneHit<Scalar>, SceneQueryOptions<Scalar>,
+struct Asked<Scene<Scalar>> : AskedAboutPaths<SceneQueries<Scalar>, Scalar, SceneHit<Scalar>, SceneQueryOptions<Scalar>,
                                               SceneBatchOptions<Scalar>, SceneStructs<Scalar>> {
   using typename Asked::AskedTypes::Answer;
   using typename Asked::AskedTypes::CHit;
@@ -65,6 +60,47 @@ struct Asked<Scene<Scalar>> : AskedAboutPaths<Scene<Scalar>, Scalar, SceneHit<Sc
   [[nodiscard]] static CHit to_c(const Answer& hit) {
     return {hit.t, hit.u, hit.v, hit.triangle, static_cast<std::uint8_t>(hit.side), c::to_c(hit.instance)};
   }
+};
+
+/// A call that asks a scene or a snapshot about its instances.
+template <typename Scalar>
+class SceneCall {
+ public:
+  SceneCall(const char* function, const void* handle) : arguments(function) {
+    if (arguments.object_of<SceneQueries<Scalar>>(handle, Asked<Scene<Scalar>>::name) == nullptr) return;
+    scene_ = static_cast<const Handle*>(handle)->get<Scene<Scalar>>();
+    snapshot_ = static_cast<const Handle*>(handle)->get<SceneSnapshot<Scalar>>();
+  }
+
+  /// Returns what `get` returns for the scene or for the snapshot. The arguments must be valid.
+  template <typename Get>
+  [[nodiscard]] auto ask(const Get& get) const {
+    return scene_ != nullptr ? get(*scene_) : get(*snapshot_);
+  }
+  /// Fails if there is no such instance.
+  void check_instance(surehit_instance_id id) {
+    if (!arguments.are_valid() || ask([&](const auto& of) { return of.contains(from_c(id)); })) return;
+    arguments.refuse(SUREHIT_STALE_ID, id.index, "there is no instance with index %u and generation %u", id.index,
+                     id.generation);
+  }
+  /// Fails if there is no such instance, or if it has no such triangle.
+  void check_triangle(surehit_instance_id id, std::uint32_t triangle) {
+    check_instance(id);
+    if (!arguments.are_valid()) return;
+    arguments.check_triangle(triangle, ask([&](const auto& of) { return of.triangle_count(from_c(id)); }));
+  }
+  /// Sets the result to what `ask(get)` returns.
+  template <typename Result, typename Get>
+  [[nodiscard]] surehit_status tell(Result* result, const char* name, const Get& get) {
+    arguments.check_pointer(result, name);
+    return arguments.then([&] { *result = ask(get); });
+  }
+
+  Arguments arguments;
+
+ private:
+  const Scene<Scalar>* scene_ = nullptr;             ///< The scene, or null if it is a snapshot.
+  const SceneSnapshot<Scalar>* snapshot_ = nullptr;  ///< The snapshot, or null.
 };
 
 // As for colliders. `SceneHit` has a base, so the compiler need not tell where its members are. A test looks at them.

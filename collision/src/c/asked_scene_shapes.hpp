@@ -8,7 +8,7 @@
 #include "c/asked_shapes.hpp"
 #include "surehit/c/scene_shape_values_d.h"
 #include "surehit/c/scene_shape_values_f.h"
-#include "surehit/scene.hpp"
+#include "surehit/scene_queries.hpp"
 #include "surehit/scene_shape_hit.hpp"
 #include "surehit/scene_shape_options.hpp"
 
@@ -32,12 +32,13 @@ SUREHIT_SCENE_SHAPE_STRUCTS(double, d)
 
 template <typename Scalar>
 struct Asked<ShapesIn<Scene<Scalar>>>
-    : AskedAboutShapes<Scene<Scalar>, Scalar, SceneShapeHit<Scalar>, SceneShapeQueryOptions<Scalar>,
+    : AskedAboutShapes<SceneQueries<Scalar>, Scalar, SceneShapeHit<Scalar>, SceneShapeQueryOptions<Scalar>,
                        SceneShapeBatchOptions<Scalar>, SceneShapeStructs<Scalar>> {
   using typename Asked::AskedTypes::Answer;
   using typename Asked::AskedTypes::CHit;
   using typename Asked::AskedTypes::COptions;
   using typename Asked::AskedTypes::Options;
+  static constexpr const char* name = Asked<Scene<Scalar>>::name;
 
   /// Returns options that have been checked. Null means the defaults.
   [[nodiscard]] static Options options_of(const COptions* given) {

@@ -7,6 +7,8 @@
 
 #include "surehit/collider.hpp"
 #include "surehit/scene.hpp"
+#include "surehit/scene_queries.hpp"
+#include "surehit/scene_snapshot.hpp"
 
 namespace surehit::c {
 
@@ -16,7 +18,9 @@ enum class HandleKind : std::uint32_t {
   collider_of_floats,
   collider_of_doubles,
   scene_of_floats,
-  scene_of_doubles
+  scene_of_doubles,
+  snapshot_of_floats,
+  snapshot_of_doubles
 };
 
 /// The kind of handles of an object.
@@ -30,6 +34,10 @@ template <>
 inline constexpr HandleKind kind_of<Scene<float>> = HandleKind::scene_of_floats;
 template <>
 inline constexpr HandleKind kind_of<Scene<double>> = HandleKind::scene_of_doubles;
+template <>
+inline constexpr HandleKind kind_of<SceneSnapshot<float>> = HandleKind::snapshot_of_floats;
+template <>
+inline constexpr HandleKind kind_of<SceneSnapshot<double>> = HandleKind::snapshot_of_doubles;
 
 /// What a handle of the C interface points to. Its memory never goes back to the system, so that a handle can be told
 /// from one that was closed. A closed one is used again, but only after many others.
@@ -61,6 +69,12 @@ class Handle {
     return kind_.load(std::memory_order_relaxed) == kind_of<Object>;
   }
   [[nodiscard]] static Handle* open(HandleKind kind, std::shared_ptr<void> object);
+  /// Returns a scene or a snapshot, or null if the handle is of neither.
+  template <typename Scalar>
+  [[nodiscard]] SceneQueries<Scalar>* queries() const noexcept {
+    if (Scene<Scalar>* const scene = get<Scene<Scalar>>()) return scene;
+    return get<SceneSnapshot<Scalar>>();
+  }
 
   friend class ClosedHandles;
 
@@ -68,5 +82,15 @@ class Handle {
   std::shared_ptr<void> object_;
   Handle* next_closed_ = nullptr;  ///< The handle that was closed after this one.
 };
+
+// Scenes and snapshots have handles of one type in C, because they answer the same queries.
+template <>
+[[nodiscard]] inline SceneQueries<float>* Handle::get() const noexcept {
+  return queries<float>();
+}
+template <>
+[[nodiscard]] inline SceneQueries<double>* Handle::get() const noexcept {
+  return queries<double>();
+}
 
 }  // namespace surehit::c

@@ -16,6 +16,7 @@
 #include "surehit/c/mixed_scene.h"
 #include "surehit/c/scene_d.h"
 #include "surehit/c/scene_f.h"
+#include "surehit/scene_snapshot.hpp"
 
 namespace surehit::c {
 namespace {
@@ -95,14 +96,38 @@ template <typename Scalar>
   return call.arguments.then([&] { call.object->commit(executor_of(executor)); });
 }
 
+/// Sets `snapshot` to a handle of what a scene or a snapshot has committed.
+template <typename Scalar, typename CScene>
+[[nodiscard]] surehit_status make_snapshot(const char* function, const CScene* scene, CScene** snapshot) {
+  SceneCall<Scalar> call(function, scene);
+  call.arguments.check_pointer(snapshot, "snapshot");
+  return open(call.arguments, snapshot, [&] {
+    return call.ask([](const auto& of) {
+      if constexpr (requires { of.snapshot(); }) {
+        return std::make_shared<SceneSnapshot<Scalar>>(of.snapshot());
+      } else {
+        return std::make_shared<SceneSnapshot<Scalar>>(of);
+      }
+    });
+  });
+}
+
+/// Gives up a scene or a snapshot. Null is allowed.
+template <typename Scalar>
+[[nodiscard]] surehit_status destroy_scene(const char* function, void* handle) {
+  if (handle == nullptr) return SUREHIT_OK;
+  SceneCall<Scalar> call(function, handle);
+  return call.arguments.then([&] { static_cast<Handle*>(handle)->close(); });
+}
+
 template <typename Scalar>
 [[nodiscard]] surehit_status instances(const char* function, const void* handle, surehit_instance_id* ids,
                                        std::size_t capacity, std::size_t* id_count) {
-  HandleCall<Scene<Scalar>> call(function, handle);
+  SceneCall<Scalar> call(function, handle);
   call.arguments.check_array(ids, capacity, sizeof *ids, "ids");
   call.arguments.check_pointer(id_count, "id_count");
   return call.arguments.then([&] {
-    const std::vector<InstanceId> all = call.object->instances();
+    const std::vector<InstanceId> all = call.ask([](const auto& of) { return of.instances(); });
     *id_count = all.size();
     for (std::size_t i = 0; i < std::min(all.size(), capacity); ++i) ids[i] = to_c(all[i]);
   });
@@ -112,172 +137,175 @@ template <typename Scalar>
 template <typename Scalar, typename Result, typename Get>
 [[nodiscard]] surehit_status of_instance(const char* function, const void* handle, surehit_instance_id id,
                                          Result* result, const char* name, const Get& get) {
-  HandleCall<Scene<Scalar>> call(function, handle);
-  check_instance(call.arguments, call.object, id);
-  return call.tell(result, name, [&](const auto& scene) { return get(scene, from_c(id)); });
+  SceneCall<Scalar> call(function, handle);
+  call.check_instance(id);
+  return call.tell(result, name, [&](const auto& of) { return get(of, from_c(id)); });
 }
 
 /// Tells something about a placed triangle: what `get(scene, id, triangle)` returns.
 template <typename Scalar, typename Result, typename Get>
 [[nodiscard]] surehit_status of_placed(const char* function, const void* handle, surehit_instance_id id,
                                        std::uint32_t triangle, Result* result, const char* name, const Get& get) {
-  HandleCall<Scene<Scalar>> call(function, handle);
-  check_instance(call.arguments, call.object, id);
-  if (call.arguments.are_valid()) call.arguments.check_triangle(triangle, call.object->triangle_count(from_c(id)));
-  return call.tell(result, name, [&](const auto& scene) { return get(scene, from_c(id), triangle); });
+  SceneCall<Scalar> call(function, handle);
+  call.check_triangle(id, triangle);
+  return call.tell(result, name, [&](const auto& of) { return get(of, from_c(id), triangle); });
 }
 
 }  // namespace
 
-#define SUREHIT_SCENE_FUNCTIONS(Scalar, s)                                                                             \
-  SUREHIT_C_API surehit_pose##s surehit_pose##s##_identity() { return pose_to_c(Pose<Scalar>()); }                     \
-  SUREHIT_C_API surehit_pose##s surehit_pose##s##_rigid(Scalar x, Scalar y, Scalar z, Scalar w,                        \
-                                                        surehit_vector3##s translation) {                              \
-    return pose_to_c(Pose<Scalar>::rigid(std::array<Scalar, 4>{x, y, z, w}, from_c(translation)));                     \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_scene_query_options##s surehit_scene_query_options##s##_default() {                            \
-    const SceneQueryOptions<Scalar> options;                                                                           \
-    return {options.min_t,                                                                                             \
-            options.max_t,                                                                                             \
-            static_cast<uint8_t>(options.culling),                                                                     \
-            options.mask,                                                                                              \
-            options.instance_mask,                                                                                     \
-            to_c(options.ignored_instance),                                                                            \
-            options.ignored_triangle,                                                                                  \
-            options.ignore_start_contact,                                                                              \
-            options.ignore_end_contact};                                                                               \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_create(surehit_scene##s** scene) {                                   \
-    Arguments arguments(__func__);                                                                                     \
-    arguments.check_pointer(scene, "scene");                                                                           \
-    return open(arguments, scene, [] { return std::make_shared<Scene<Scalar>>(); });                                   \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_destroy(surehit_scene##s* scene) {                                   \
-    return destroy<Scene<Scalar>>(__func__, scene);                                                                    \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_add(surehit_scene##s* scene, const surehit_collider##s* collider,    \
-                                                      const surehit_pose##s* pose, uint32_t mask, uint64_t user_data,  \
-                                                      surehit_instance_id* id) {                                       \
-    return add<Scalar, Scalar>(__func__, scene, collider, pose, mask, user_data, id);                                  \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_remove(surehit_scene##s* scene, surehit_instance_id id) {            \
-    return change(HandleCall<Scene<Scalar>>(__func__, scene), [&](auto& of) { return of.try_remove(from_c(id)); });    \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_set_pose(surehit_scene##s* scene, surehit_instance_id id,            \
-                                                           const surehit_pose##s* pose) {                              \
-    return set_pose<Scalar>(__func__, scene, id, pose);                                                                \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_set_motion(surehit_scene##s* scene, surehit_instance_id id,          \
-                                                             const surehit_vector3##s* motion) {                       \
-    return set_motion<Scalar>(__func__, scene, id, motion);                                                            \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_set_mask(surehit_scene##s* scene, surehit_instance_id id,            \
-                                                           uint32_t mask) {                                            \
-    return change(HandleCall<Scene<Scalar>>(__func__, scene),                                                          \
-                  [&](auto& of) { return of.try_set_mask(from_c(id), mask); });                                        \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_commit(surehit_scene##s* scene, const surehit_executor* executor) {  \
-    return commit<Scalar>(__func__, scene, executor);                                                                  \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_instance_count(const surehit_scene##s* scene, size_t* count) {       \
-    return HandleCall<Scene<Scalar>>(__func__, scene).tell(count, "count", [](const auto& of) {                        \
-      return of.instance_count();                                                                                      \
-    });                                                                                                                \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_contains(const surehit_scene##s* scene, surehit_instance_id id,      \
-                                                           uint8_t* is_there) {                                        \
-    return HandleCall<Scene<Scalar>>(__func__, scene).tell(is_there, "is_there", [&](const auto& of) -> uint8_t {      \
-      return of.contains(from_c(id)) ? 1 : 0;                                                                          \
-    });                                                                                                                \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_instances(const surehit_scene##s* scene, surehit_instance_id* ids,   \
-                                                            size_t capacity, size_t* id_count) {                       \
-    return instances<Scalar>(__func__, scene, ids, capacity, id_count);                                                \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_pose(const surehit_scene##s* scene, surehit_instance_id id,          \
-                                                       surehit_pose##s* pose) {                                        \
-    return of_instance<Scalar>(__func__, scene, id, pose, "pose",                                                      \
-                               [](const auto& of, InstanceId of_id) { return pose_to_c(of.pose(of_id)); });            \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_motion(const surehit_scene##s* scene, surehit_instance_id id,        \
-                                                         surehit_vector3##s* motion) {                                 \
-    return of_instance<Scalar>(__func__, scene, id, motion, "motion",                                                  \
-                               [](const auto& of, InstanceId of_id) { return to_c(of.motion(of_id)); });               \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_mask(const surehit_scene##s* scene, surehit_instance_id id,          \
-                                                       uint32_t* mask) {                                               \
-    return of_instance<Scalar>(__func__, scene, id, mask, "mask",                                                      \
-                               [](const auto& of, InstanceId of_id) { return of.mask(of_id); });                       \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_user_data(const surehit_scene##s* scene, surehit_instance_id id,     \
-                                                            uint64_t* user_data) {                                     \
-    return of_instance<Scalar>(__func__, scene, id, user_data, "user_data",                                            \
-                               [](const auto& of, InstanceId of_id) { return of.user_data(of_id); });                  \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_triangle_count(const surehit_scene##s* scene,                        \
-                                                                 surehit_instance_id id, size_t* count) {              \
-    return of_instance<Scalar>(__func__, scene, id, count, "count",                                                    \
-                               [](const auto& of, InstanceId of_id) { return of.triangle_count(of_id); });             \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_triangle(const surehit_scene##s* scene, surehit_instance_id id,      \
-                                                           uint32_t triangle_id, surehit_triangle##s* triangle) {      \
-    return of_placed<Scalar>(                                                                                          \
-        __func__, scene, id, triangle_id, triangle, "triangle",                                                        \
-        [](const auto& of, InstanceId of_id, uint32_t corner_of) { return to_c(of.triangle(of_id, corner_of)); });     \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_normal(const surehit_scene##s* scene, surehit_instance_id id,        \
-                                                         uint32_t triangle_id, surehit_vector3##s* normal) {           \
-    return of_placed<Scalar>(                                                                                          \
-        __func__, scene, id, triangle_id, normal, "normal",                                                            \
-        [](const auto& of, InstanceId of_id, uint32_t normal_of) { return to_c(of.normal(of_id, normal_of)); });       \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_box(const surehit_scene##s* scene, surehit_box##s* box) {            \
-    return HandleCall<Scene<Scalar>>(__func__, scene).tell(box, "box", [](const auto& of) { return to_c(of.box()); }); \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_memory_bytes(const surehit_scene##s* scene, size_t* bytes) {         \
-    return HandleCall<Scene<Scalar>>(__func__, scene).tell(bytes, "bytes", [](const auto& of) {                        \
-      return of.memory_bytes();                                                                                        \
-    });                                                                                                                \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_first_hit(                                                           \
-      const surehit_scene##s* scene, const surehit_path##s* path, const surehit_scene_query_options##s* options,       \
-      const surehit_scene_filter##s* filter, surehit_statistics* statistics, surehit_scene_hit##s* hit) {              \
-    Arguments arguments(__func__);                                                                                     \
-    return first_hit(SingleQuery<Scene<Scalar>>(arguments, scene, path, options, filter, statistics), hit);            \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_any_hit(                                                             \
-      const surehit_scene##s* scene, const surehit_path##s* path, const surehit_scene_query_options##s* options,       \
-      const surehit_scene_filter##s* filter, surehit_statistics* statistics, uint8_t* blocked) {                       \
-    Arguments arguments(__func__);                                                                                     \
-    return any_hit(SingleQuery<Scene<Scalar>>(arguments, scene, path, options, filter, statistics), blocked);          \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_all_hits(                                                            \
-      const surehit_scene##s* scene, const surehit_path##s* path, const surehit_scene_query_options##s* options,       \
-      const surehit_scene_filter##s* filter, surehit_statistics* statistics, surehit_scene_hit##s* hits,               \
-      size_t capacity, size_t* hit_count) {                                                                            \
-    Arguments arguments(__func__);                                                                                     \
-    return all_hits(SingleQuery<Scene<Scalar>>(arguments, scene, path, options, filter, statistics), hits, capacity,   \
-                    hit_count);                                                                                        \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_first_hits(                                                          \
-      const surehit_scene##s* scene, const surehit_paths##s* paths, const surehit_scene_batch_options##s* options,     \
-      surehit_scene_hit##s* hits) {                                                                                    \
-    Arguments arguments(__func__);                                                                                     \
-    return first_hits(Batch<Scene<Scalar>>(arguments, scene, paths, options), hits);                                   \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_any_hits(                                                            \
-      const surehit_scene##s* scene, const surehit_paths##s* paths, const surehit_scene_batch_options##s* options,     \
-      uint8_t* blocked) {                                                                                              \
-    Arguments arguments(__func__);                                                                                     \
-    return any_hits(Batch<Scene<Scalar>>(arguments, scene, paths, options), blocked);                                  \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_last_free_point(                                                     \
-      const surehit_scene##s* scene, const surehit_path##s* segment, const surehit_scene_hit##s* hit,                  \
-      const surehit_scene_query_options##s* options, const surehit_scene_filter##s* filter,                            \
-      surehit_vector3##s* point) {                                                                                     \
-    Arguments arguments(__func__);                                                                                     \
-    return last_free_point(SingleQuery<Scene<Scalar>>(arguments, scene, segment, options, filter, nullptr), hit,       \
-                           point);                                                                                     \
+#define SUREHIT_SCENE_FUNCTIONS(Scalar, s)                                                                            \
+  SUREHIT_C_API surehit_pose##s surehit_pose##s##_identity() { return pose_to_c(Pose<Scalar>()); }                    \
+  SUREHIT_C_API surehit_pose##s surehit_pose##s##_rigid(Scalar x, Scalar y, Scalar z, Scalar w,                       \
+                                                        surehit_vector3##s translation) {                             \
+    return pose_to_c(Pose<Scalar>::rigid(std::array<Scalar, 4>{x, y, z, w}, from_c(translation)));                    \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_scene_query_options##s surehit_scene_query_options##s##_default() {                           \
+    const SceneQueryOptions<Scalar> options;                                                                          \
+    return {options.min_t,                                                                                            \
+            options.max_t,                                                                                            \
+            static_cast<uint8_t>(options.culling),                                                                    \
+            options.mask,                                                                                             \
+            options.instance_mask,                                                                                    \
+            to_c(options.ignored_instance),                                                                           \
+            options.ignored_triangle,                                                                                 \
+            options.ignore_start_contact,                                                                             \
+            options.ignore_end_contact};                                                                              \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_create(surehit_scene##s** scene) {                                  \
+    Arguments arguments(__func__);                                                                                    \
+    arguments.check_pointer(scene, "scene");                                                                          \
+    return open(arguments, scene, [] { return std::make_shared<Scene<Scalar>>(); });                                  \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_destroy(surehit_scene##s* scene) {                                  \
+    return destroy_scene<Scalar>(__func__, scene);                                                                    \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_add(surehit_scene##s* scene, const surehit_collider##s* collider,   \
+                                                      const surehit_pose##s* pose, uint32_t mask, uint64_t user_data, \
+                                                      surehit_instance_id* id) {                                      \
+    return add<Scalar, Scalar>(__func__, scene, collider, pose, mask, user_data, id);                                 \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_remove(surehit_scene##s* scene, surehit_instance_id id) {           \
+    return change(HandleCall<Scene<Scalar>>(__func__, scene), [&](auto& of) { return of.try_remove(from_c(id)); });   \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_set_pose(surehit_scene##s* scene, surehit_instance_id id,           \
+                                                           const surehit_pose##s* pose) {                             \
+    return set_pose<Scalar>(__func__, scene, id, pose);                                                               \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_set_motion(surehit_scene##s* scene, surehit_instance_id id,         \
+                                                             const surehit_vector3##s* motion) {                      \
+    return set_motion<Scalar>(__func__, scene, id, motion);                                                           \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_set_mask(surehit_scene##s* scene, surehit_instance_id id,           \
+                                                           uint32_t mask) {                                           \
+    return change(HandleCall<Scene<Scalar>>(__func__, scene),                                                         \
+                  [&](auto& of) { return of.try_set_mask(from_c(id), mask); });                                       \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_commit(surehit_scene##s* scene, const surehit_executor* executor) { \
+    return commit<Scalar>(__func__, scene, executor);                                                                 \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_snapshot(const surehit_scene##s* scene,                             \
+                                                           surehit_scene##s** snapshot) {                             \
+    return make_snapshot<Scalar>(__func__, scene, snapshot);                                                          \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_instance_count(const surehit_scene##s* scene, size_t* count) {      \
+    return SceneCall<Scalar>(__func__, scene).tell(count, "count", [](const auto& of) {                               \
+      return of.instance_count();                                                                                     \
+    });                                                                                                               \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_contains(const surehit_scene##s* scene, surehit_instance_id id,     \
+                                                           uint8_t* is_there) {                                       \
+    return SceneCall<Scalar>(__func__, scene).tell(is_there, "is_there", [&](const auto& of) -> uint8_t {             \
+      return of.contains(from_c(id)) ? 1 : 0;                                                                         \
+    });                                                                                                               \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_instances(const surehit_scene##s* scene, surehit_instance_id* ids,  \
+                                                            size_t capacity, size_t* id_count) {                      \
+    return instances<Scalar>(__func__, scene, ids, capacity, id_count);                                               \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_pose(const surehit_scene##s* scene, surehit_instance_id id,         \
+                                                       surehit_pose##s* pose) {                                       \
+    return of_instance<Scalar>(__func__, scene, id, pose, "pose",                                                     \
+                               [](const auto& of, InstanceId of_id) { return pose_to_c(of.pose(of_id)); });           \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_motion(const surehit_scene##s* scene, surehit_instance_id id,       \
+                                                         surehit_vector3##s* motion) {                                \
+    return of_instance<Scalar>(__func__, scene, id, motion, "motion",                                                 \
+                               [](const auto& of, InstanceId of_id) { return to_c(of.motion(of_id)); });              \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_mask(const surehit_scene##s* scene, surehit_instance_id id,         \
+                                                       uint32_t* mask) {                                              \
+    return of_instance<Scalar>(__func__, scene, id, mask, "mask",                                                     \
+                               [](const auto& of, InstanceId of_id) { return of.mask(of_id); });                      \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_user_data(const surehit_scene##s* scene, surehit_instance_id id,    \
+                                                            uint64_t* user_data) {                                    \
+    return of_instance<Scalar>(__func__, scene, id, user_data, "user_data",                                           \
+                               [](const auto& of, InstanceId of_id) { return of.user_data(of_id); });                 \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_triangle_count(const surehit_scene##s* scene,                       \
+                                                                 surehit_instance_id id, size_t* count) {             \
+    return of_instance<Scalar>(__func__, scene, id, count, "count",                                                   \
+                               [](const auto& of, InstanceId of_id) { return of.triangle_count(of_id); });            \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_triangle(const surehit_scene##s* scene, surehit_instance_id id,     \
+                                                           uint32_t triangle_id, surehit_triangle##s* triangle) {     \
+    return of_placed<Scalar>(                                                                                         \
+        __func__, scene, id, triangle_id, triangle, "triangle",                                                       \
+        [](const auto& of, InstanceId of_id, uint32_t corner_of) { return to_c(of.triangle(of_id, corner_of)); });    \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_normal(const surehit_scene##s* scene, surehit_instance_id id,       \
+                                                         uint32_t triangle_id, surehit_vector3##s* normal) {          \
+    return of_placed<Scalar>(                                                                                         \
+        __func__, scene, id, triangle_id, normal, "normal",                                                           \
+        [](const auto& of, InstanceId of_id, uint32_t normal_of) { return to_c(of.normal(of_id, normal_of)); });      \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_box(const surehit_scene##s* scene, surehit_box##s* box) {           \
+    return SceneCall<Scalar>(__func__, scene).tell(box, "box", [](const auto& of) { return to_c(of.box()); });        \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_memory_bytes(const surehit_scene##s* scene, size_t* bytes) {        \
+    return HandleCall<Scene<Scalar>>(__func__, scene).tell(bytes, "bytes", [](const auto& of) {                       \
+      return of.memory_bytes();                                                                                       \
+    });                                                                                                               \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_first_hit(                                                          \
+      const surehit_scene##s* scene, const surehit_path##s* path, const surehit_scene_query_options##s* options,      \
+      const surehit_scene_filter##s* filter, surehit_statistics* statistics, surehit_scene_hit##s* hit) {             \
+    Arguments arguments(__func__);                                                                                    \
+    return first_hit(SingleQuery<Scene<Scalar>>(arguments, scene, path, options, filter, statistics), hit);           \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_any_hit(                                                            \
+      const surehit_scene##s* scene, const surehit_path##s* path, const surehit_scene_query_options##s* options,      \
+      const surehit_scene_filter##s* filter, surehit_statistics* statistics, uint8_t* blocked) {                      \
+    Arguments arguments(__func__);                                                                                    \
+    return any_hit(SingleQuery<Scene<Scalar>>(arguments, scene, path, options, filter, statistics), blocked);         \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_all_hits(                                                           \
+      const surehit_scene##s* scene, const surehit_path##s* path, const surehit_scene_query_options##s* options,      \
+      const surehit_scene_filter##s* filter, surehit_statistics* statistics, surehit_scene_hit##s* hits,              \
+      size_t capacity, size_t* hit_count) {                                                                           \
+    Arguments arguments(__func__);                                                                                    \
+    return all_hits(SingleQuery<Scene<Scalar>>(arguments, scene, path, options, filter, statistics), hits, capacity,  \
+                    hit_count);                                                                                       \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_first_hits(                                                         \
+      const surehit_scene##s* scene, const surehit_paths##s* paths, const surehit_scene_batch_options##s* options,    \
+      surehit_scene_hit##s* hits) {                                                                                   \
+    Arguments arguments(__func__);                                                                                    \
+    return first_hits(Batch<Scene<Scalar>>(arguments, scene, paths, options), hits);                                  \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_any_hits(                                                           \
+      const surehit_scene##s* scene, const surehit_paths##s* paths, const surehit_scene_batch_options##s* options,    \
+      uint8_t* blocked) {                                                                                             \
+    Arguments arguments(__func__);                                                                                    \
+    return any_hits(Batch<Scene<Scalar>>(arguments, scene, paths, options), blocked);                                 \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_last_free_point(                                                    \
+      const surehit_scene##s* scene, const surehit_path##s* segment, const surehit_scene_hit##s* hit,                 \
+      const surehit_scene_query_options##s* options, const surehit_scene_filter##s* filter,                           \
+      surehit_vector3##s* point) {                                                                                    \
+    Arguments arguments(__func__);                                                                                    \
+    return last_free_point(SingleQuery<Scene<Scalar>>(arguments, scene, segment, options, filter, nullptr), hit,      \
+                           point);                                                                                    \
   }
 extern "C" {
 SUREHIT_SCENE_FUNCTIONS(float, f)

@@ -2,8 +2,8 @@
 #include <cstdint>
 
 #include "c/arguments.hpp"
+#include "c/asked_scene.hpp"
 #include "c/asked_scene_shapes.hpp"
-#include "c/handle_call.hpp"
 #include "c/queries.hpp"
 #include "surehit/c/scene_shapes_d.h"
 #include "surehit/c/scene_shapes_f.h"
@@ -18,13 +18,10 @@ template <typename Scalar>
 surehit_status last_free_t_in_scene(const char* function, const void* handle,
                                     const typename ShapeStructs<Scalar>::Shape* shape,
                                     const typename SceneShapeStructs<Scalar>::Hit* hit, Scalar* t) {
-  HandleCall<Scene<Scalar>> call(function, handle);
+  SceneCall<Scalar> call(function, handle);
   check_shape(call.arguments, shape);
   call.arguments.check_pointer(hit, "hit");
-  if (call.arguments.are_valid()) check_instance(call.arguments, call.object, hit->instance);
-  if (call.arguments.are_valid()) {
-    call.arguments.check_triangle(hit->triangle, call.object->triangle_count(from_c(hit->instance)));
-  }
+  if (call.arguments.are_valid()) call.check_triangle(hit->instance, hit->triangle);
   return call.tell(t, "t", [&](const auto& scene) {
     return scene.last_free_t(shape_of<Scalar>(*shape), Asked<SceneShapes<Scalar>>::from_c(*hit));
   });

@@ -110,6 +110,24 @@ static void queries(surehit_scenef* scene, surehit_colliderf* tile) {
   EXPECT(blocked[0] == 0 && blocked[1] == 0);
 }
 
+static void snapshots(surehit_scenef* scene, surehit_colliderf* tile) {
+  const surehit_pathf down = {{0.25F, 0.25F, 1}, {0.25F, 0.25F, -3}, SUREHIT_SEGMENT};
+  surehit_scenef* snapshot = NULL;
+  surehit_instance_id id;
+  surehit_scene_hitf hit;
+  EXPECT(surehit_scenef_add(scene, tile, NULL, SUREHIT_ALL_BITS, 0, &id) == SUREHIT_OK);
+  EXPECT(surehit_scenef_commit(scene, NULL) == SUREHIT_OK);
+  EXPECT(surehit_scenef_snapshot(scene, &snapshot) == SUREHIT_OK);
+  EXPECT(surehit_scenef_remove(scene, id) == SUREHIT_OK);
+  EXPECT(surehit_scenef_commit(scene, NULL) == SUREHIT_OK);
+  EXPECT(surehit_scenef_first_hit(scene, &down, NULL, NULL, NULL, &hit) == SUREHIT_OK);
+  EXPECT(hit.triangle == SUREHIT_NO_TRIANGLE);
+  EXPECT(surehit_scenef_first_hit(snapshot, &down, NULL, NULL, NULL, &hit) == SUREHIT_OK);
+  EXPECT(hit.t == 0.25F && hit.instance.index == id.index);
+  EXPECT(surehit_scenef_commit(snapshot, NULL) == SUREHIT_INVALID_HANDLE);
+  EXPECT(surehit_scenef_destroy(snapshot) == SUREHIT_OK);
+}
+
 static void large_world(surehit_colliderf* tile) {
   const surehit_pathd down = {{1e9 + 0.25, 0.25, 1}, {1e9 + 0.25, 0.25, -1}, SUREHIT_SEGMENT};
   surehit_posed pose = surehit_posed_identity();
@@ -144,6 +162,7 @@ int main(void) {
   surehit_scenef* scene = NULL;
   EXPECT(surehit_scenef_create(&scene) == SUREHIT_OK);
   instances(scene, tile);
+  snapshots(scene, tile);
   large_world(tile);
   // A scene keeps its colliders.
   queries(scene, tile);

@@ -107,6 +107,7 @@ struct CFunctions;
     static constexpr auto set_motion = surehit_scene##s##_set_motion;                                   \
     static constexpr auto set_instance_mask = surehit_scene##s##_set_mask;                              \
     static constexpr auto commit = surehit_scene##s##_commit;                                           \
+    static constexpr auto snapshot = surehit_scene##s##_snapshot;                                       \
     static constexpr auto instance_count = surehit_scene##s##_instance_count;                           \
     static constexpr auto contains = surehit_scene##s##_contains;                                       \
     static constexpr auto instances = surehit_scene##s##_instances;                                     \

@@ -144,6 +144,77 @@ TYPED_TEST(CScene, answers_have_the_bits_of_cpp) {
   EXPECT_GT(hits, 10U);
 }
 
+// It is asked after all instances were removed from its scene.
+TYPED_TEST(CScene, snapshots_answer_as_their_scene_did) {
+  using C = CFunctions<TypeParam>;
+  std::size_t hits = 0;
+  for (const SceneFamily family : all_scene_families) {
+    Random random(static_cast<std::uint64_t>(family));
+    const auto drawn = draw_scene<TypeParam>(family, random);
+    const JudgedScene<TypeParam> judged(drawn);
+    CSceneOf<TypeParam> c(drawn);
+    typename C::SceneHandle* const scene = c.handle;
+    typename C::SceneHandle* first = nullptr;
+    ASSERT_EQ(C::snapshot(scene, &first), SUREHIT_OK);
+    ASSERT_EQ(C::snapshot(first, &c.handle), SUREHIT_OK);
+    ASSERT_EQ(C::destroy_scene(first), SUREHIT_OK);
+    for (const surehit_instance_id id : c.ids) ASSERT_EQ(C::remove(scene, id), SUREHIT_OK);
+    ASSERT_EQ(C::commit(scene, nullptr), SUREHIT_OK);
+    ScenePathDrawer<TypeParam> drawer(drawn, judged.oracle, judged.ids, random);
+    std::vector<Segment<TypeParam>> segments;
+    for (int j = 0; j < 10; ++j) {
+      const Path<TypeParam> path = drawer.draw();
+      segments.push_back({path.start, path.toward});
+      hits += this->expect_same(c, judged.scene, path, {}, 5) ? 1 : 0;
+    }
+    this->expect_same_batch(c, judged.scene, segments, {segments.size(), SceneQueryOptions<TypeParam>{}});
+    for (std::size_t j = 0; j < judged.ids.size(); ++j) this->expect_same_instance(c, judged.scene, j, judged.ids[j]);
+    ASSERT_EQ(C::destroy_scene(c.handle), SUREHIT_OK);
+    c.handle = scene;
+    ASSERT_FALSE(testing::Test::HasFailure()) << name_of(family);
+  }
+  EXPECT_GT(hits, 10U);
+}
+
+TYPED_TEST(CScene, snapshots_cannot_be_changed) {
+  using C = CFunctions<TypeParam>;
+  typename C::SceneHandle* scene = nullptr;
+  typename C::SceneHandle* snapshot = nullptr;
+  typename C::ColliderHandle* collider = nullptr;
+  ASSERT_EQ(C::create_scene(&scene), SUREHIT_OK);
+  ASSERT_EQ(C::create(nullptr, nullptr, &collider), SUREHIT_OK);
+  surehit_instance_id id = {};
+  ASSERT_EQ(C::add(scene, collider, nullptr, 1, 0, &id), SUREHIT_OK);
+  EXPECT_EQ(C::snapshot(scene, nullptr), SUREHIT_NULL_POINTER);
+  EXPECT_EQ(C::snapshot(nullptr, &snapshot), SUREHIT_NULL_POINTER);
+  ASSERT_EQ(C::snapshot(scene, &snapshot), SUREHIT_OK);
+  std::size_t count = 1;
+  std::uint8_t is_there = 1;
+  EXPECT_EQ(C::instance_count(snapshot, &count), SUREHIT_OK);
+  EXPECT_EQ(count, 0U);  // It was not committed.
+  EXPECT_EQ(C::contains(snapshot, id, &is_there), SUREHIT_OK);
+  EXPECT_EQ(is_there, 0);
+  ASSERT_EQ(C::destroy_scene(snapshot), SUREHIT_OK);
+  ASSERT_EQ(C::commit(scene, nullptr), SUREHIT_OK);
+  ASSERT_EQ(C::snapshot(scene, &snapshot), SUREHIT_OK);
+  EXPECT_EQ(C::destroy_scene(scene), SUREHIT_OK);
+  surehit_instance_id all = {7, 7};
+  EXPECT_EQ(C::instances(snapshot, &all, 1, &count), SUREHIT_OK);
+  EXPECT_EQ(count, 1U);
+  EXPECT_EQ(all.index, id.index);
+  const auto pose = C::identity();
+  const typename C::Vector motion = {0, 0, 0};
+  for (const surehit_status status :
+       {C::add(snapshot, collider, nullptr, 1, 0, &id), C::remove(snapshot, id), C::set_pose(snapshot, id, &pose),
+        C::set_motion(snapshot, id, &motion), C::set_instance_mask(snapshot, id, 1), C::commit(snapshot, nullptr),
+        C::scene_memory_bytes(snapshot, &count)}) {
+    EXPECT_EQ(status, SUREHIT_INVALID_HANDLE);
+  }
+  EXPECT_EQ(C::destroy(collider), SUREHIT_OK);
+  EXPECT_EQ(C::destroy_scene(snapshot), SUREHIT_OK);
+  EXPECT_EQ(C::destroy_scene(snapshot), SUREHIT_INVALID_HANDLE);
+}
+
 TYPED_TEST(CScene, refuses_what_cpp_refuses) {
   using C = CFunctions<TypeParam>;
   typename C::SceneHandle* scene = nullptr;

@@ -19,7 +19,7 @@ from .explanation import (CellFinding, DecidedBy, ExplainedCandidate, ExplainedC
 from .hits import Feature, Hit, Hits, InstanceId, SceneHit, SceneShapeHit, ShapeHit, Side
 from .pair import contact_normal, contact_point, distance, intersect, point
 from .paths import Line, Lines, Path, Paths, Ray, Rays, Segment, Segments
-from .scene import Scene, rigid_pose, translation_pose
+from .scene import Scene, SceneSnapshot, rigid_pose, translation_pose
 from .shapes import (SweptBox, SweptBoxes, SweptCapsule, SweptCapsules, SweptShape, SweptShapes, SweptSphere,
                      SweptSpheres)
 
@@ -28,7 +28,7 @@ __all__ = [
     "Explanation", "Feature", "FilterNumber", "FilterNumbers", "FilterVerdict", "GridSummary", "Hit", "Hits",
     "InstanceId", "InvalidInstance", "InvalidMesh", "InvalidValue", "Line", "Lines", "NO_TRIANGLE", "Options",
     "OrderedBy", "OutOfMemory", "OutOfRange", "PairOutcome", "Path", "Paths", "Ray", "Rays", "Scene", "SceneHit",
-    "SceneOptions", "SceneShapeHit", "SceneShapeOptions", "Segment", "Segments", "ShapeHit", "ShapeOptions", "Side",
-    "Statistics", "SweptBox", "SweptBoxes", "SweptCapsule", "SweptCapsules", "SweptShape", "SweptShapes", "SweptSphere",
-    "SweptSpheres", "Walk", "__version__", "contact_normal", "contact_point", "distance", "intersect", "point",
-    "rigid_pose", "translation_pose"]
+    "SceneOptions", "SceneShapeHit", "SceneShapeOptions", "SceneSnapshot", "Segment", "Segments", "ShapeHit",
+    "ShapeOptions", "Side", "Statistics", "SweptBox", "SweptBoxes", "SweptCapsule", "SweptCapsules", "SweptShape",
+    "SweptShapes", "SweptSphere", "SweptSpheres", "Walk", "__version__", "contact_normal", "contact_point", "distance",
+    "intersect", "point", "rigid_pose", "translation_pose"]

@@ -29,6 +29,7 @@ _OF_COLLIDERS: dict[str, list[Any]] = {
 _OF_SCENES: dict[str, list[Any]] = {
     "create": [_P], "destroy": [_P], "add": [_P, _P, _P, c_uint32, c_uint64, _P], "remove": [_P, _ID],
     "set_pose": [_P, _ID, _P], "set_motion": [_P, _ID, _P], "set_mask": [_P, _ID, c_uint32], "commit": [_P, _P],
+    "snapshot": [_P, _P],
     "instance_count": [_P, _P], "contains": [_P, _ID, _P], "instances": [_P, _P, c_size_t, _P], "pose": [_P, _ID, _P],
     "motion": [_P, _ID, _P], "mask": [_P, _ID, _P], "user_data": [_P, _ID, _P], "triangle_count": [_P, _ID, _P],
     "triangle": [_P, _ID, c_uint32, _P], "normal": [_P, _ID, c_uint32, _P], "box": [_P, _P], "memory_bytes": [_P, _P],

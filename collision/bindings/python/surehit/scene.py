@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ._layouts import ALL_BITS, InstanceIdStruct, layouts_of
+from ._layouts import ALL_BITS, InstanceIdStruct, Layouts, layouts_of
 from ._library import check, function
 from ._numbers import converted, triple
 from ._options import Raised, executor_pointer
@@ -39,14 +39,92 @@ def translation_pose(translation: ArrayLike, dtype: DTypeLike = np.float64) -> N
     return np.column_stack([np.eye(3, dtype=dtype), triple(translation, np.dtype(dtype), "translation")])
 
 
-class Scene(Queries[SceneHit, SceneShapeHit]):
+class _Instances(Queries[SceneHit, SceneShapeHit]):
+    """What a scene and a snapshot of one tell about their instances."""
+
+    def _own(self, layouts: Layouts, handle: c_void_p) -> None:
+        """Takes a handle, which it destroys in the end."""
+        self._handle = handle
+        self._set_kind(layouts, "scene")
+        self._finalizer = weakref.finalize(self, self._function("destroy"), handle)
+
+    def snapshot(self) -> SceneSnapshot:
+        """Returns what is committed, which stays the same. It is fast, and may not run during a commit."""
+        handle = c_void_p()
+        check(self._function("snapshot")(self._handle, byref(handle)))
+        return SceneSnapshot(self._layouts, handle)
+
+    def __len__(self) -> int:
+        """Returns the number of instances."""
+        count = c_size_t()
+        check(self._function("instance_count")(self._handle, byref(count)))
+        return count.value
+
+    def __contains__(self, instance: InstanceId) -> bool:
+        is_there = c_uint8()
+        check(self._function("contains")(self._handle, _struct(instance), byref(is_there)))
+        return is_there.value != 0
+
+    def instances(self) -> list[InstanceId]:
+        """Returns the ids of all instances, in order."""
+        room = len(self)
+        ids = (InstanceIdStruct * room)()
+        count = c_size_t()
+        check(self._function("instances")(self._handle, byref(ids), room, byref(count)))
+        return [InstanceId(x.index, x.generation) for x in ids]
+
+    def pose(self, instance: InstanceId) -> NDArray[Any]:
+        """Returns the pose of an instance, of the shape (3, 4)."""
+        columns = np.empty((4, 3), self.dtype)
+        check(self._function("pose")(self._handle, _struct(instance), columns.ctypes.data))
+        return columns.T
+
+    def motion(self, instance: InstanceId) -> NDArray[Any]:
+        """Returns the motion of an instance. It is zero if none was set."""
+        motion = np.empty(3, self.dtype)
+        check(self._function("motion")(self._handle, _struct(instance), motion.ctypes.data))
+        return motion
+
+    def mask(self, instance: InstanceId) -> int:
+        """Returns the mask of an instance."""
+        mask = c_uint32()
+        check(self._function("mask")(self._handle, _struct(instance), byref(mask)))
+        return mask.value
+
+    def user_data(self, instance: InstanceId) -> int:
+        """Returns the number that was given when the instance was added."""
+        number = c_uint64()
+        check(self._function("user_data")(self._handle, _struct(instance), byref(number)))
+        return number.value
+
+    def triangle_count(self, instance: InstanceId) -> int:
+        """Returns the number of triangles of the instance's collider."""
+        count = c_size_t()
+        check(self._function("triangle_count")(self._handle, _struct(instance), byref(count)))
+        return count.value
+
+    def triangle(self, instance: InstanceId, triangle: int) -> NDArray[Any]:
+        """Returns the corners of a placed triangle at t = 0, one a row. Each number is the exact one, rounded once."""
+        corners = np.empty((3, 3), self.dtype)
+        check(self._function("triangle")(self._handle, _struct(instance), _id(triangle), corners.ctypes.data))
+        return corners
+
+    def normal(self, instance: InstanceId, triangle: int) -> NDArray[Any]:
+        """Returns the unit normal of a placed triangle. It is that of the exact image."""
+        normal = np.empty(3, self.dtype)
+        check(self._function("normal")(self._handle, _struct(instance), _id(triangle), normal.ctypes.data))
+        return normal
+
+
+class Scene(_Instances):
     """Many meshes, placed and moving, that are asked as one. An instance is the exact image of its mesh under its pose.
 
     A pose is a matrix of the shape (3, 4), or (4, 4) with the last row 0 0 0 1. A corner v of the mesh is at M v + m in
     exact arithmetic, where m is the last column. M may rotate, scale, mirror and shear. Each of its entries must be 0,
     or between 2^-64 and 2^64 in magnitude. Its determinant must not be 0.
 
-    Changes take effect with the next ``commit``. Until then, queries answer as before. A scene of float64 may have
+    Changes take effect with the next ``commit``. Until then, queries answer as before. Functions that tell about one
+    instance tell what was set last. A scene of float64 may have
     colliders of float32 too. Among hits with equal exact t, the lowest instance index comes first.
 
     Moving shapes have the sizes and axes of the scene, whatever the poses are. While a shape moves, instances with a
@@ -59,9 +137,7 @@ class Scene(Queries[SceneHit, SceneShapeHit]):
         layouts = layouts_of(dtype)
         handle = c_void_p()
         check(function(f"scene{layouts.suffix}_create")(byref(handle)))
-        self._handle = handle
-        self._set_kind(layouts, "scene")
-        self._finalizer = weakref.finalize(self, self._function("destroy"), handle)
+        self._own(layouts, handle)
 
     def add(self, collider: Collider, pose: ArrayLike | None = None, *, mask: int = ALL_BITS,
             user_data: int = 0) -> InstanceId:
@@ -122,69 +198,23 @@ class Scene(Queries[SceneHit, SceneShapeHit]):
         raised = Raised()
         raised.check(self._function("commit")(self._handle, executor_pointer(executor, raised)))
 
-    def __len__(self) -> int:
-        """Returns the number of instances, with those that are not yet committed."""
-        count = c_size_t()
-        check(self._function("instance_count")(self._handle, byref(count)))
-        return count.value
-
-    def __contains__(self, instance: InstanceId) -> bool:
-        is_there = c_uint8()
-        check(self._function("contains")(self._handle, _struct(instance), byref(is_there)))
-        return is_there.value != 0
-
-    def instances(self) -> list[InstanceId]:
-        """Returns the ids of all instances, in order."""
-        room = len(self)
-        ids = (InstanceIdStruct * room)()
-        count = c_size_t()
-        check(self._function("instances")(self._handle, byref(ids), room, byref(count)))
-        return [InstanceId(x.index, x.generation) for x in ids]
-
-    def pose(self, instance: InstanceId) -> NDArray[Any]:
-        """Returns the pose of an instance, of the shape (3, 4)."""
-        columns = np.empty((4, 3), self.dtype)
-        check(self._function("pose")(self._handle, _struct(instance), columns.ctypes.data))
-        return columns.T
-
-    def motion(self, instance: InstanceId) -> NDArray[Any]:
-        """Returns the motion of an instance. It is zero if none was set."""
-        motion = np.empty(3, self.dtype)
-        check(self._function("motion")(self._handle, _struct(instance), motion.ctypes.data))
-        return motion
-
-    def mask(self, instance: InstanceId) -> int:
-        """Returns the mask of an instance."""
-        mask = c_uint32()
-        check(self._function("mask")(self._handle, _struct(instance), byref(mask)))
-        return mask.value
-
-    def user_data(self, instance: InstanceId) -> int:
-        """Returns the number that was given when the instance was added."""
-        number = c_uint64()
-        check(self._function("user_data")(self._handle, _struct(instance), byref(number)))
-        return number.value
-
-    def triangle_count(self, instance: InstanceId) -> int:
-        """Returns the number of triangles of the instance's collider."""
-        count = c_size_t()
-        check(self._function("triangle_count")(self._handle, _struct(instance), byref(count)))
-        return count.value
-
-    def triangle(self, instance: InstanceId, triangle: int) -> NDArray[Any]:
-        """Returns the corners of a placed triangle at t = 0, one a row. Each number is the exact one, rounded once."""
-        corners = np.empty((3, 3), self.dtype)
-        check(self._function("triangle")(self._handle, _struct(instance), _id(triangle), corners.ctypes.data))
-        return corners
-
-    def normal(self, instance: InstanceId, triangle: int) -> NDArray[Any]:
-        """Returns the unit normal of a placed triangle. It is that of the exact image."""
-        normal = np.empty(3, self.dtype)
-        check(self._function("normal")(self._handle, _struct(instance), _id(triangle), normal.ctypes.data))
-        return normal
-
     def __repr__(self) -> str:
         return f"<Scene of {len(self)} instances in {self.dtype}>"
+
+
+class SceneSnapshot(_Instances):
+    """What a scene had committed when ``Scene.snapshot`` was called. It answers all queries of a scene.
+
+    It stays the same while the scene is changed and committed in another thread, so queries go on meanwhile. It shares
+    the colliders with the scene. No query of it may run while one of them is rebuilt or gets other masks, and none at
+    all after a rebuild.
+    """
+
+    def __init__(self, layouts: Layouts, handle: c_void_p) -> None:
+        self._own(layouts, handle)
+
+    def __repr__(self) -> str:
+        return f"<SceneSnapshot of {len(self)} instances in {self.dtype}>"
 
 
 def _struct(instance: InstanceId) -> InstanceIdStruct:

@@ -21,8 +21,8 @@ typedef struct surehit_scenef surehit_scenef;
 /// Makes a scene without instances, and sets `scene` to it. Destroy it with `surehit_scenef_destroy`.
 SUREHIT_C_API surehit_status surehit_scenef_create(surehit_scenef** scene);
 
-/// Frees a scene, and gives up its share of the colliders. No query may run. Null is allowed. It fails as
-/// `surehit_colliderf_destroy` does.
+/// Frees a scene or a snapshot, and gives up its share of the colliders. None of its queries may run. Null is allowed.
+/// It fails as `surehit_colliderf_destroy` does.
 SUREHIT_C_API surehit_status surehit_scenef_destroy(surehit_scenef* scene);
 
 /// Adds an instance of a collider, and sets `id` to its id. Without a pose, which is null then, the mesh stays where it
@@ -55,6 +55,18 @@ SUREHIT_C_API surehit_status surehit_scenef_set_mask(surehit_scenef* scene, sure
 /// Lets all changes since the last commit take effect. No query may run at the same time. Takes time linear in the
 /// changes, and in the instances with a small constant.
 SUREHIT_C_API surehit_status surehit_scenef_commit(surehit_scenef* scene, const surehit_executor* executor);
+
+/// Sets `snapshot` to a new handle of what the scene has committed. Destroy it with `surehit_scenef_destroy`. It is
+/// fast, because it copies no instance. It may not run while the scene commits.
+///
+/// A snapshot stays the same while the scene is changed, committed or destroyed in another thread, and it may be asked
+/// meanwhile. All functions that take a constant scene take a snapshot, except for `surehit_scenef_memory_bytes`. They
+/// tell what was committed. A snapshot of a snapshot has the same state. All other functions fail with
+/// `SUREHIT_INVALID_HANDLE`.
+///
+/// It shares the colliders with the scene. No query of a snapshot may run while one of its colliders is rebuilt or gets
+/// other masks. After a rebuild, no query of an older snapshot may run at all.
+SUREHIT_C_API surehit_status surehit_scenef_snapshot(const surehit_scenef* scene, surehit_scenef** snapshot);
 
 /// Sets `count` to the number of instances, with those that are not yet committed.
 SUREHIT_C_API surehit_status surehit_scenef_instance_count(const surehit_scenef* scene, size_t* count);
@@ -99,7 +111,7 @@ SUREHIT_C_API surehit_status surehit_scenef_normal(const surehit_scenef* scene, 
 /// needed. It is empty if there are no triangles.
 SUREHIT_C_API surehit_status surehit_scenef_box(const surehit_scenef* scene, surehit_boxf* box);
 
-/// Sets `bytes` to the memory that the scene has allocated, without its colliders.
+/// Sets `bytes` to the memory that the scene has allocated, without its colliders. A snapshot cannot be asked.
 SUREHIT_C_API surehit_status surehit_scenef_memory_bytes(const surehit_scenef* scene, size_t* bytes);
 
 /// Sets `hit` to the hit with the lowest exact t, see `surehit_colliderf_first_hit`.
