@@ -37,16 +37,15 @@ std::size_t SceneState<Scalar>::memory_bytes() const noexcept {
   std::size_t bytes = sizeof *this + pending.capacity() * sizeof(pending[0]) +
                       (changed.capacity() + unused.capacity()) * sizeof(std::uint32_t) +
                       changed_in.capacity() * sizeof(changed_in[0]) + boxes.capacity() * sizeof(boxes[0]) +
-                      former.capacity() * sizeof(former[0]);
+                      watched.capacity() * sizeof(watched[0]) + former.capacity() * sizeof(former[0]);
   for (const CommittedShare<Scalar>& scene : former) bytes += scene.get()->memory_bytes();
   return bytes;
 }
 
 template <FloatOrDouble Scalar>
-void SceneState<Scalar>::note_rebuilt_colliders(const CommittedScene<Scalar>& before) {
-  for (std::uint32_t index = 0; index < before.instances.size(); ++index) {
-    if (!pending[index].is_there || pending[index].has_changed) continue;
-    if (pending[index].mesh().version != before.instances[index].mesh.version) note_change(index);
+void SceneState<Scalar>::note_rebuilt_colliders() {
+  for (std::uint32_t index = 0; index < watched.size(); ++index) {
+    if (watched[index].has_other_mesh()) note_change(index);
   }
 }
 
@@ -113,8 +112,10 @@ void SceneState<Scalar>::apply(CommittedScene<Scalar>& next, std::uint32_t index
   changed_in[index] = commits;
   if (!instance.is_there) {
     kept = {};
+    watched[index] = {};
     return;
   }
+  watched[index] = {instance.collider, instance.float_collider, made.mesh.version};
   if (instance.share) kept.collider = std::move(instance.share);
   kept.user_data = instance.options.user_data;
 }
@@ -142,7 +143,7 @@ void SceneState<Scalar>::end_changes() noexcept {
 template <FloatOrDouble Scalar>
 void SceneState<Scalar>::commit(CommittedShare<Scalar>& current, const Executor* executor) {
   const CommittedScene<Scalar>& before = *current.get();
-  note_rebuilt_colliders(before);
+  note_rebuilt_colliders();
   if (changed.empty()) {
     forget_unshared(nullptr);
     return;
@@ -160,6 +161,7 @@ void SceneState<Scalar>::commit(CommittedShare<Scalar>& current, const Executor*
   next.reserve(pending.capacity());
   boxes.reserve(pending.capacity());
   changed_in.reserve(pending.capacity());
+  watched.reserve(pending.capacity());
   former.reserve(former.size() + 1);
 
   // Nothing below throws.
@@ -167,6 +169,7 @@ void SceneState<Scalar>::commit(CommittedShare<Scalar>& current, const Executor*
   catch_up(next, before);
   boxes.resize(pending.size());
   changed_in.resize(pending.size());
+  watched.resize(pending.size());
   for (std::size_t i = 0; i < changed.size(); ++i) apply(next, changed[i], made[i]);
   if (!keeps || !has_this_tree) next.tree = std::move(other_tree);
   if (keeps) {

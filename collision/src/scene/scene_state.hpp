@@ -40,6 +40,21 @@ struct PendingInstance {
   }
 };
 
+/// The collider of a committed instance, and the version that the commit has seen. A commit looks at all of them, so
+/// they lie side by side.
+template <typename Scalar>
+struct WatchedCollider {
+  const Collider<Scalar>* collider = nullptr;       ///< The collider, or null.
+  const Collider<float>* float_collider = nullptr;  ///< The collider of floats in a scene of doubles, or null.
+  std::uint64_t version = 0;                        ///< The version of the mesh.
+
+  /// Returns true if the collider was rebuilt since then.
+  [[nodiscard]] bool has_other_mesh() const {
+    if (collider != nullptr) return ColliderState<Scalar>::of(*collider).version != version;
+    return float_collider != nullptr && ColliderState<float>::of(*float_collider).version != version;
+  }
+};
+
 /// The state of a scene. The scene has a pointer to it.
 template <FloatOrDouble Scalar>
 struct SceneState {
@@ -50,11 +65,12 @@ struct SceneState {
   std::size_t count = 0;                         ///< The number of instances.
 
   // What a commit needs.
-  std::uint64_t commits = 0;                   ///< The number of commits.
-  std::uint64_t built = 0;                     ///< The number of the commit that built the tree.
-  std::vector<std::uint64_t> changed_in;       ///< The number of the commit that changed the instance last, by index.
-  std::vector<InstanceBox> boxes;              ///< The boxes of the instances by index.
-  std::vector<CommittedShare<Scalar>> former;  ///< What was committed before, and may still be asked.
+  std::uint64_t commits = 0;                     ///< The number of commits.
+  std::uint64_t built = 0;                       ///< The number of the commit that built the tree.
+  std::vector<std::uint64_t> changed_in;         ///< The number of the commit that changed the instance last, by index.
+  std::vector<InstanceBox> boxes;                ///< The boxes of the instances by index.
+  std::vector<WatchedCollider<Scalar>> watched;  ///< The colliders of the instances by index.
+  std::vector<CommittedShare<Scalar>> former;    ///< What was committed before, and may still be asked.
 
   /// Returns the instance of an id, or null if the id is stale.
   [[nodiscard]] const PendingInstance<Scalar>* find(InstanceId id) const {
@@ -78,7 +94,7 @@ struct SceneState {
 
  private:
   /// Notes the instances whose colliders were rebuilt since the last commit. There is room for all indices.
-  void note_rebuilt_colliders(const CommittedScene<Scalar>& before);
+  void note_rebuilt_colliders();
   /// Returns true if the same instances are in the tree, and it is not worn. `made` has an instance for each change.
   [[nodiscard]] bool keeps_tree(const CommittedScene<Scalar>& before,
                                 const std::vector<CommittedInstance<Scalar>>& made) const;
