@@ -127,10 +127,13 @@ class GpuDevice {
 
 /// What batches on a device did. A batch adds to them, and never resets them.
 struct GpuStatistics {
-  std::uint64_t paths = 0;       ///< The number of paths. A batch that fails counts all of its paths.
-  std::uint64_t misses = 0;      ///< The number of paths that the device found to miss.
-  std::uint64_t hits = 0;        ///< The number of paths whose hit the device found. The host rounds a first hit.
-  std::uint64_t undecided = 0;   ///< The number of paths that the device left to the host.
+  std::uint64_t paths = 0;    ///< The number of paths. A batch that fails counts all of its paths.
+  std::uint64_t misses = 0;   ///< The number of paths that the device found to miss.
+  std::uint64_t hits = 0;     ///< The number of paths whose hit the device found.
+  std::uint64_t rounded = 0;  ///< The number of first hits whose t, u and v the device rounded.
+  /// The number of first hits that the device found, and whose t, u and v the host rounded.
+  std::uint64_t rounded_by_host = 0;
+  std::uint64_t undecided = 0;   ///< The number of paths that the device left to the host as a whole.
   std::uint64_t dispatches = 0;  ///< The number of pieces of work that the device was given.
 };
 
@@ -154,9 +157,9 @@ struct [[nodiscard]] GpuBatchResult {
 
 /// A collider of floats whose batches run on a GPU. The answers have the same bits as those of the collider.
 ///
-/// The device finds out which paths certainly miss, and which triangle a path certainly hits. The host answers the
-/// paths that the device leaves undecided, and rounds t, u and v of first hits. `collision/src/gpu/GPU.md` proves that
-/// what the device is certain of is right.
+/// The device finds out which paths certainly miss, and which triangle a path certainly hits. It rounds t, u and v of
+/// nearly all first hits. The host rounds the others, and answers the paths that the device leaves undecided.
+/// `collision/src/gpu/GPU.md` proves that what the device is certain of is right.
 ///
 /// It refers to the collider, which must outlive it and stay where it is. Batches may run in several threads at the
 /// same time. None may run during an upload or an update, or while the collider changes.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "gpu/device_answers.hpp"
+#include "gpu/path_limits.hpp"
 #include "roundings.spv.hpp"
 #include "tree_walk.spv.hpp"
 
@@ -201,7 +203,7 @@ std::optional<GpuError> GpuDeviceState::make_slots() {
     };
     for (const Wanted& wanted : {Wanted{&slot.host_paths, &slot.paths, sizeof(float[6])},
                                  Wanted{&slot.host_limits, &slot.limits, sizeof(PathLimits)},
-                                 Wanted{&slot.host_answers, &slot.answers, sizeof(std::uint32_t)}}) {
+                                 Wanted{&slot.host_answers, &slot.answers, sizeof(DeviceHit)}}) {
       const std::size_t bytes = wanted.size * paths_in_dispatch;
       if (auto error = wanted.on_host->make(*this, bytes, GpuBuffer::Place::host, "a batch")) return error;
       if (auto error = wanted.on_device->make(*this, bytes, GpuBuffer::Place::device, "a batch")) return error;

@@ -1,7 +1,11 @@
 #version 450
+#extension GL_GOOGLE_include_directive : require
 
 // Says of each path of a dispatch what is certain: a miss, a triangle that it hits (first, where this is asked), or
 // nothing. GPU.md has the lemmas G1 to G9. Only what is `precise` is computed as it is written (G1).
+
+#define real float
+#include "hit_rounding.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint wants_first = 1;
@@ -41,9 +45,19 @@ layout(push_constant) uniform Dispatch {
   uint max_steps;    // A path that takes more steps is undecided, so that no dispatch takes long.
 };
 
-// The answers that are no triangle.
+// What is no triangle.
 const uint miss = 0xffffffffu;
 const uint undecided = 0xfffffffeu;
+
+// The answers to `any_hits` are words. Those to `first_hits` are five words: t, u, v, the triangle's id and the side.
+const uint any_miss = 0;
+const uint any_hit = 1;
+const uint any_undecided = 2;
+const uint no_side = 0;
+const uint front = 1;
+const uint back = 2;
+const uint is_not_rounded = 4;   // Is added to the side.
+const uint side_undecided = 8;
 
 // The flags of a path's limits.
 const uint keeps_front = 1;
@@ -52,7 +66,6 @@ const uint is_whole = 4;       // The range is [0, 1].
 const uint hits_nothing = 8;   // The range is empty.
 const uint is_for_host = 16;   // The kernel cannot weigh the range.
 
-const float unit = 1.0 / 8388608.0;                  // 2^-23 (G1)
 const float relative = 72.0 * unit;                  // G3
 const float least_size = 1.0 / 1073741824.0;         // 2^-30 (G2)
 const uint largest_bits = 0x50000000u;               // Those of 2^33 (G2).
@@ -66,6 +79,7 @@ const uint max_depth = 64;
 
 // A path as the walk and the kernel need it.
 vec3 start;
+vec3 toward;      // The end or the direction.
 vec3 way;         // D
 float way_size;   // d
 vec3 inverse;     // 1 / D, where the path moves.
@@ -95,7 +109,7 @@ bool read_path(uint path) {
   uvec3 sizes = max(from & 0x7fffffffu, to & 0x7fffffffu);
   if (any(greaterThan(sizes, uvec3(largest_bits)))) return false;
   start = uintBitsToFloat(from);
-  vec3 toward = uintBitsToFloat(to);
+  toward = uintBitsToFloat(to);
   precise vec3 step = toward - start;
   way = is_segment != 0 ? step : toward;
   way_size = size_of(way);
@@ -191,6 +205,7 @@ uint classify(vec3 a, vec3 b, vec3 c, out float lower, out float upper, out bool
   return is_hit;
 }
 
+// Returns the place of a triangle among all, or `miss`, or `undecided`.
 uint answer(uint path) {
   range = limits[path * limits_step];
   if ((range.flags & hits_nothing) != 0) return miss;
@@ -258,11 +273,11 @@ uint answer(uint path) {
       }
       if ((range.flags & keeps_front) != 0 && !is_front) continue;
       if ((range.flags & keeps_back) != 0 && is_front) continue;
-      if (wants_first == 0) return triangle.id;
+      if (wants_first == 0) return i;
       limit = min(limit, upper);
       if (lower < best_lower) {
         others = min(others, best_lower);
-        best = triangle.id;
+        best = i;
         best_lower = lower;
         best_upper = upper;
       } else {
@@ -286,5 +301,29 @@ uint answer(uint path) {
 
 void main() {
   uint path = gl_GlobalInvocationID.x;
-  if (path < path_count) answers[path] = answer(path);
+  if (path >= path_count) return;
+  uint found = answer(path);
+  if (wants_first == 0) {
+    answers[path] = found == miss ? any_miss : found == undecided ? any_undecided : any_hit;
+    return;
+  }
+  uint id = miss;
+  uint side = found == miss ? no_side : side_undecided;
+  vec3 weights = vec3(0.0);
+  if (found != miss && found != undecided) {
+    TreeTriangle triangle = triangles[found];
+    vec3 a = vec3(triangle.corners[0], triangle.corners[1], triangle.corners[2]);
+    vec3 b = vec3(triangle.corners[3], triangle.corners[4], triangle.corners[5]);
+    vec3 c = vec3(triangle.corners[6], triangle.corners[7], triangle.corners[8]);
+    RoundedHit hit = round_hit(start, toward, is_segment != 0, a, b, c);
+    id = triangle.id;
+    side = hit.is_front ? front : back;
+    if (!hit.is_rounded) side += is_not_rounded;
+    weights = vec3(hit.t, hit.u, hit.v);
+  }
+  answers[5 * path] = floatBitsToUint(weights.x);
+  answers[5 * path + 1] = floatBitsToUint(weights.y);
+  answers[5 * path + 2] = floatBitsToUint(weights.z);
+  answers[5 * path + 3] = id;
+  answers[5 * path + 4] = side;
 }

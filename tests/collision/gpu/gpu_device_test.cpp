@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -16,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "gpu/device_answers.hpp"
 #include "gpu/gpu_device_state.hpp"
 #include "gpu_answers.hpp"
 #include "roundings.spv.hpp"
@@ -249,7 +251,7 @@ VKAPI_ATTR VkResult VKAPI_CALL no_wait(VkDevice device, std::uint32_t count, con
   return wait_result;
 }
 GpuDeviceState* faulty = nullptr;
-std::uint32_t faulty_answer = 0;
+detail::DeviceHit faulty_answer = {};
 VKAPI_ATTR VkResult VKAPI_CALL faulty_answers(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
                                               std::uint64_t timeout) {
   const VkResult result = wait_for(device, count, fences, all, timeout);
@@ -398,15 +400,20 @@ TEST_F(GpuDeviceTest, faulty_answers_of_a_device_are_left_to_the_host) {
   std::vector<std::uint8_t> blocked(paths.size());
   std::vector<std::uint8_t> expected_blocked(paths.size());
   collider.any_hits(paths, expected_blocked);
-  for (const std::size_t answer : {collider.triangle_count(), std::size_t{0xfffffffd}}) {
-    faulty_answer = static_cast<std::uint32_t>(answer);
+  const auto beyond_the_last = static_cast<std::uint32_t>(collider.triangle_count());
+  constexpr std::uint32_t odd = 0xfffffffd;
+  for (const auto& [triangle, side] : {std::pair(beyond_the_last, 1U), std::pair(odd, 2U), std::pair(0U, 0U),
+                                       std::pair(0U, 3U), std::pair(0U, 4U), std::pair(0U, odd)}) {
+    faulty_answer = {0.5F, 0.5F, 0.5F, triangle, side};
     EXPECT_TRUE(on_gpu.first_hits(paths, hits));
     EXPECT_EQ(hits, expected);
-    EXPECT_TRUE(on_gpu.any_hits(paths, blocked));
-    EXPECT_EQ(blocked, expected_blocked);
   }
-  // Nearly all paths miss the first triangle.
-  faulty_answer = 0;
+  const auto number = std::bit_cast<float>(odd);
+  faulty_answer = {number, number, number, odd, odd};  // Words that are no answer to `any_hits` either.
+  EXPECT_TRUE(on_gpu.any_hits(paths, blocked));
+  EXPECT_EQ(blocked, expected_blocked);
+  // Nearly all paths miss the first triangle. The host finds out where it rounds.
+  faulty_answer = {0, 0, 0, 0, 1 + detail::DeviceHit::is_not_rounded};
   EXPECT_TRUE(on_gpu.first_hits(paths, hits));
   EXPECT_EQ(hits, expected);
   state().vulkan.WaitForFences = wait_for;

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "surehit/hit.hpp"
+
+namespace surehit::detail {
+
+/// What a device says of a path in `first_hits`, as `tree_walk.comp` writes it.
+struct DeviceHit {
+  float t, u, v;
+  std::uint32_t triangle;
+  std::uint32_t side;  ///< The number of a `Side`, which may have `is_not_rounded` added to it, or `undecided`.
+
+  static constexpr std::uint32_t is_not_rounded = 4;
+  static constexpr std::uint32_t undecided = 8;
+};
+static_assert(sizeof(DeviceHit) == 20);
+
+/// What a device says of a path in `any_hits`: 0 for a miss, 1 for a hit, 2 for neither.
+using DeviceAny = std::uint32_t;
+
+/// What is left to the host of a path.
+enum class Leftover : std::uint8_t {
+  nothing_of_miss,  ///< The path misses.
+  nothing_of_hit,   ///< The answer is complete.
+  rounding,         ///< The triangle is known. The host rounds t, u and v.
+  all,              ///< The path is undecided, or the answer is none of a sound device.
+};
+
+[[nodiscard]] inline Leftover leftover_of(const DeviceHit& answer, std::size_t triangle_count) {
+  constexpr auto front = static_cast<std::uint32_t>(Side::front);
+  constexpr auto back = static_cast<std::uint32_t>(Side::back);
+  if (answer.triangle == no_triangle && answer.side == 0) return Leftover::nothing_of_miss;
+  if (answer.triangle >= triangle_count) return Leftover::all;
+  if (answer.side == front || answer.side == back) return Leftover::nothing_of_hit;
+  const std::uint32_t side = answer.side - DeviceHit::is_not_rounded;
+  return side == front || side == back ? Leftover::rounding : Leftover::all;
+}
+
+[[nodiscard]] inline Leftover leftover_of(DeviceAny answer, std::size_t) {
+  if (answer == 0) return Leftover::nothing_of_miss;
+  return answer == 1 ? Leftover::nothing_of_hit : Leftover::all;
+}
+
+/// Returns an answer that has left nothing to the host.
+[[nodiscard]] inline Hitf answer_of(const DeviceHit& answer) {
+  return {answer.t, answer.u, answer.v, answer.triangle, static_cast<Side>(answer.side)};
+}
+[[nodiscard]] inline std::uint8_t answer_of(DeviceAny answer) { return static_cast<std::uint8_t>(answer); }
+
+}  // namespace surehit::detail

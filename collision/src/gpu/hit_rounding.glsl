@@ -1,0 +1,223 @@
+// Rounds t, u and v of a hit in pairs of floats. GPU.md has the lemmas G10 to G14. This text is GLSL and C++ alike, so
+// that a test can attack it with roundings that a device may choose. The device's floats are `real` here. Only what is
+// `precise` is computed as it is written (G1).
+
+const real unit = 1.0 / 8388608.0;                   // 2^-23 (G1)
+const real pair_relative = 40.0 * unit * unit;       // G12
+const real pair_flushes = unit * unit / 16.0;        // 2^-50 (G12)
+const real least_pair_size = 1.0 / 1048576.0;        // 2^-20 (G12)
+const real slack_of_bounds = 1.125;                  // G13
+const real largest_quotient = 1152921504606846976.0;  // 2^60 (G13)
+const real least_quotient = 1.0 / largest_quotient;
+
+// The sum of two floats, of which `low` is about as small as an error of rounding.
+struct FloatPair {
+  real high;
+  real low;
+};
+
+struct PairVector {
+  FloatPair x;
+  FloatPair y;
+  FloatPair z;
+};
+
+FloatPair pair_of(real high, real low) {
+  FloatPair result;
+  result.high = high;
+  result.low = low;
+  return result;
+}
+
+// x + y, off by at most 2^-46 of it (G10).
+FloatPair ordered_sum_of(real larger, real smaller) {
+  precise real sum = larger + smaller;
+  precise real part = sum - larger;
+  precise real rest = smaller - part;
+  return pair_of(sum, rest);
+}
+
+FloatPair sum_of(real x, real y) {
+  bool is_ordered = abs(x) >= abs(y);
+  return ordered_sum_of(is_ordered ? x : y, is_ordered ? y : x);
+}
+
+// The upper 12 bits of the significand.
+real upper_half(real x) { return uintBitsToFloat(floatBitsToUint(x) & 0xfffff000u); }
+
+// x y, exactly (G11).
+FloatPair product_of(real x, real y) {
+  real x_upper = upper_half(x);
+  real y_upper = upper_half(y);
+  precise real x_lower = x - x_upper;
+  precise real y_lower = y - y_upper;
+  precise real product = x * y;
+  precise real rest = x_upper * y_upper - product + x_upper * y_lower + x_lower * y_upper + x_lower * y_lower;
+  return pair_of(product, rest);
+}
+
+FloatPair negated(FloatPair x) { return pair_of(-x.high, -x.low); }
+
+FloatPair sum_of_pairs(FloatPair x, FloatPair y) {
+  FloatPair high = sum_of(x.high, y.high);
+  precise real low = x.low + y.low + high.low;
+  return pair_of(high.high, low);
+}
+
+FloatPair product_of_pairs(FloatPair x, FloatPair y) {
+  FloatPair product = product_of(x.high, y.high);
+  precise real low = x.high * y.low + x.low * y.high + product.low;
+  return ordered_sum_of(product.high, low);
+}
+
+PairVector pairs_of(vec3 x) {
+  PairVector result;
+  result.x = pair_of(x.x, 0.0);
+  result.y = pair_of(x.y, 0.0);
+  result.z = pair_of(x.z, 0.0);
+  return result;
+}
+
+PairVector difference_of(vec3 x, vec3 y) {
+  PairVector result;
+  result.x = sum_of(x.x, -y.x);
+  result.y = sum_of(x.y, -y.y);
+  result.z = sum_of(x.z, -y.z);
+  return result;
+}
+
+real size_of_pairs(PairVector v) {
+  return max(max(abs(v.x.high), abs(v.y.high)), max(abs(v.z.high), least_pair_size));
+}
+
+// x y - z w.
+FloatPair component_of(FloatPair x, FloatPair y, FloatPair z, FloatPair w) {
+  FloatPair all = sum_of_pairs(product_of_pairs(x, y), negated(product_of_pairs(z, w)));
+  return sum_of(all.high, all.low);
+}
+
+PairVector cross_of_pairs(PairVector v, PairVector w) {
+  PairVector result;
+  result.x = component_of(v.y, w.z, v.z, w.y);
+  result.y = component_of(v.z, w.x, v.x, w.z);
+  result.z = component_of(v.x, w.y, v.y, w.x);
+  return result;
+}
+
+FloatPair dot_of_pairs(PairVector v, PairVector w) {
+  FloatPair of_x_and_y = sum_of_pairs(product_of_pairs(v.x, w.x), product_of_pairs(v.y, w.y));
+  FloatPair all = sum_of_pairs(of_x_and_y, product_of_pairs(v.z, w.z));
+  return sum_of(all.high, all.low);
+}
+
+// The sum of the sizes of all six products in v · (w × x), apart from roundings.
+real products_of(PairVector v, PairVector w, PairVector x) {
+  precise real in_x = abs(v.x.high) * (abs(w.y.high * x.z.high) + abs(w.z.high * x.y.high));
+  precise real in_y = abs(v.y.high) * (abs(w.z.high * x.x.high) + abs(w.x.high * x.z.high));
+  precise real in_z = abs(v.z.high) * (abs(w.x.high * x.y.high) + abs(w.y.high * x.x.high));
+  precise real all = in_x + in_y + in_z;
+  return all;
+}
+
+// How far off v · (w × x) is at most (G12).
+real bound_of(PairVector v, PairVector w, PairVector x) {
+  precise real of_sizes = size_of_pairs(v) * size_of_pairs(w) * size_of_pairs(x);
+  precise real bound = pair_relative * products_of(v, w, x) + pair_flushes * of_sizes;
+  return bound;
+}
+
+// What is left of n - q m, and how far off that is at most (G13).
+struct Remainder {
+  real rest;
+  real bound;
+};
+
+Remainder remainder_of(FloatPair n, real n_bound, FloatPair m, real m_bound, real q) {
+  FloatPair product = product_of(q, m.high);
+  precise real large = n.high - product.high;
+  precise real high = large - product.low;
+  precise real small = q * m.low;
+  precise real low = n.low - small;
+  precise real rest = high + low;
+  precise real roundings = unit * (abs(large) + abs(high) + abs(small) + abs(low) + abs(rest));
+  precise real bound = n_bound + abs(q) * m_bound + roundings;
+  Remainder result;
+  result.rest = rest;
+  result.bound = bound;
+  return result;
+}
+
+struct RoundedNumber {
+  real number;
+  bool is_rounded;
+};
+
+bool is_in_range(real q) { return abs(q) >= least_quotient && abs(q) <= largest_quotient; }
+
+// The float nearest to n / m, where that is certain. m is positive (G14).
+RoundedNumber quotient_of(FloatPair n, real n_bound, FloatPair m, real m_bound) {
+  RoundedNumber result;
+  result.number = 0.0;
+  result.is_rounded = false;
+  precise real guess = n.high / m.high;
+  if (!is_in_range(guess)) return result;
+  precise real step = remainder_of(n, n_bound, m, m_bound, guess).rest / m.high;
+  precise real q = guess + step;
+  if (!is_in_range(q)) return result;
+  Remainder of_q = remainder_of(n, n_bound, m, m_bound, q);
+  bool is_beyond = (of_q.rest < 0.0) == (q < 0.0);  // n / m is farther from 0 than q is.
+  uint bits = floatBitsToUint(q);
+  real next = uintBitsToFloat(is_beyond ? bits + 1u : bits - 1u);
+  precise real gap = abs(next - q);
+  precise real half_way = 0.5 * gap * m.high;
+  precise real bound = slack_of_bounds * (of_q.bound + 1.25 * gap * (abs(m.low) + m_bound));
+  precise real most = abs(of_q.rest) + bound;
+  precise real least = abs(of_q.rest) - bound;
+  precise real beyond_next = 2.5 * half_way;
+  precise real widest = 0.5 * half_way;
+  bool is_nearest = most < half_way && bound < widest;
+  bool is_next_nearest = least > half_way && most < beyond_next;
+  result.is_rounded = is_nearest || is_next_nearest;
+  result.number = is_nearest ? q : next;
+  return result;
+}
+
+struct RoundedHit {
+  real t;
+  real u;
+  real v;
+  bool is_front;
+  bool is_rounded;
+};
+
+// Rounds a certain hit. The path has a start and an end, or an origin and a direction.
+RoundedHit round_hit(vec3 start, vec3 toward, bool is_segment, vec3 a, vec3 b, vec3 c) {
+  PairVector d = difference_of(toward, start);
+  if (!is_segment) d = pairs_of(toward);
+  PairVector e = difference_of(b, a);
+  PairVector f = difference_of(c, a);
+  PairVector s = difference_of(start, a);
+  PairVector p = cross_of_pairs(d, f);
+  PairVector q = cross_of_pairs(s, e);
+  FloatPair det = dot_of_pairs(e, p);
+  FloatPair height = dot_of_pairs(f, q);
+  FloatPair side_u = dot_of_pairs(s, p);
+  FloatPair side_v = dot_of_pairs(d, q);
+  RoundedHit result;
+  result.is_front = det.high > 0.0;
+  if (!result.is_front) {
+    det = negated(det);
+    height = negated(height);
+    side_u = negated(side_u);
+    side_v = negated(side_v);
+  }
+  real det_bound = bound_of(e, d, f);
+  RoundedNumber t = quotient_of(height, bound_of(f, s, e), det, det_bound);
+  RoundedNumber u = quotient_of(side_u, bound_of(s, d, f), det, det_bound);
+  RoundedNumber v = quotient_of(side_v, bound_of(d, s, e), det, det_bound);
+  result.t = t.number;
+  result.u = u.number;
+  result.v = v.number;
+  result.is_rounded = t.is_rounded && u.is_rounded && v.is_rounded;
+  return result;
+}

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "support/floating_point_environment.hpp"
+#include "surehit/batch_options.hpp"
+#include "surehit/collider.hpp"
+#include "surehit/intersect.hpp"
+
+namespace surehit::detail {
+
+// What the host does for the paths that a device leaves to it.
+
+/// The number of paths in a task of the host.
+inline constexpr std::size_t paths_in_a_task = 4096;
+
+/// Calls `work(first, last)` for parts of [0, count), in tasks of the executor if there is one.
+template <typename Work>
+void in_tasks(const std::optional<Executor>& executor, std::size_t count, const Work& work) {
+  if (!executor || count <= paths_in_a_task) {
+    work(std::size_t{0}, count);
+    return;
+  }
+  executor->run((count + paths_in_a_task - 1) / paths_in_a_task, [&](std::size_t task) {
+    const FloatingPointEnvironment environment;  // A thread has its own.
+    work(task * paths_in_a_task, std::min(count, (task + 1) * paths_in_a_task));
+  });
+}
+
+/// Returns a view of paths whose numbers lie side by side.
+[[nodiscard]] inline PathSpanf span_of(PathKind kind, std::span<const float> numbers) {
+  const std::size_t count = numbers.size() / 6;
+  const float* const first = numbers.data();
+  if (count == 0) return {};
+  if (kind == PathKind::segment) return std::span(reinterpret_cast<const Segmentf*>(first), count);
+  if (kind == PathKind::ray) return std::span(reinterpret_cast<const Rayf*>(first), count);
+  return std::span(reinterpret_cast<const Linef*>(first), count);
+}
+
+inline void ask(const Colliderf& collider, const PathSpanf& paths, std::span<Hitf> hits, const BatchOptionsf& options) {
+  collider.first_hits(paths, hits, options);
+}
+inline void ask(const Colliderf& collider, const PathSpanf& paths, std::span<std::uint8_t> blocked,
+                const BatchOptionsf& options) {
+  collider.any_hits(paths, blocked, options);
+}
+
+/// Sets the answer of a path that certainly hits this triangle, and certainly first. The weights and t do not depend on
+/// the options (G9). A faulty device may name a triangle that is not hit.
+inline void round_on_host(const Colliderf& collider, const Pathf& path, const QueryOptionsf& options,
+                          std::uint32_t triangle, Hitf& hit) {
+  if (const auto found = intersect<float>(path, collider.triangle(triangle))) {
+    hit = *found;
+    hit.triangle = triangle;
+  } else {
+    hit = collider.first_hit(path, options).value_or(Hitf{});
+  }
+}
+
+}  // namespace surehit::detail

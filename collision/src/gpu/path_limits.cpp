@@ -1,0 +1,46 @@
+#include "gpu/path_limits.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "filter/kernel_bound.hpp"
+#include "path_range.hpp"
+
+namespace surehit::detail {
+namespace {
+
+/// The device takes 2^100 for infinity. No t of a certain hit is as large (G5).
+constexpr float beyond = 0x1p100F;
+
+/// Returns true if a device could take the limit for zero (G2).
+bool may_be_flushed(float limit) {
+  const std::uint32_t size = std::bit_cast<std::uint32_t>(limit) & 0x7fffffffU;
+  return size != 0 && size < std::bit_cast<std::uint32_t>(std::numeric_limits<float>::min());
+}
+
+}  // namespace
+
+PathLimits path_limits(PathKind kind, const QueryOptionsf& options) {
+  PathLimits limits = {};
+  limits.mask = options.mask;
+  limits.ignored = options.ignored_triangle;
+  if (options.culling == Culling::back) limits.flags |= PathLimits::keeps_front;
+  if (options.culling == Culling::front) limits.flags |= PathLimits::keeps_back;
+  const PathRange<float> range(kind, options);
+  if (range.is_empty()) limits.flags |= PathLimits::hits_nothing;
+  const RangeWeights<float> weights(range);
+  if (!weights.decides || may_be_flushed(range.first) || may_be_flushed(range.last)) {
+    limits.flags |= PathLimits::is_for_host;
+  }
+  if (weights.is_whole) limits.flags |= PathLimits::is_whole;
+  limits.t_first = weights.t_first;
+  limits.det_first = weights.det_first;
+  limits.t_last = weights.t_last;
+  limits.det_last = weights.det_last;
+  limits.first = std::max(range.first, -beyond);
+  limits.last = std::min(range.last, beyond);
+  return limits;
+}
+
+}  // namespace surehit::detail

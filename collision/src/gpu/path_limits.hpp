@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "surehit/path.hpp"
+#include "surehit/query_options.hpp"
+
+namespace surehit::detail {
+
+/// What narrows a path on the device, as `tree_walk.comp` reads it.
+struct PathLimits {
+  float t_first, det_first, t_last, det_last;  ///< The weights of the ends of the range, as in `RangeWeights`.
+  float first, last;                           ///< The range. 2^100 stands for infinity.
+  std::uint32_t mask;
+  std::uint32_t ignored;
+  std::uint32_t flags;
+
+  static constexpr std::uint32_t keeps_front = 1;   ///< Leaves out hits that are not `front`.
+  static constexpr std::uint32_t keeps_back = 2;    ///< Leaves out hits that are not `back`.
+  static constexpr std::uint32_t is_whole = 4;      ///< The range is [0, 1].
+  static constexpr std::uint32_t hits_nothing = 8;  ///< The range is empty.
+  static constexpr std::uint32_t is_for_host = 16;  ///< The kernel cannot weigh the range.
+};
+
+/// Returns what the options of a path are for a device.
+[[nodiscard]] PathLimits path_limits(PathKind kind, const QueryOptionsf& options);
+
+}  // namespace surehit::detail
