@@ -34,6 +34,7 @@ class GpuError : public std::runtime_error {
     out_of_memory,    ///< There was too little memory, on the device or on the host.
     device_lost,      ///< The device has stopped, and must be opened anew.
     not_updated,      ///< The collider has changed since it was uploaded.
+    bad_buffer,       ///< A buffer of the caller's is missing or too small, or begins at a bad place.
     failed,           ///< Vulkan has failed for another reason.
   };
 
@@ -84,10 +85,37 @@ struct GpuChoice {
   bool takes_software = false;  ///< True if software will do. A device of that kind is opened by its name too.
 };
 
+/// The handles of an open device, as Vulkan has them.
+struct GpuHandles {
+  void (*get_instance_proc_addr)() = nullptr;  ///< `vkGetInstanceProcAddr`.
+  void* instance = nullptr;                    ///< The `VkInstance`, of Vulkan 1.1 or later.
+  void* physical_device = nullptr;             ///< The `VkPhysicalDevice`.
+  void* device = nullptr;                      ///< The `VkDevice`.
+  void* queue = nullptr;                       ///< A `VkQueue` of the device that computes.
+  std::uint32_t queue_family = 0;              ///< The index of the queue's family.
+};
+
+/// A part of a buffer of the caller's, on a device.
+struct GpuBufferPart {
+  std::uint64_t buffer = 0;  ///< The `VkBuffer`, which storage and transfers in both directions may use.
+  std::uint64_t offset = 0;  ///< Where the part begins, in bytes: a multiple of `minStorageBufferOffsetAlignment`.
+  std::uint64_t size = 0;    ///< How long the part is, in bytes.
+};
+
+/// Paths in a buffer of the caller's, on a device. Each has six floats: its start and its end, or its origin and its
+/// direction.
+struct GpuPaths {
+  PathKind kind = PathKind::segment;  ///< The kind of all paths.
+  std::size_t count = 0;              ///< The number of paths.
+  GpuBufferPart part;                 ///< Where they are. A path takes 24 bytes.
+};
+
 /// An open device of Vulkan. Copies refer to the same device, which closes with the last of them and of its colliders.
 ///
 /// Vulkan's loader is opened when a device is listed or opened, so a program starts without it. Any number of threads
 /// may use a device. Their batches take turns: a batch holds the device until its end.
+///
+/// A program that has a device of its own lets the library adopt it, and so keeps paths and answers on the device.
 class GpuDevice {
  public:
   /// Makes a device that is not open.
@@ -99,6 +127,11 @@ class GpuDevice {
   /// Becomes the device of this choice. Fails if there is none, if it lacks something, or if it computes otherwise than
   /// the proofs assume. This device is then as before.
   GpuResult try_open(const GpuChoice& choice = {});
+  /// Becomes a device that the caller has opened. Fails as `try_open` does, or if a handle is null.
+  ///
+  /// The caller closes the device, after the last copy of this and the last collider on it have gone. While one of them
+  /// is made, asked or destroyed, nothing else may use the queue.
+  GpuResult try_adopt(const GpuHandles& given);
 
 #if defined(__cpp_exceptions)
   /// Returns what `try_list` finds. Throws its error.
@@ -119,6 +152,9 @@ class GpuDevice {
   [[nodiscard]] bool is_open() const noexcept { return state_ != nullptr; }
   /// Returns the name of an open device.
   [[nodiscard]] const std::string& name() const noexcept;
+  /// Returns the handles of an open device, so that the caller can make buffers on it. They hold until it closes. The
+  /// queue may not be used while the library uses it.
+  [[nodiscard]] GpuHandles handles() const noexcept;
 
  private:
   friend struct detail::GpuDeviceState;
@@ -139,7 +175,8 @@ struct GpuStatistics {
 
 /// What a batch does besides.
 struct GpuBatchOptions {
-  /// If the device fails, the host answers the rest of the batch. Otherwise the batch ends with the error.
+  /// If the device fails, the host answers the rest of the batch. Otherwise the batch ends with the error. This plays
+  /// no part where paths and answers are in buffers of the caller's.
   bool goes_on_without_device = false;
   /// The batch adds its work to these, unless this is null. Nothing else may use them while the batch runs.
   GpuStatistics* statistics = nullptr;
@@ -199,6 +236,24 @@ class GpuCollider {
   /// Sets `blocked[i]` to 1 if path i has a hit, and to 0 otherwise, as `Collider::any_hits` does. All else is as in
   /// `first_hits`.
   GpuBatchResult any_hits(const PathSpanf& paths, std::span<std::uint8_t> blocked, const BatchOptionsf& options = {},
+                          const GpuBatchOptions& gpu = {}) const;
+
+  /// Does the same with paths and hits in buffers of the caller's, on the collider's device. Each hit takes 20 bytes:
+  /// t, u and v as floats, then the triangle and the number of the side as words of 32 bits. No bit differs from that
+  /// of `Collider::first_hits`.
+  ///
+  /// Paths are read after all work that the device's queue has been given. All hits are in their buffer when this
+  /// returns, those that the host finished too. The device sends the host only paths that it leaves to it, and the host
+  /// sends it their hits. If there is a filter, or if the host answers all paths for another reason, all paths and hits
+  /// go through the host.
+  ///
+  /// Fails too if a buffer is null or too small, if its part begins at a bad place, or if both parts overlap. The host
+  /// does not go on without the device. After a failure, what comes after the first `finished` hits has no meaning. If
+  /// the device was lost, both buffers must stay until the device is closed.
+  GpuBatchResult first_hits(const GpuPaths& paths, const GpuBufferPart& hits, const BatchOptionsf& options = {},
+                            const GpuBatchOptions& gpu = {}) const;
+  /// Sets a word of 32 bits for each path: to 1 if it has a hit, and to 0 otherwise. All else is as in `first_hits`.
+  GpuBatchResult any_hits(const GpuPaths& paths, const GpuBufferPart& blocked, const BatchOptionsf& options = {},
                           const GpuBatchOptions& gpu = {}) const;
 
   /// Returns the memory on the device that the mesh takes, in bytes.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,6 +21,19 @@ static_assert(sizeof(DeviceHit) == 20);
 
 /// What a device says of a path in `any_hits`: 0 for a miss, 1 for a hit, 2 for neither.
 using DeviceAny = std::uint32_t;
+
+/// What a device lists of a path that it leaves to the host, as `tree_walk.comp` writes it.
+struct ListedPath {
+  std::uint32_t path;            ///< The number of the path in its dispatch.
+  std::uint32_t triangle;        ///< The triangle that is hit and not rounded, or `no_triangle` if none is known.
+  std::array<float, 6> numbers;  ///< The numbers of the path.
+};
+static_assert(sizeof(ListedPath) == 32);
+
+/// What stands before the list.
+struct ListedCounts {
+  std::uint32_t leftovers, misses, unused_1, unused_2;
+};
 
 /// What is left to the host of a path.
 enum class Leftover : std::uint8_t {

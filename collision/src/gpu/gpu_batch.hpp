@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -13,7 +12,7 @@
 #include "gpu/device_answers.hpp"
 #include "gpu/gpu_collider_state.hpp"
 #include "gpu/host_answers.hpp"
-#include "gpu/path_limits.hpp"
+#include "gpu/in_dispatches.hpp"
 #include "surehit/gpu.hpp"
 
 namespace surehit::detail {
@@ -53,30 +52,17 @@ class GpuBatch {
   static constexpr bool wants_first = std::is_same_v<Answer, Hitf>;
   using DeviceAnswer = std::conditional_t<wants_first, DeviceHit, DeviceAny>;
 
-  /// While the device works on one slot, the host finishes the other.
   std::optional<GpuError> run_on_device() {
-    GpuDeviceState& device = *state_.device;
-    const std::lock_guard lock(device.mutex);
-    if (device.is_lost) return GpuError(GpuError::Reason::device_lost, "the device was lost; it must be opened anew");
-    GpuWork work(device, state_.mesh);
-    for (const GpuSlot& slot : device.slots) device.bind(slot, state_.mesh->nodes.get(), state_.mesh->triangles.get());
-    std::size_t begun = 0;
-    while (finished_ < count_) {
-      if (begun < count_ && begun - finished_ < device.slots.size() * step) {
-        if (auto error = begin(device.slots[begun / step % 2], begun)) return error;
-        begun += std::min(step, count_ - begun);
-        continue;
-      }
-      const GpuSlot& slot = device.slots[finished_ / step % 2];
-      if (auto error = device.wait(slot)) return error;
-      finish(slot, finished_);
-      finished_ += std::min(step, count_ - finished_);
-    }
-    work.end();
-    return std::nullopt;
+    return in_dispatches(
+        *state_.device, state_.mesh, count_, finished_,
+        [&](GpuSlot& slot, std::size_t first) { return begin(slot, first); },
+        [&](GpuSlot& slot, std::size_t first) {
+          finish(slot, first);
+          return std::optional<GpuError>();
+        });
   }
 
-  std::optional<GpuError> begin(const GpuSlot& slot, std::size_t first) {
+  std::optional<GpuError> begin(GpuSlot& slot, std::size_t first) {
     const std::size_t count = std::min(step, count_ - first);
     auto* const numbers = reinterpret_cast<float*>(slot.host_paths.data());
     if (paths_.is_packed()) {
@@ -84,23 +70,19 @@ class GpuBatch {
     } else {
       for (std::size_t i = 0; i < count; ++i) paths_.copy(first + i, numbers + 6 * i);
     }
-    auto* const limits = reinterpret_cast<PathLimits*>(slot.host_limits.data());
-    const bool has_own = !options_.path_options.empty();
-    const std::size_t limit_count = has_own ? count : 1;
-    for (std::size_t i = 0; i < limit_count; ++i) limits[i] = path_limits(paths_.kind(), options_of(first + i));
+    const std::size_t limits = write_limits(slot, paths_.kind(), options_, first, count);
     ++statistics_.dispatches;
-    const PushedWords pushed = {static_cast<std::uint32_t>(count), paths_.kind() == PathKind::segment ? 1U : 0U,
-                                has_own ? 1U : 0U, max_path_steps};
-    return state_.device->submit(slot, wants_first ? GpuTask::first_hits : GpuTask::any_hits, pushed,
-                                 count * sizeof(float[6]), limit_count * sizeof(PathLimits),
-                                 count * sizeof(DeviceAnswer));
+    const GpuCopy there[] = {copy_of(slot.host_paths, slot.paths, count * sizeof(float[6])),
+                             copy_of(slot.host_limits, slot.limits, limits * sizeof(PathLimits))};
+    const GpuDispatch dispatch = {wants_first ? GpuTask::first_hits : GpuTask::any_hits,
+                                  pushed_words(paths_.kind(), options_, count, false)};
+    const GpuCopy back = copy_of(slot.answers, slot.host_answers, count * sizeof(DeviceAnswer));
+    const GpuMesh& mesh = *state_.mesh;
+    state_.device->bind(slot, mesh.nodes.get(), mesh.triangles.get(), {slot.paths.get()}, {slot.answers.get()});
+    return state_.device->submit(slot, there, &dispatch, {&back, 1});
   }
 
-  [[nodiscard]] const QueryOptionsf& options_of(std::size_t path) const {
-    return options_.path_options.empty() ? options_.options : options_.path_options[path];
-  }
-
-  void finish(const GpuSlot& slot, std::size_t first) {
+  void finish(GpuSlot& slot, std::size_t first) {
     const std::span found(reinterpret_cast<const DeviceAnswer*>(slot.host_answers.data()),
                           std::min(step, count_ - first));
     const std::size_t triangle_count = state_.collider->triangle_count();
@@ -130,27 +112,15 @@ class GpuBatch {
     if constexpr (wants_first) {
       in_tasks(options_.executor, unrounded_.size(), [&](std::size_t from, std::size_t to) {
         for (const std::size_t i : std::span(unrounded_).subspan(from, to - from)) {
-          round_on_host(*state_.collider, paths_[first + i], options_of(first + i), found[i].triangle,
+          round_on_host(*state_.collider, paths_[first + i], options_of(options_, first + i), found[i].triangle,
                         answers_[first + i]);
         }
       });
     }
-    answer_open();
-  }
-
-  /// Lets the host's batch answer the open paths.
-  void answer_open() {
     if (open_.empty()) return;
     numbers_.resize(6 * open_.size());
     for (std::size_t i = 0; i < open_.size(); ++i) paths_.copy(open_[i], numbers_.data() + 6 * i);
-    BatchOptionsf options = options_;
-    if (!options_.path_options.empty()) {
-      own_options_.clear();
-      for (const std::size_t path : open_) own_options_.push_back(options_.path_options[path]);
-      options.path_options = own_options_;
-    }
-    found_.resize(open_.size());
-    ask(*state_.collider, span_of(paths_.kind(), numbers_), found_, options);
+    answer_open(*state_.collider, paths_.kind(), numbers_, open_, options_, found_);
     for (std::size_t i = 0; i < open_.size(); ++i) answers_[open_[i]] = found_[i];
   }
 
@@ -172,7 +142,6 @@ class GpuBatch {
   std::vector<std::size_t> unrounded_;  ///< The paths of a dispatch that the host rounds.
   std::vector<std::size_t> open_;       ///< The paths that the host answers.
   std::vector<float> numbers_;          ///< Their numbers.
-  std::vector<QueryOptionsf> own_options_;
   std::vector<Answer> found_;
 };
 

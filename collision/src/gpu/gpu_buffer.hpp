@@ -28,6 +28,8 @@ class GpuBuffer {
   [[nodiscard]] std::optional<GpuError> make(const GpuDeviceState& device, std::size_t size, Place place,
                                              const char* what);
 
+  /// Leaves the buffer and its memory to the device for ever.
+  void forget() { device_ = nullptr; }
   [[nodiscard]] VkBuffer get() const { return buffer_; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::byte* data() const { return data_; }

@@ -9,6 +9,7 @@
 
 #include "collider_state.hpp"
 #include "gpu/gpu_batch.hpp"
+#include "gpu/gpu_buffer_batch.hpp"
 #include "gpu/gpu_collider_state.hpp"
 #include "gpu/triangle_tree.hpp"
 #include "support/floating_point_environment.hpp"
@@ -20,9 +21,10 @@ namespace {
 using detail::GpuColliderState;
 using detail::GpuDeviceState;
 
-template <typename Answer>
-GpuBatchResult answer(const GpuColliderState* state, const PathSpanf& paths, std::span<Answer> answers,
-                      const BatchOptionsf& options, const GpuBatchOptions& gpu) {
+/// Runs a batch of this class, unless the collider has changed since it was uploaded.
+template <typename Batch, typename Paths, typename Answers>
+GpuBatchResult run(const GpuColliderState* state, const Paths& paths, const Answers& answers,
+                   const BatchOptionsf& options, const GpuBatchOptions& gpu) {
   const FloatingPointEnvironment environment;
   GpuBatchResult refused;
   if (state == nullptr) {
@@ -35,7 +37,7 @@ GpuBatchResult answer(const GpuColliderState* state, const PathSpanf& paths, std
                              "the collider was rebuilt or has other masks since it was uploaded; update it first");
     return refused;
   }
-  return detail::GpuBatch<Answer>(*state, paths, answers, options, gpu).run();
+  return Batch(*state, paths, answers, options, gpu).run();
 }
 
 std::optional<GpuError> upload(GpuDeviceState& device, std::span<const std::byte> bytes, const char* what,
@@ -89,12 +91,22 @@ GpuResult GpuCollider::try_update() {
 
 GpuBatchResult GpuCollider::first_hits(const PathSpanf& paths, std::span<Hitf> hits, const BatchOptionsf& options,
                                        const GpuBatchOptions& gpu) const {
-  return answer(state_.get(), paths, hits, options, gpu);
+  return run<detail::GpuBatch<Hitf>>(state_.get(), paths, hits, options, gpu);
 }
 
 GpuBatchResult GpuCollider::any_hits(const PathSpanf& paths, std::span<std::uint8_t> blocked,
                                      const BatchOptionsf& options, const GpuBatchOptions& gpu) const {
-  return answer(state_.get(), paths, blocked, options, gpu);
+  return run<detail::GpuBatch<std::uint8_t>>(state_.get(), paths, blocked, options, gpu);
+}
+
+GpuBatchResult GpuCollider::first_hits(const GpuPaths& paths, const GpuBufferPart& hits, const BatchOptionsf& options,
+                                       const GpuBatchOptions& gpu) const {
+  return run<detail::GpuBufferBatch<Hitf>>(state_.get(), paths, hits, options, gpu);
+}
+
+GpuBatchResult GpuCollider::any_hits(const GpuPaths& paths, const GpuBufferPart& blocked, const BatchOptionsf& options,
+                                     const GpuBatchOptions& gpu) const {
+  return run<detail::GpuBufferBatch<std::uint8_t>>(state_.get(), paths, blocked, options, gpu);
 }
 
 std::size_t GpuCollider::memory_bytes() const noexcept {

@@ -46,6 +46,16 @@ GpuResult GpuDevice::try_open(const GpuChoice& choice) {
   return GpuError(no_device, "Vulkan has no device with " + choice.name + " in its name; there is " + refused);
 }
 
+GpuResult GpuDevice::try_adopt(const GpuHandles& given) {
+  const FloatingPointEnvironment environment;
+  auto state = std::make_shared<detail::GpuDeviceState>();
+  if (auto error = state->adopt(given)) return *error;
+  state_ = std::move(state);
+  return {};
+}
+
+GpuHandles GpuDevice::handles() const noexcept { return state_->handles(); }
+
 const std::string& GpuDevice::name() const noexcept { return state_->name; }
 
 }  // namespace surehit

@@ -11,8 +11,9 @@
 namespace surehit::detail {
 namespace {
 
-constexpr std::uint32_t buffer_count = 5;
-constexpr std::uint64_t two_minutes = 120'000'000'000;
+constexpr std::uint32_t buffer_count = 6;
+constexpr std::uint64_t one_second = 1'000'000'000;
+constexpr std::uint64_t two_minutes = 120 * one_second;
 constexpr const char* while_beginning = "while beginning a batch";
 
 /// A structure of Vulkan with all members zero, except for its type.
@@ -23,11 +24,23 @@ Structure of_type(VkStructureType type) {
   return structure;
 }
 
+GpuError lacking(const std::string& device_name, const std::string& missing) {
+  return {GpuError::Reason::missing_feature, device_name + " cannot be used: it lacks " + missing};
+}
+
+/// Returns the copy of the first bytes of a buffer.
+GpuCopy copy_of(const GpuBuffer& from, const GpuBuffer& to, std::size_t bytes, std::size_t to_offset = 0) {
+  return {from.get(), to.get(), {0, to_offset, bytes}};
+}
+
 }  // namespace
 
 GpuDeviceState::~GpuDeviceState() {
   if (device != VK_NULL_HANDLE) {
-    vulkan.DeviceWaitIdle(device);
+    if (!has_returned()) {
+      forget();
+      return;
+    }
     mesh.reset();
     for (GpuSlot& slot : slots) {
       vulkan.DestroyFence(device, slot.fence, nullptr);
@@ -38,9 +51,9 @@ GpuDeviceState::~GpuDeviceState() {
     vulkan.DestroyCommandPool(device, commands_, nullptr);
     vulkan.DestroyPipelineLayout(device, layout_, nullptr);
     vulkan.DestroyDescriptorSetLayout(device, set_layout_, nullptr);
-    vulkan.DestroyDevice(device, nullptr);
+    if (!is_adopted) vulkan.DestroyDevice(device, nullptr);
   }
-  if (instance != VK_NULL_HANDLE) vulkan.DestroyInstance(instance, nullptr);
+  if (instance != VK_NULL_HANDLE && !is_adopted) vulkan.DestroyInstance(instance, nullptr);
 }
 
 std::optional<GpuError> GpuDeviceState::start(const char* loader) {
@@ -72,32 +85,33 @@ std::optional<GpuError> GpuDeviceState::find(std::vector<std::pair<VkPhysicalDev
     if (auto error = error_of(result, "while finding devices")) return error;
   }
   devices.resize(count);
-  for (VkPhysicalDevice one : devices) {
-    DeviceReport its_report;
-    vulkan.GetPhysicalDeviceProperties(one, &its_report.properties);
-    vulkan.GetPhysicalDeviceMemoryProperties(one, &its_report.memory);
-    std::uint32_t families = 0;
-    vulkan.GetPhysicalDeviceQueueFamilyProperties(one, &families, nullptr);
-    its_report.families.resize(families);
-    vulkan.GetPhysicalDeviceQueueFamilyProperties(one, &families, its_report.families.data());
-    found.emplace_back(one, its_report);
-  }
+  for (VkPhysicalDevice one : devices) found.emplace_back(one, report_of(one));
   std::stable_sort(found.begin(), found.end(), [](const auto& x, const auto& y) {
     return description_of(x.second).kind < description_of(y.second).kind;
   });
   return std::nullopt;
 }
 
+DeviceReport GpuDeviceState::report_of(VkPhysicalDevice one) const {
+  DeviceReport its_report;
+  vulkan.GetPhysicalDeviceProperties(one, &its_report.properties);
+  vulkan.GetPhysicalDeviceMemoryProperties(one, &its_report.memory);
+  std::uint32_t families = 0;
+  vulkan.GetPhysicalDeviceQueueFamilyProperties(one, &families, nullptr);
+  its_report.families.resize(families);
+  vulkan.GetPhysicalDeviceQueueFamilyProperties(one, &families, its_report.families.data());
+  return its_report;
+}
+
 std::optional<GpuError> GpuDeviceState::open(VkPhysicalDevice chosen, const DeviceReport& its_report) {
+  physical_ = chosen;
   report = its_report;
   name = report.properties.deviceName;
-  if (const std::string missing = missing_of(report); !missing.empty()) {
-    return GpuError(GpuError::Reason::missing_feature, name + " cannot be used: it lacks " + missing);
-  }
-  const std::uint32_t family = *computing_family(report);
+  if (const std::string missing = missing_of(report); !missing.empty()) return lacking(name, missing);
+  family_ = *computing_family(report);
   const float priority = 1;
   auto queue = of_type<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
-  queue.queueFamilyIndex = family;
+  queue.queueFamilyIndex = family_;
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
   auto info = of_type<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
@@ -111,11 +125,49 @@ std::optional<GpuError> GpuDeviceState::open(VkPhysicalDevice chosen, const Devi
     return error;
   }
   device = opened;
-  vulkan.GetDeviceQueue(device, family, 0, &queue_);
+  vulkan.GetDeviceQueue(device, family_, 0, &queue_);
+  return prepare();
+}
 
+std::optional<GpuError> GpuDeviceState::adopt(const GpuHandles& given) {
+  struct Part {
+    bool is_there;
+    const char* name;
+  };
+  for (const Part& part :
+       {Part{given.get_instance_proc_addr != nullptr, "vkGetInstanceProcAddr"},
+        Part{given.instance != nullptr, "instance"}, Part{given.physical_device != nullptr, "physical device"},
+        Part{given.device != nullptr, "device"}, Part{given.queue != nullptr, "queue"}}) {
+    if (!part.is_there) {
+      return GpuError(GpuError::Reason::no_device, std::string("the handles of a device have no ") + part.name);
+    }
+  }
+  is_adopted = true;
+  vulkan.GetInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(given.get_instance_proc_addr);
+  instance = static_cast<VkInstance>(given.instance);
+  if (auto error = vulkan.load(instance)) return error;
+  physical_ = static_cast<VkPhysicalDevice>(given.physical_device);
+  report = report_of(physical_);
+  name = report.properties.deviceName;
+  if (const std::string missing = missing_of(report); !missing.empty()) return lacking(name, missing);
+  family_ = given.queue_family;
+  if (family_ >= report.families.size() || (report.families[family_].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
+    return lacking(name, "a queue that computes in family " + std::to_string(family_));
+  }
+  if (auto error = vulkan.load(static_cast<VkDevice>(given.device))) return error;
+  device = static_cast<VkDevice>(given.device);
+  queue_ = static_cast<VkQueue>(given.queue);
+  return prepare();
+}
+
+GpuHandles GpuDeviceState::handles() const {
+  return {reinterpret_cast<void (*)()>(vulkan.GetInstanceProcAddr), instance, physical_, device, queue_, family_};
+}
+
+std::optional<GpuError> GpuDeviceState::prepare() {
   auto pool = of_type<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
   pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-  pool.queueFamilyIndex = family;
+  pool.queueFamilyIndex = family_;
   const VkResult made = vulkan.CreateCommandPool(device, &pool, nullptr, &commands_);
   if (auto error = error_of(made, "while opening " + name, commands_)) return error;
   if (auto error = make_layouts()) return error;
@@ -203,8 +255,9 @@ std::optional<GpuError> GpuDeviceState::make_slots() {
     };
     for (const Wanted& wanted : {Wanted{&slot.host_paths, &slot.paths, sizeof(float[6])},
                                  Wanted{&slot.host_limits, &slot.limits, sizeof(PathLimits)},
-                                 Wanted{&slot.host_answers, &slot.answers, sizeof(DeviceHit)}}) {
-      const std::size_t bytes = wanted.size * paths_in_dispatch;
+                                 Wanted{&slot.host_answers, &slot.answers, sizeof(DeviceHit)},
+                                 Wanted{&slot.host_list, &slot.list, sizeof(ListedPath)}}) {
+      const std::size_t bytes = wanted.size * paths_in_dispatch + sizeof(ListedCounts);
       if (auto error = wanted.on_host->make(*this, bytes, GpuBuffer::Place::host, "a batch")) return error;
       if (auto error = wanted.on_device->make(*this, bytes, GpuBuffer::Place::device, "a batch")) return error;
     }
@@ -212,13 +265,14 @@ std::optional<GpuError> GpuDeviceState::make_slots() {
   return std::nullopt;
 }
 
-void GpuDeviceState::bind(const GpuSlot& slot, VkBuffer nodes, VkBuffer triangles) const {
+void GpuDeviceState::bind(const GpuSlot& slot, VkBuffer nodes, VkBuffer triangles, const GpuRange& paths,
+                          const GpuRange& answers) const {
   std::array<VkDescriptorBufferInfo, buffer_count> infos;
   std::array<VkWriteDescriptorSet, buffer_count> writes;
-  const std::array<VkBuffer, buffer_count> all = {nodes, triangles, slot.paths.get(), slot.limits.get(),
-                                                  slot.answers.get()};
+  const std::array<GpuRange, buffer_count> all = {
+      GpuRange{nodes}, GpuRange{triangles}, paths, GpuRange{slot.limits.get()}, answers, GpuRange{slot.list.get()}};
   for (std::uint32_t i = 0; i < buffer_count; ++i) {
-    infos[i] = {all[i], 0, VK_WHOLE_SIZE};
+    infos[i] = {all[i].buffer, all[i].offset, all[i].size};
     writes[i] = of_type<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     writes[i].dstSet = slot.buffers;
     writes[i].dstBinding = i;
@@ -229,63 +283,103 @@ void GpuDeviceState::bind(const GpuSlot& slot, VkBuffer nodes, VkBuffer triangle
   vulkan.UpdateDescriptorSets(device, buffer_count, writes.data(), 0, nullptr);
 }
 
-std::optional<GpuError> GpuDeviceState::submit(const GpuSlot& slot, GpuTask task, const PushedWords& pushed,
-                                               std::size_t path_bytes, std::size_t limit_bytes,
-                                               std::size_t answer_bytes) {
+std::optional<GpuError> GpuDeviceState::submit(GpuSlot& slot, std::span<const GpuCopy> before,
+                                               const GpuDispatch* dispatch, std::span<const GpuCopy> after,
+                                               bool waits_for_all) {
   auto begin = of_type<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   if (auto error = noted(vulkan.BeginCommandBuffer(slot.commands, &begin), while_beginning)) return error;
   // Nothing throws until the commands end, because those of the next batch cannot begin before.
-  const auto copy = [&](const GpuBuffer& from, const GpuBuffer& to, std::size_t bytes) {
-    if (bytes == 0) return;
-    const VkBufferCopy region = {0, 0, bytes};
-    vulkan.CmdCopyBuffer(slot.commands, from.get(), to.get(), 1, &region);
-  };
-  // Each stage waits for the whole one before it.
-  const auto wait_for = [&](VkPipelineStageFlags before, VkAccessFlags written, VkPipelineStageFlags after,
-                            VkAccessFlags read) {
+  const auto wait_for = [&](VkPipelineStageFlags stages, VkAccessFlags written, VkPipelineStageFlags next_stages,
+                            VkAccessFlags used) {
     auto barrier = of_type<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
     barrier.srcAccessMask = written;
-    barrier.dstAccessMask = read;
-    vulkan.CmdPipelineBarrier(slot.commands, before, after, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+    barrier.dstAccessMask = used;
+    vulkan.CmdPipelineBarrier(slot.commands, stages, next_stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
   };
-  copy(slot.host_paths, slot.paths, path_bytes);
-  copy(slot.host_limits, slot.limits, limit_bytes);
-  wait_for(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-           VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
-  vulkan.CmdBindPipeline(slot.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[static_cast<std::size_t>(task)]);
-  vulkan.CmdBindDescriptorSets(slot.commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &slot.buffers, 0, nullptr);
-  vulkan.CmdPushConstants(slot.commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof pushed, &pushed);
-  vulkan.CmdDispatch(slot.commands, (pushed.path_count + threads_in_group - 1) / threads_in_group, 1, 1);
-  wait_for(VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
-           VK_ACCESS_TRANSFER_READ_BIT);
-  copy(slot.answers, slot.host_answers, answer_bytes);
-  wait_for(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
-           VK_ACCESS_HOST_READ_BIT);
-  return run(slot);
-}
-
-std::optional<GpuError> GpuDeviceState::run(const GpuSlot& slot) {
+  const auto copy_all = [&](std::span<const GpuCopy> copies) {
+    for (std::size_t i = 0; i < copies.size();) {
+      std::array<VkBufferCopy, 64> regions;
+      std::uint32_t count = 0;
+      const GpuCopy& first = copies[i];
+      while (count < regions.size() && i < copies.size() && copies[i].from == first.from && copies[i].to == first.to) {
+        regions[count++] = copies[i++].region;
+      }
+      vulkan.CmdCopyBuffer(slot.commands, first.from, first.to, count, regions.data());
+    }
+  };
+  constexpr auto transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
+  constexpr auto compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+  constexpr auto by_transfer = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+  constexpr auto by_shader = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+  if (waits_for_all) {
+    wait_for(VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT, transfer | compute,
+             by_transfer | by_shader);
+  }
+  copy_all(before);
+  wait_for(transfer, VK_ACCESS_TRANSFER_WRITE_BIT, transfer | compute, by_transfer | by_shader);
+  if (dispatch != nullptr) {
+    const auto task = static_cast<std::size_t>(dispatch->task);
+    const PushedWords& words = dispatch->words;
+    vulkan.CmdBindPipeline(slot.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[task]);
+    vulkan.CmdBindDescriptorSets(slot.commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &slot.buffers, 0,
+                                 nullptr);
+    vulkan.CmdPushConstants(slot.commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof words, &words);
+    vulkan.CmdDispatch(slot.commands, (words.path_count + threads_in_group - 1) / threads_in_group, 1, 1);
+    wait_for(compute, VK_ACCESS_SHADER_WRITE_BIT, transfer, by_transfer);
+  }
+  copy_all(after);
+  // The host reads what was copied to it, and the caller's work on the queue what is in the caller's buffers.
+  wait_for(transfer | compute, VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT,
+           VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+           VK_ACCESS_HOST_READ_BIT | VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT);
   if (auto error = noted(vulkan.EndCommandBuffer(slot.commands), while_beginning)) return error;
   auto work = of_type<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
   work.commandBufferCount = 1;
   work.pCommandBuffers = &slot.commands;
-  return noted(vulkan.QueueSubmit(queue_, 1, &work, slot.fence), while_beginning);
+  const VkResult begun = vulkan.QueueSubmit(queue_, 1, &work, slot.fence);
+  slot.is_under_way = begun == VK_SUCCESS;
+  return noted(begun, while_beginning);
 }
 
-std::optional<GpuError> GpuDeviceState::wait(const GpuSlot& slot) {
+std::optional<GpuError> GpuDeviceState::wait(GpuSlot& slot) {
   const char* const what = "while a batch was under way";
   if (auto error = noted(vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes), what)) return error;
+  slot.is_under_way = false;
   return noted(vulkan.ResetFences(device, 1, &slot.fence), what);
 }
 
 void GpuDeviceState::abandon() noexcept {
-  if (is_lost) return;
-  VkResult result = vulkan.DeviceWaitIdle(device);
-  for (const GpuSlot& slot : slots) {
+  for (GpuSlot& slot : slots) {
+    if (is_lost || !slot.is_under_way) continue;
+    VkResult result = vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes);
+    slot.is_under_way = result != VK_SUCCESS;
     if (result == VK_SUCCESS) result = vulkan.ResetFences(device, 1, &slot.fence);
+    is_lost = result != VK_SUCCESS;
   }
-  is_lost = result != VK_SUCCESS;
+}
+
+bool GpuDeviceState::has_returned() noexcept {
+  bool has = true;
+  for (const GpuSlot& slot : slots) {
+    // A device that was lost has returned.
+    if (slot.is_under_way) has &= vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, one_second) != VK_TIMEOUT;
+  }
+  return has;
+}
+
+void GpuDeviceState::forget() noexcept {
+  for (GpuSlot& slot : slots) {
+    for (GpuBuffer* buffer : {&slot.host_paths, &slot.host_limits, &slot.host_answers, &slot.host_list, &slot.paths,
+                              &slot.limits, &slot.answers, &slot.list}) {
+      buffer->forget();
+    }
+  }
+  if (mesh != nullptr) {
+    mesh->nodes.forget();
+    mesh->triangles.forget();
+  }
+  vulkan.library = nullptr;
 }
 
 std::optional<GpuError> GpuDeviceState::noted(VkResult result, const char* what) {
@@ -295,35 +389,26 @@ std::optional<GpuError> GpuDeviceState::noted(VkResult result, const char* what)
 }
 
 std::optional<GpuError> GpuDeviceState::upload(std::span<const std::byte> bytes, const GpuBuffer& to) {
-  const GpuSlot& slot = slots[0];
+  GpuSlot& slot = slots[0];
   for (std::size_t first = 0; first < bytes.size(); first += slot.host_paths.size()) {
     const std::size_t count = std::min(slot.host_paths.size(), bytes.size() - first);
     std::memcpy(slot.host_paths.data(), bytes.data() + first, count);
-    auto begin = of_type<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    const VkResult begun = vulkan.BeginCommandBuffer(slot.commands, &begin);
-    if (auto error = noted(begun, "while uploading a mesh")) return error;
-    const VkBufferCopy region = {0, first, count};
-    vulkan.CmdCopyBuffer(slot.commands, slot.host_paths.get(), to.get(), 1, &region);
-    auto barrier = of_type<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
-    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
-    vulkan.CmdPipelineBarrier(slot.commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1,
-                              &barrier, 0, nullptr, 0, nullptr);
-    if (auto error = run(slot)) return error;
+    const GpuCopy copy = copy_of(slot.host_paths, to, count, first);
+    if (auto error = submit(slot, {&copy, 1}, nullptr, {})) return error;
     if (auto error = wait(slot)) return error;
   }
   return std::nullopt;
 }
 
 std::optional<GpuError> GpuDeviceState::round(std::span<const RoundingCase> cases, std::span<RoundingResult> results) {
-  const GpuSlot& slot = slots[0];
+  GpuSlot& slot = slots[0];
   std::memcpy(slot.host_paths.data(), cases.data(), cases.size_bytes());
-  bind(slot, slot.limits.get(), slot.limits.get());  // The shader reads no mesh.
-  const auto count = static_cast<std::uint32_t>(cases.size());
-  if (auto error = submit(slot, GpuTask::roundings, {count, 0, 0, 0}, cases.size_bytes(), 0, results.size_bytes())) {
-    return error;
-  }
+  // The shader reads no mesh.
+  bind(slot, slot.limits.get(), slot.limits.get(), {slot.paths.get()}, {slot.answers.get()});
+  const GpuDispatch dispatch = {GpuTask::roundings, {static_cast<std::uint32_t>(cases.size()), 0, 0, 0, 0}};
+  const GpuCopy there = copy_of(slot.host_paths, slot.paths, cases.size_bytes());
+  const GpuCopy back = copy_of(slot.answers, slot.host_answers, results.size_bytes());
+  if (auto error = submit(slot, {&there, 1}, &dispatch, {&back, 1})) return error;
   if (auto error = wait(slot)) return error;
   std::memcpy(results.data(), slot.host_answers.data(), results.size_bytes());
   return std::nullopt;

@@ -21,17 +21,30 @@ namespace surehit::detail {
 
 /// The words that a dispatch pushes.
 struct PushedWords {
-  std::uint32_t path_count, is_segment, limits_step, max_steps;
+  std::uint32_t path_count, is_segment, limits_step, max_steps, lists;
+};
+
+/// A part of a buffer.
+struct GpuRange {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceSize offset = 0, size = VK_WHOLE_SIZE;
+};
+
+/// A copy from one buffer to another.
+struct GpuCopy {
+  VkBuffer from, to;
+  VkBufferCopy region;
 };
 
 /// The work on one dispatch: its buffers on both sides, its commands, and a fence. A device has two of them, so that
 /// it works on one while the host finishes the other.
 struct GpuSlot {
-  GpuBuffer host_paths, host_limits, host_answers;  ///< Where the host writes and reads.
-  GpuBuffer paths, limits, answers;                 ///< Where the device does.
+  GpuBuffer host_paths, host_limits, host_answers, host_list;  ///< Where the host writes and reads.
+  GpuBuffer paths, limits, answers, list;                      ///< Where the device does.
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkDescriptorSet buffers = VK_NULL_HANDLE;
   VkFence fence = VK_NULL_HANDLE;
+  bool is_under_way = false;  ///< True from when work begins until it has been waited for.
 };
 
 /// The buffers of a mesh on a device.
@@ -41,6 +54,12 @@ struct GpuMesh {
 
 /// What the shader of a dispatch is.
 enum class GpuTask : std::uint8_t { any_hits, first_hits, roundings };
+
+/// What a device computes at a time.
+struct GpuDispatch {
+  GpuTask task;
+  PushedWords words;
+};
 
 /// What an open device has behind its pointer.
 struct GpuDeviceState {
@@ -53,19 +72,26 @@ struct GpuDeviceState {
   [[nodiscard]] std::optional<GpuError> start(const char* loader = "libvulkan.so.1");
   /// Sets `found` to what the drivers say of all devices.
   [[nodiscard]] std::optional<GpuError> find(std::vector<std::pair<VkPhysicalDevice, DeviceReport>>& found) const;
+  /// Returns what the driver says of a device.
+  [[nodiscard]] DeviceReport report_of(VkPhysicalDevice one) const;
   /// Opens a device, makes its pipelines, and checks how it rounds.
   [[nodiscard]] std::optional<GpuError> open(VkPhysicalDevice chosen, const DeviceReport& its_report);
+  /// Does the same with a device that the caller has opened. It is left open at the end.
+  [[nodiscard]] std::optional<GpuError> adopt(const GpuHandles& given);
+  /// Returns the handles of the device.
+  [[nodiscard]] GpuHandles handles() const;
 
   /// Sets the buffers of a slot. The first two are those of a mesh.
-  void bind(const GpuSlot& slot, VkBuffer nodes, VkBuffer triangles) const;
-  /// Begins a dispatch. The first bytes of the host's buffers go to the device before it, and the answers come back
-  /// after it.
-  [[nodiscard]] std::optional<GpuError> submit(const GpuSlot& slot, GpuTask task, const PushedWords& pushed,
-                                               std::size_t path_bytes, std::size_t limit_bytes,
-                                               std::size_t answer_bytes);
+  void bind(const GpuSlot& slot, VkBuffer nodes, VkBuffer triangles, const GpuRange& paths,
+            const GpuRange& answers) const;
+  /// Begins some work: copies, then a dispatch unless there is none, then more copies. Each waits for what is before
+  /// it. With `waits_for_all`, the first one waits for all that the queue was given.
+  [[nodiscard]] std::optional<GpuError> submit(GpuSlot& slot, std::span<const GpuCopy> before,
+                                               const GpuDispatch* dispatch, std::span<const GpuCopy> after,
+                                               bool waits_for_all = false);
   /// Waits until the work in a slot has ended.
-  [[nodiscard]] std::optional<GpuError> wait(const GpuSlot& slot);
-  /// Waits until the device has nothing to do, after a failure. A device that cannot be waited for counts as lost.
+  [[nodiscard]] std::optional<GpuError> wait(GpuSlot& slot);
+  /// Waits until no work is under way, after a failure. A device that cannot be waited for counts as lost.
   void abandon() noexcept;
   /// Fills a buffer of the device.
   [[nodiscard]] std::optional<GpuError> upload(std::span<const std::byte> bytes, const GpuBuffer& to);
@@ -86,20 +112,28 @@ struct GpuDeviceState {
   VkDevice device = VK_NULL_HANDLE;
   DeviceReport report;
   std::string name;
-  bool is_lost = false;  ///< Nothing more is asked of a device that was lost.
+  bool is_adopted = false;  ///< True if the caller has opened the device, and closes it.
+  bool is_lost = false;     ///< Nothing more is asked of a device that was lost.
   std::array<GpuSlot, 2> slots;
   std::mutex mutex;  ///< Held by a batch and by an upload.
   /// What work under way reads or fills. A device that was lost may still do so, and keeps it until it is closed.
-  std::shared_ptr<const GpuMesh> mesh;
+  std::shared_ptr<GpuMesh> mesh;
 
  private:
+  /// Waits a little for work that is under way. Returns false if some of it still is.
+  [[nodiscard]] bool has_returned() noexcept;
+  /// Leaves all memory to a device that has not returned from its work.
+  void forget() noexcept;
+  /// Makes all that batches need on an open device, and checks how it rounds.
+  [[nodiscard]] std::optional<GpuError> prepare();
   [[nodiscard]] std::optional<GpuError> make_layouts();
   [[nodiscard]] std::optional<GpuError> make_pipeline(GpuTask task, std::span<const std::uint32_t> shader);
   [[nodiscard]] std::optional<GpuError> make_slots();
-  [[nodiscard]] std::optional<GpuError> run(const GpuSlot& slot);
   /// Returns the error of a result, and notes that the device was lost.
   [[nodiscard]] std::optional<GpuError> noted(VkResult result, const char* what);
 
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  std::uint32_t family_ = 0;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
@@ -112,9 +146,7 @@ struct GpuDeviceState {
 /// that has nothing to do. So neither an error nor an exception leaves work under way.
 class GpuWork {
  public:
-  GpuWork(GpuDeviceState& device, std::shared_ptr<const GpuMesh> mesh) : device_(device) {
-    device_.mesh = std::move(mesh);
-  }
+  GpuWork(GpuDeviceState& device, std::shared_ptr<GpuMesh> mesh) : device_(device) { device_.mesh = std::move(mesh); }
   ~GpuWork() {
     if (!has_ended_) device_.abandon();
     if (!device_.is_lost) device_.mesh.reset();

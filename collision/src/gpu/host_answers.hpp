@@ -62,4 +62,18 @@ inline void round_on_host(const Colliderf& collider, const Pathf& path, const Qu
   }
 }
 
+/// Answers some paths by the host's batch, with the options that they have in theirs. Their numbers lie side by side.
+template <typename Answer>
+void answer_open(const Colliderf& collider, PathKind kind, const std::vector<float>& numbers,
+                 const std::vector<std::size_t>& open, const BatchOptionsf& options, std::vector<Answer>& found) {
+  BatchOptionsf own = options;
+  std::vector<QueryOptionsf> own_options;
+  if (!options.path_options.empty()) {
+    for (const std::size_t path : open) own_options.push_back(options.path_options[path]);
+    own.path_options = own_options;
+  }
+  found.resize(open.size());
+  ask(collider, span_of(kind, numbers), std::span<Answer>(found), own);
+}
+
 }  // namespace surehit::detail

@@ -9,7 +9,7 @@ layout(std430, binding = 4) writeonly buffer Results { float results[]; };  // F
 
 layout(push_constant) uniform Dispatch {
   uint case_count;
-  uint unused_1, unused_2, unused_3;
+  uint unused_1, unused_2, unused_3, unused_4;
 };
 
 void main() {

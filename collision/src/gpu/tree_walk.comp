@@ -38,11 +38,27 @@ layout(std430, binding = 2) readonly buffer Paths { uint path_words[]; };  // Si
 layout(std430, binding = 3) readonly buffer Limits { PathLimits limits[]; };
 layout(std430, binding = 4) writeonly buffer Answers { uint answers[]; };
 
+// What is left to the host of a path.
+struct Leftover {
+  uint path;
+  uint triangle;  // The triangle that is hit and not rounded, or `miss` if the path is undecided.
+  uint words[6];  // The path.
+};
+
+// The numbers are counted from 0 in each dispatch.
+layout(std430, binding = 5) buffer Leftovers {
+  uint leftover_count;
+  uint miss_count;
+  uint unused_1, unused_2;
+  Leftover leftovers[];
+};
+
 layout(push_constant) uniform Dispatch {
   uint path_count;
   uint is_segment;   // 1 if each path has a start and an end, 0 if it has an origin and a direction.
   uint limits_step;  // 1 if each path has limits of its own, 0 if all have the same.
   uint max_steps;    // A path that takes more steps is undecided, so that no dispatch takes long.
+  uint lists;        // 1 if the host looks at no answers, but at a list of what is left to it.
 };
 
 // What is no triangle.
@@ -299,10 +315,20 @@ uint answer(uint path) {
   return undecided;
 }
 
+// Lists what is left to the host of a path.
+void list(uint path, uint triangle) {
+  uint place = atomicAdd(leftover_count, 1u);
+  leftovers[place].path = path;
+  leftovers[place].triangle = triangle;
+  for (uint i = 0; i < 6; ++i) leftovers[place].words[i] = path_words[6 * path + i];
+}
+
 void main() {
   uint path = gl_GlobalInvocationID.x;
   if (path >= path_count) return;
   uint found = answer(path);
+  if (lists != 0 && found == miss) atomicAdd(miss_count, 1u);
+  if (lists != 0 && found == undecided) list(path, miss);
   if (wants_first == 0) {
     answers[path] = found == miss ? any_miss : found == undecided ? any_undecided : any_hit;
     return;
@@ -318,8 +344,11 @@ void main() {
     RoundedHit hit = round_hit(start, toward, is_segment != 0, a, b, c);
     id = triangle.id;
     side = hit.is_front ? front : back;
-    if (!hit.is_rounded) side += is_not_rounded;
     weights = vec3(hit.t, hit.u, hit.v);
+    if (!hit.is_rounded) {
+      side += is_not_rounded;
+      if (lists != 0) list(path, id);
+    }
   }
   answers[5 * path] = floatBitsToUint(weights.x);
   answers[5 * path + 1] = floatBitsToUint(weights.y);

@@ -52,7 +52,7 @@ namespace surehit::detail {
   X(CmdPushConstants)                      \
   X(CmdDispatch)                           \
   X(CmdCopyBuffer)                         \
-  X(CmdPipelineBarrier) X(CreateFence) X(DestroyFence) X(ResetFences) X(WaitForFences) X(QueueSubmit) X(DeviceWaitIdle)
+  X(CmdPipelineBarrier) X(CreateFence) X(DestroyFence) X(ResetFences) X(WaitForFences) X(QueueSubmit)
 
 /// The functions of Vulkan, and the loader that they come from.
 struct VulkanFunctions {

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "gpu/gpu_device_state.hpp"
+#include "gpu/path_limits.hpp"
+#include "surehit/batch_options.hpp"
+
+namespace surehit::detail {
+
+/// Cuts a batch of `count` paths into dispatches. While the device works on one slot, the host finishes the other.
+/// `begin(slot, first)` and `finish(slot, first)` return errors. `finished` is set to the number of finished paths,
+/// even if there is an error.
+template <typename Begin, typename Finish>
+[[nodiscard]] std::optional<GpuError> in_dispatches(GpuDeviceState& device, const std::shared_ptr<GpuMesh>& mesh,
+                                                    std::size_t count, std::size_t& finished, const Begin& begin,
+                                                    const Finish& finish) {
+  constexpr std::size_t step = paths_in_dispatch;
+  const std::lock_guard lock(device.mutex);
+  if (device.is_lost) return GpuError(GpuError::Reason::device_lost, "the device was lost; it must be opened anew");
+  GpuWork work(device, mesh);
+  std::size_t begun = 0;
+  while (finished < count) {
+    if (begun < count && begun - finished < device.slots.size() * step) {
+      if (auto error = begin(device.slots[begun / step % 2], begun)) return error;
+      begun += std::min(step, count - begun);
+      continue;
+    }
+    GpuSlot& slot = device.slots[finished / step % 2];
+    if (auto error = device.wait(slot)) return error;
+    if (auto error = finish(slot, finished)) return error;
+    finished += std::min(step, count - finished);
+  }
+  work.end();
+  return std::nullopt;
+}
+
+/// Returns the options of a path in a batch.
+[[nodiscard]] inline const QueryOptionsf& options_of(const BatchOptionsf& options, std::size_t path) {
+  return options.path_options.empty() ? options.options : options.path_options[path];
+}
+
+/// Writes the limits of some paths into a slot. Returns their number, which is 1 if all paths have the same.
+[[nodiscard]] inline std::size_t write_limits(const GpuSlot& slot, PathKind kind, const BatchOptionsf& options,
+                                              std::size_t first, std::size_t count) {
+  auto* const limits = reinterpret_cast<PathLimits*>(slot.host_limits.data());
+  const std::size_t limit_count = options.path_options.empty() ? 1 : count;
+  for (std::size_t i = 0; i < limit_count; ++i) limits[i] = path_limits(kind, options_of(options, first + i));
+  return limit_count;
+}
+
+/// Returns what the shader is told of a dispatch.
+[[nodiscard]] inline PushedWords pushed_words(PathKind kind, const BatchOptionsf& options, std::size_t count,
+                                              bool lists) {
+  return {static_cast<std::uint32_t>(count), kind == PathKind::segment ? 1U : 0U,
+          options.path_options.empty() ? 0U : 1U, max_path_steps, lists ? 1U : 0U};
+}
+
+/// Returns a copy of the first bytes of a buffer to the beginning of another one.
+[[nodiscard]] inline GpuCopy copy_of(const GpuBuffer& from, const GpuBuffer& to, std::size_t bytes) {
+  return {from.get(), to.get(), {0, 0, bytes}};
+}
+
+}  // namespace surehit::detail

@@ -1,0 +1,351 @@
+// Paths and answers that stay in buffers of the caller's, on the device.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "caller_buffer.hpp"
+#include "gpu/device_answers.hpp"
+#include "gpu/gpu_device_state.hpp"
+#include "gpu_answers.hpp"
+#include "support/case_count.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/pair_families.hpp"
+#include "support/path_drawer.hpp"
+#include "support/threads.hpp"
+
+namespace surehit::test {
+namespace {
+
+using Reason = GpuError::Reason;
+using detail::DeviceHit;
+using detail::GpuDeviceState;
+
+/// What stands in a buffer where nothing was written.
+constexpr std::uint32_t unset = 0x07070707;
+
+/// Asks with paths and answers in buffers of the caller's, and expects the bits of the host. Both begin behind 256
+/// bytes that nothing may touch, and so does something else behind them.
+void expect_same_in_buffers(const GpuDevice& device, const GpuCollider& on_gpu, const Colliderf& collider,
+                            const PathSpanf& paths, const BatchOptionsf& options = {},
+                            GpuStatistics* statistics = nullptr) {
+  constexpr std::size_t before = 256;
+  const CallerVulkan vulkan(device.handles());
+  const CallerBuffer given(vulkan, before + paths.size() * sizeof(float[6]) + 16);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    float numbers[6];
+    paths.copy(i, numbers);
+    std::memcpy(given.data() + before + i * sizeof numbers, numbers, sizeof numbers);
+  }
+  const CallerBuffer hits(vulkan, before + paths.size() * sizeof(DeviceHit) + 16);
+  const CallerBuffer blocked(vulkan, before + paths.size() * sizeof(std::uint32_t) + 16);
+  const GpuPaths gpu_paths = {paths.kind(), paths.size(), given.part(before)};
+  const GpuBatchOptions gpu = {.statistics = statistics};
+  const GpuBatchResult first = on_gpu.first_hits(gpu_paths, hits.part(before), options, gpu);
+  ASSERT_TRUE(first) << first.error->what();
+  ASSERT_TRUE(on_gpu.any_hits(gpu_paths, blocked.part(before), options, gpu));
+  std::vector<Hitf> expected(paths.size());
+  std::vector<std::uint8_t> expected_blocked(paths.size());
+  collider.first_hits(paths, expected, options);
+  collider.any_hits(paths, expected_blocked, options);
+  const auto word = [](const CallerBuffer& buffer, std::size_t at) {
+    std::uint32_t result;
+    std::memcpy(&result, buffer.data() + at, sizeof result);
+    return result;
+  };
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    DeviceHit hit;
+    std::memcpy(&hit, hits.data() + before + i * sizeof hit, sizeof hit);
+    const std::uint32_t is_blocked = word(blocked, before + i * sizeof is_blocked);
+    if (hit.side <= 2 && same_bits(detail::answer_of(hit), expected[i]) && is_blocked == expected_blocked[i]) continue;
+    if (++different > 3) continue;
+    ADD_FAILURE() << hex_text(paths[i]) << ": " << hex_text(detail::answer_of(hit)) << ", not " << hex_text(expected[i])
+                  << ", and any hit is " << is_blocked;
+  }
+  EXPECT_EQ(different, 0U);
+  for (const CallerBuffer* buffer : {&hits, &blocked}) {
+    EXPECT_EQ(word(*buffer, before - 4), unset);
+    EXPECT_EQ(word(*buffer, before + paths.size() * (buffer == &hits ? sizeof(DeviceHit) : 4)), unset);
+  }
+}
+
+class GpuBufferBatchTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { device = any_gpu(); }
+  static void TearDownTestSuite() { device = GpuDevice(); }
+  void SetUp() override { SUREHIT_SKIP_WITHOUT(device); }
+
+  GpuDeviceState& state() { return *GpuDeviceState::of(device); }
+
+  static GpuDevice device;
+  GpuStatistics statistics;
+};
+GpuDevice GpuBufferBatchTest::device;
+
+TEST_F(GpuBufferBatchTest, pairs_of_each_family) {
+  for (const PairFamily family : all_pair_families) {
+    if (family == PairFamily::mixed_magnitudes) continue;  // One of them is too large for the device.
+    SCOPED_TRACE(name_of(family));
+    Random random(41);
+    GeneratedMesh<float> mesh;
+    PathsOfKinds paths;
+    for (std::size_t i = 0; i < 100; ++i) {
+      const auto [segment, triangle] = draw_pair<float>(family, random);
+      mesh.add(triangle);
+      for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
+        paths.add(path_along(segment, kind), draw_options(random, 0.5F));
+      }
+    }
+    const Colliderf collider(mesh.view());
+    const GpuCollider on_gpu(device, collider);
+    for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
+      const auto& options = paths.options[static_cast<std::size_t>(kind)];
+      expect_same_in_buffers(device, on_gpu, collider, paths.of(kind));
+      expect_same_in_buffers(device, on_gpu, collider, paths.of(kind), {.path_options = options}, &statistics);
+    }
+  }
+  EXPECT_GT(statistics.rounded, 0U);
+  EXPECT_GT(statistics.undecided, 0U);
+}
+
+/// Ground, and paths of which some end in vertices and on edges of it.
+class GpuGroundTest : public GpuBufferBatchTest {
+ protected:
+  GpuGroundTest() {
+    Random random(1);
+    ground = rough_ground<float>(20, 0.1F, random);
+    collider = Colliderf(ground.view());
+  }
+  /// One path in `share` is undecided.
+  std::vector<Segmentf> draw(std::size_t count, std::uint64_t share) {
+    Random random(42);
+    std::vector<Segmentf> paths;
+    for (std::size_t i = 0; i < count; ++i) {
+      Vector3f end(random.symmetric<float>(), random.symmetric<float>(), random.unit<float>() - 0.5F);
+      if (random.one_in(share)) end = ground.vertices[random.below(ground.vertices.size())];
+      paths.push_back({{random.symmetric<float>(), random.symmetric<float>(), 1}, end});
+    }
+    return paths;
+  }
+  GeneratedMesh<float> ground;
+  Colliderf collider;
+};
+
+/// Three dispatches. Those of the first batch list few paths, and those of the second one more than come back at once.
+TEST_F(GpuGroundTest, dispatches_that_list_few_paths_and_many) {
+  const GpuCollider on_gpu(device, collider);
+  const Threads threads(2);
+  const std::vector<Segmentf> few = draw(140'000, 1000);
+  const Executor executor = threads;
+  expect_same_in_buffers(device, on_gpu, collider, few, {.executor = executor}, &statistics);
+  EXPECT_EQ(statistics.paths, 280'000U);
+  EXPECT_EQ(statistics.dispatches, 6U);
+  EXPECT_EQ(statistics.paths, statistics.hits + statistics.misses + statistics.undecided);
+  EXPECT_GT(statistics.misses, 1000U);
+  EXPECT_GT(statistics.undecided, 0U);
+  EXPECT_LT(statistics.undecided, 1000U);
+  EXPECT_GT(statistics.rounded, 10'000U);
+  EXPECT_LT(statistics.rounded_by_host, statistics.rounded / 100);
+  statistics = {};
+  const std::vector<Segmentf> many = draw(70'000, 4);
+  expect_same_in_buffers(device, on_gpu, collider, many, {}, &statistics);
+  EXPECT_GT(statistics.undecided, 20'000U);
+}
+
+/// The host answers all of them, and the device only carries paths and answers.
+TEST_F(GpuGroundTest, filters_and_meshes_that_the_device_cannot_have) {
+  const auto odd = [](const Hitf& hit) { return hit.triangle % 2 == 1; };
+  const std::vector<Segmentf> paths = draw(70'000, 10);
+  const GpuCollider on_gpu(device, collider);
+  expect_same_in_buffers(device, on_gpu, collider, paths, {.filter = odd}, &statistics);
+  EXPECT_EQ(statistics.undecided, 140'000U);
+  EXPECT_EQ(statistics.dispatches, 0U);
+  const Colliderf empty;
+  expect_same_in_buffers(device, GpuCollider(device, empty), empty, std::span(paths).first(100));
+}
+
+TEST_F(GpuGroundTest, short_batches) {
+  const GpuCollider on_gpu(device, collider);
+  const std::vector<Segmentf> paths = draw(100, 10);
+  EXPECT_TRUE(on_gpu.first_hits(GpuPaths(), GpuBufferPart()));
+  const CallerVulkan vulkan(device.handles());
+  const CallerBuffer given(vulkan, paths.size() * sizeof(float[6]));
+  std::memcpy(given.data(), paths.data(), paths.size() * sizeof(float[6]));
+  const CallerBuffer blocked(vulkan, 256);
+  const std::vector<QueryOptionsf> two(2);
+  EXPECT_TRUE(on_gpu.any_hits({PathKind::segment, 100, given.part()}, blocked.part(), {.path_options = two}));
+  std::uint32_t words[3];
+  std::memcpy(words, blocked.data(), sizeof words);
+  EXPECT_LE(words[0], 1U);
+  EXPECT_LE(words[1], 1U);
+  EXPECT_EQ(words[2], unset);
+}
+
+TEST_F(GpuGroundTest, bad_buffers_are_refused_with_the_reason) {
+  const GpuCollider on_gpu(device, collider);
+  const CallerVulkan vulkan(device.handles());
+  const CallerBuffer buffer(vulkan, 1 << 16);
+  const auto refused = [&](std::size_t count, const GpuBufferPart& paths, const GpuBufferPart& hits) {
+    const GpuBatchResult result = on_gpu.first_hits({PathKind::ray, count, paths}, hits);
+    EXPECT_FALSE(result);
+    EXPECT_EQ(result.finished, 0U);
+    EXPECT_EQ(result.error->reason, Reason::bad_buffer);
+    return std::string(result.error->what());
+  };
+  const GpuBufferPart front = {buffer.part().buffer, 0, 4096};
+  const GpuBufferPart back = {buffer.part().buffer, 4096, 4096};
+  EXPECT_TRUE(on_gpu.first_hits({PathKind::ray, 100, front}, back));
+  EXPECT_EQ(refused(100, {}, back), "the buffer of the paths is null");
+  EXPECT_EQ(refused(100, front, {0, 4096, 4096}), "the buffer of the answers is null");
+  EXPECT_EQ(refused(171, front, back), "the paths take 4104 bytes, and their part of a buffer has 4096");
+  EXPECT_EQ(refused(100, front, {front.buffer, 4096, 1999}),
+            "the answers take 2000 bytes, and their part of a buffer has 1999");
+  EXPECT_NE(refused(100, front, {front.buffer, 1 << 20, 4096}).find("ends beyond their buffer"), std::string::npos);
+  EXPECT_NE(refused(100, {front.buffer, 0, ~std::uint64_t{0}}, back).find("ends beyond their"), std::string::npos);
+  EXPECT_EQ(refused(100, front, {front.buffer, 2048, 4096}), "the paths and the answers share bytes of a buffer");
+  EXPECT_EQ(refused(100, {front.buffer, 1024, 4096}, {front.buffer, 0, 4096}),
+            "the paths and the answers share bytes of a buffer");
+  EXPECT_EQ(refused(~std::size_t{0}, front, back), "the paths take more than any buffer has");
+  auto& alignment = state().report.properties.limits.minStorageBufferOffsetAlignment;
+  const VkDeviceSize of_device = std::exchange(alignment, 256);
+  EXPECT_EQ(refused(100, {front.buffer, 8192 + 64, 4096}, back),
+            "the paths begin at byte 8256 of their buffer, and " + device.name() + " needs a multiple of 256");
+  alignment = of_device;
+  EXPECT_EQ(GpuCollider().first_hits({PathKind::ray, 100, front}, back).error->reason, Reason::not_updated);
+}
+
+PFN_vkQueueSubmit submit = nullptr;
+int submits_left = 0;
+VKAPI_ATTR VkResult VKAPI_CALL lost_after(VkQueue queue, std::uint32_t count, const VkSubmitInfo* work, VkFence fence) {
+  return submits_left-- > 0 ? submit(queue, count, work, fence) : VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
+PFN_vkWaitForFences wait_for = nullptr;
+GpuDeviceState* faulty = nullptr;
+std::function<void(std::byte*)> change;
+VKAPI_ATTR VkResult VKAPI_CALL changed_list(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
+                                            std::uint64_t timeout) {
+  const VkResult result = wait_for(device, count, fences, all, timeout);
+  change(faulty->slots[0].host_list.data());
+  return result;
+}
+
+/// Each work of the device may fail: the dispatches, what fetches a long list, and what writes the host's answers.
+TEST_F(GpuGroundTest, a_device_that_fails_says_how_many_answers_there_are) {
+  const GpuCollider on_gpu(device, collider);
+  const std::vector<Segmentf> paths = draw(70'000, 4);
+  const CallerVulkan vulkan(device.handles());
+  const CallerBuffer given(vulkan, paths.size() * sizeof(float[6]));
+  std::memcpy(given.data(), paths.data(), paths.size() * sizeof(float[6]));
+  const CallerBuffer hits(vulkan, paths.size() * sizeof(DeviceHit));
+  const GpuPaths gpu_paths = {PathKind::segment, paths.size(), given.part()};
+  submit = std::exchange(state().vulkan.QueueSubmit, lost_after);
+  for (int works = 0; works < 6; ++works) {
+    submits_left = works;
+    const GpuBatchResult result = on_gpu.first_hits(gpu_paths, hits.part(), {}, {.goes_on_without_device = true});
+    EXPECT_FALSE(result);
+    ASSERT_TRUE(result.error) << works;
+    EXPECT_EQ(result.error->reason, Reason::out_of_memory);
+    EXPECT_EQ(result.finished, works < 4 ? 0U : 1U << 16) << works;
+  }
+  submits_left = 6;
+  EXPECT_TRUE(on_gpu.first_hits(gpu_paths, hits.part()));
+  state().vulkan.QueueSubmit = submit;
+}
+
+/// Lists that no sound device writes: too long, with a path twice, and with a path that was not asked about.
+TEST_F(GpuGroundTest, faulty_lists_of_a_device_are_refused) {
+  const GpuCollider on_gpu(device, collider);
+  const CallerVulkan vulkan(device.handles());
+  const std::vector<Segmentf> paths = draw(200, 4);
+  const CallerBuffer given(vulkan, paths.size() * sizeof(float[6]));
+  std::memcpy(given.data(), paths.data(), paths.size() * sizeof(float[6]));
+  const CallerBuffer hits(vulkan, paths.size() * sizeof(DeviceHit));
+  faulty = &state();
+  wait_for = std::exchange(state().vulkan.WaitForFences, changed_list);
+  const auto set = [](std::size_t word, std::uint32_t value) {
+    return [=](std::byte* list) { std::memcpy(list + 4 * word, &value, sizeof value); };
+  };
+  constexpr std::size_t first_listed = sizeof(detail::ListedCounts) / 4;
+  for (const auto& odd : {std::function<void(std::byte*)>(set(0, 201)),
+                          {set(0, 0xffffffff)},
+                          {set(1, 200)},
+                          {set(first_listed, 200)},
+                          {[&](std::byte* list) {
+                            std::memcpy(list + 4 * first_listed, list + 4 * first_listed + sizeof(detail::ListedPath),
+                                        sizeof(std::uint32_t));
+                          }}}) {
+    change = odd;
+    const GpuBatchResult result = on_gpu.first_hits({PathKind::segment, paths.size(), given.part()}, hits.part());
+    EXPECT_FALSE(result);
+    EXPECT_EQ(result.error->reason, Reason::failed);
+    EXPECT_EQ(result.error->what(), device.name() + " has listed paths that it was not given");
+  }
+  state().vulkan.WaitForFences = wait_for;
+}
+
+TEST_F(GpuGroundTest, a_device_of_the_caller_is_adopted_and_stays_open) {
+  const std::vector<Segmentf> paths = draw(100, 4);
+  {
+    GpuDevice adopted;
+    const GpuResult result = adopted.try_adopt(device.handles());
+    ASSERT_TRUE(result) << result.error().what();
+    EXPECT_EQ(adopted.name(), device.name());
+    EXPECT_EQ(adopted.handles().queue, device.handles().queue);
+    expect_same_in_buffers(adopted, GpuCollider(adopted, collider), collider, paths);
+  }
+  expect_same_in_buffers(device, GpuCollider(device, collider), collider, paths);
+  GpuDevice none;
+  GpuHandles handles = device.handles();
+  handles.queue = nullptr;
+  const GpuResult refused = none.try_adopt(handles);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().reason, Reason::no_device);
+  EXPECT_STREQ(refused.error().what(), "the handles of a device have no queue");
+  handles = device.handles();
+  handles.queue_family = 1000;
+  const GpuResult strange = none.try_adopt(handles);
+  ASSERT_FALSE(strange);
+  EXPECT_EQ(strange.error().reason, Reason::missing_feature);
+  EXPECT_EQ(strange.error().what(), device.name() + " cannot be used: it lacks a queue that computes in family 1000");
+  EXPECT_FALSE(none.is_open());
+}
+
+/// Khronos's layer looks at each call. It writes what it finds to standard output.
+TEST(GpuBufferValidationTest, the_validation_layer_has_nothing_to_say) {
+  if (!std::filesystem::exists("/usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json")) {
+    GTEST_SKIP() << "no validation layer here";
+  }
+  setenv("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation", 1);
+  testing::internal::CaptureStdout();
+  bool is_open = false;
+  {
+    Random random(1);
+    const auto ground = rough_ground<float>(20, 0.1F, random);
+    const Colliderf collider(ground.view());
+    const GpuDevice device = any_gpu();
+    is_open = device.is_open();
+    if (is_open) {
+      const GpuCollider on_gpu(device, collider);
+      std::vector<Segmentf> paths(70'000, {{0.25F, 0.5F, 1}, {0.25F, 0.5F, -1}});
+      for (std::size_t i = 0; i < 5000; ++i) paths[2 * i].end = ground.vertices[i % ground.vertices.size()];
+      expect_same_in_buffers(device, on_gpu, collider, paths);
+      const auto odd = [](const Hitf& hit) { return hit.triangle % 2 == 1; };
+      expect_same_in_buffers(device, on_gpu, collider, paths, {.filter = odd});
+    }
+  }
+  unsetenv("VK_INSTANCE_LAYERS");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  if (!is_open) GTEST_SKIP() << "no Vulkan device here";
+}
+
+}  // namespace
+}  // namespace surehit::test
