@@ -25,7 +25,7 @@ Colour colour_of_id(std::uint32_t triangle) {
 Canvas draw_ids(const World& world, const Camera& camera, unsigned threads, RayCounts& counts) {
   Canvas canvas(camera.width(), camera.height(), paper);
   const auto width = static_cast<std::size_t>(camera.width());
-  const std::size_t rows = std::max(std::size_t{1}, (std::size_t{1} << 14) / width);
+  const std::size_t rows = std::max(std::size_t{1}, world.rays_of_a_batch() / width);
   std::mutex mutex;
   const auto start = std::chrono::steady_clock::now();
   const auto draw_rows = [&](std::size_t begin, std::size_t end) {
@@ -36,8 +36,7 @@ Canvas draw_ids(const World& world, const Camera& camera, unsigned threads, RayC
     }
     std::vector<Hitf> hits(rays.size());
     RayCounts counts_of_rows;
-    counts_of_rows.measure(RayKind::primary, rays.size(),
-                           [&] { world.collider().first_hits(rays, hits, {.options = world.options()}); });
+    counts_of_rows.measure(RayKind::primary, rays.size(), [&] { world.first_hits(rays, hits); });
     for (std::size_t i = 0; i < hits.size(); ++i) {
       if (hits[i].triangle == no_triangle) continue;
       const std::size_t pixel = begin * width + i;

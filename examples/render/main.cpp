@@ -49,6 +49,8 @@ struct Request {
   int max_depth = 8;
   std::optional<std::uint32_t> vertex;
   unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 1024u);
+  bool uses_gpu = false;
+  std::string gpu_name;
   std::string picture_path = "render.png";
 };
 
@@ -99,6 +101,9 @@ void describe(CLI::App& app, Request& request) {
   app.add_option("--threads", request.threads, "Threads that share the rows; the picture is the same for any number")
       ->check(CLI::Range(1u, 1024u).description(""))
       ->capture_default_str();
+  app.add_flag("--gpu", request.uses_gpu, "Ask a GPU, in --mode shaded and ids; the picture is the same");
+  app.add_option("--gpu-name", request.gpu_name, "Ask the GPU with this in its name, which may be software")
+      ->type_name("NAME");
   app.add_option("-o", request.picture_path, "The picture, as its ending says")
       ->type_name("PNG|PPM")
       ->capture_default_str();
@@ -156,6 +161,8 @@ Canvas draw_cracks(const Request& request) {
   return std::move(cracks.picture);
 }
 
+bool asks_gpu(const Request& request) { return request.uses_gpu || !request.gpu_name.empty(); }
+
 Canvas draw_stage(const Request& request) {
   const Stage stage = asked_stage(request);
   const Culling culling = culling_names.at(request.culling);
@@ -163,7 +170,8 @@ Canvas draw_stage(const Request& request) {
   const int width = request.width.value_or(960);
   const Camera camera = camera_of(stage, width, request.height, length);
   const auto build_start = std::chrono::steady_clock::now();
-  const World world(stage.model, culling);
+  World world(stage.model, culling);
+  if (asks_gpu(request)) world.use_gpu(request.gpu_name);
   const auto start = std::chrono::steady_clock::now();
   RayCounts counts;
   Canvas canvas(1, 1, {});
@@ -185,6 +193,11 @@ Canvas draw_stage(const Request& request) {
   std::fprintf(text_stream(request), "%zu rays: %.3f s, %s on %u thread%s\n%s", counts.all(), drawn,
                rate_text(counts.all(), drawn).c_str(), request.threads, request.threads == 1 ? "" : "s",
                counts.text().c_str());
+  if (const GpuBatches* gpu = world.gpu()) {
+    const GpuCounts of_gpu = gpu->counts();
+    std::fprintf(text_stream(request), "on %s, which left %llu of %llu to the host\n", gpu->name().c_str(),
+                 static_cast<unsigned long long>(of_gpu.by_host), static_cast<unsigned long long>(of_gpu.paths));
+  }
   return canvas;
 }
 
@@ -192,6 +205,9 @@ Work describe_program(CLI::App& app) {
   const auto request = std::make_shared<Request>();
   describe(app, *request);
   return [request] {
+    if (asks_gpu(*request) && request->mode != "shaded" && request->mode != "ids") {
+      throw CLI::ValidationError("--gpu", "only --mode shaded and ids have it");
+    }
     stop_when_asked();
     try {
       // What cannot be written is better known before the work than after it.

@@ -13,8 +13,6 @@
 namespace surehit::example {
 namespace {
 
-constexpr std::size_t rays_of_a_batch = 1 << 14;
-
 /// The light of a pixel as sRGB shows it, or nearly so. Platforms agree on roots, and not on other powers.
 Colour shown(const Light& light) {
   const Light root = light.max(0.0f).min(1.0f).sqrt();
@@ -33,7 +31,7 @@ Canvas draw_shaded(const World& world, const Stage& stage, const ShadingOptions&
   const Tracer tracer(world, stage, options.max_depth);
   Canvas canvas(options.width, options.height, {});
   const auto rays_of_a_row = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(samples * samples);
-  const std::size_t rows = std::max(std::size_t{1}, rays_of_a_batch / rays_of_a_row);
+  const std::size_t rows = std::max(std::size_t{1}, world.rays_of_a_batch() / rays_of_a_row);
   std::mutex mutex;
   const auto start = std::chrono::steady_clock::now();
 

@@ -50,9 +50,9 @@ World::World(const Model& model, Culling culling) : model_(model), culling_(cull
 void World::first_hits(std::span<const Rayf> rays, std::span<const Medium> media, std::span<Hitf> hits) const {
   const SeenSides filter(model_, media, culling_);
   if (has_glass_) {
-    collider_.first_hits(rays, hits, {.filter = filter});
+    ask(rays, hits, {.filter = filter});
   } else {
-    collider_.first_hits(rays, hits, {.options = options()});
+    first_hits(rays, hits);
   }
 }
 
@@ -60,9 +60,9 @@ void World::any_hits(std::span<const Segmentf> segments, std::span<const Medium>
                      std::span<std::uint8_t> blocked) const {
   const SeenSides filter(model_, media, culling_);
   if (has_glass_) {
-    collider_.any_hits(segments, blocked, {.filter = filter});
+    ask(segments, blocked, {.filter = filter});
   } else {
-    collider_.any_hits(segments, blocked, {.options = options()});
+    ask(segments, blocked, {.options = options()});
   }
 }
 
@@ -70,12 +70,29 @@ void World::light_shares(std::span<const Segmentf> segments, std::span<float> sh
   std::vector<std::uint8_t> blocked(segments.size());
   QueryOptionsf options = this->options();
   options.mask = solid_mask;
-  collider_.any_hits(segments, blocked, {.options = options});
+  ask(segments, blocked, {.options = options});
   for (std::size_t i = 0; i < blocked.size(); ++i) shares[i] = blocked[i] != 0 ? 0.0f : 1.0f;
   if (!has_glass_) return;
-  collider_.any_hits(segments, blocked, {.options = {.mask = glass_mask}});
+  ask(segments, blocked, {.options = {.mask = glass_mask}});
   for (std::size_t i = 0; i < blocked.size(); ++i) {
     if (blocked[i] != 0) shares[i] *= light_through_glass;
+  }
+}
+
+void World::ask(std::span<const Rayf> rays, std::span<Hitf> hits, const BatchOptionsf& options) const {
+  if (gpu_ != nullptr) {
+    gpu_->first_hits(rays, hits, options);
+  } else {
+    collider_.first_hits(rays, hits, options);
+  }
+}
+
+void World::ask(std::span<const Segmentf> segments, std::span<std::uint8_t> blocked,
+                const BatchOptionsf& options) const {
+  if (gpu_ != nullptr) {
+    gpu_->any_hits(segments, blocked, options);
+  } else {
+    collider_.any_hits(segments, blocked, options);
   }
 }
 

@@ -96,6 +96,7 @@ TEST_F(RenderProgram, names_what_is_wrong) {
                  "--vertex: the triangles at vertex 0 do not all face upwards");
   expect_failure("--mode cracks --width 4097", 2, "--width: at most 4096 in --mode cracks, which draws two pictures");
   EXPECT_EQ(run_.run("--mode bright").status, 2);
+  EXPECT_EQ(run_.run("--mode cost --gpu").status, 2);
   EXPECT_EQ(run_.run("--scene level tetrahedron.obj").status, 2);
 }
 

@@ -12,6 +12,9 @@
 #include "level/level.hpp"
 #include "line_of_sight/floor_plan.hpp"
 #include "line_of_sight/sight.hpp"
+#include "picture/ppm.hpp"
+#include "render/id_picture.hpp"
+#include "render/shaded_picture.hpp"
 #include "support/random.hpp"
 #include "visibility_bake/bake.hpp"
 #include "visibility_bake/cells.hpp"
@@ -94,6 +97,23 @@ TEST_F(GpuBatchesTest, visibility_bake_bakes_the_same) {
     EXPECT_EQ(on_gpu.figures(cell), on_host.figures(cell));
   }
   EXPECT_GT(gpu.counts().paths, 1000U);
+}
+
+/// The exercise has glass, for which the host has a filter. The level has none.
+TEST_F(GpuBatchesTest, render_draws_the_same) {
+  for (const example::Stage& stage : {example::exercise_stage(), example::level_stage()}) {
+    example::World world(stage.model, Culling::none);
+    const example::Camera camera = camera_of(stage, 96, 72);
+    example::RayCounts counts;
+    const auto draw = [&] {
+      const example::Canvas shaded = draw_shaded(world, stage, {.width = 96, .height = 72, .threads = 2}, counts);
+      return encode_ppm(shaded) + encode_ppm(draw_ids(world, camera, 2, counts));
+    };
+    const std::string on_host = draw();
+    world.use_gpu(name);
+    EXPECT_EQ(draw(), on_host);
+    EXPECT_GT(world.gpu()->counts().paths, 10'000U);
+  }
 }
 
 }  // namespace
