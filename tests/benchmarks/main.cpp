@@ -33,6 +33,7 @@ const std::vector<TableKind>& all_tables() {
       {"tick", measure_ticks},          {"threads", measure_threads, false},
       {"exactness", measure_exactness}, {"statistics", measure_statistics},
       {"scene", measure_worlds},        {"shapes", measure_shapes},
+      {"gpu", measure_gpu, false},
   };
   return tables;
 }
@@ -104,6 +105,8 @@ void describe(CLI::App& app, Words& words, Request& request) {
   app.add_option("--largest", request.largest, "Triangles that table size goes up to")
       ->check(CLI::Range(some).description(""))
       ->capture_default_str();
+  app.add_option("--gpu-name", request.gpu_name, "The device of table gpu has this in its name, and may be software")
+      ->type_name("NAME");
   app.add_option("--core", request.core, "The core to stay on (default: the first that there is)")
       ->check(CLI::NonNegativeNumber.description(""));
   app.add_flag("--quick", words.quick, "Only see that all of it runs: tiny counts, figures without meaning");
@@ -123,6 +126,7 @@ void shrink(const CLI::App& app, Request& request) {
   set("--paths", request.paths, 64);
   set("--largest", request.largest, 4000);
   request.tick_paths = {64, 128};
+  request.gpu_paths = {100, 1000};
   request.detail = 0.05f;
 }
 

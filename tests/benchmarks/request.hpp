@@ -18,6 +18,8 @@ struct Request {
   std::size_t paths = 20'000;
   std::size_t largest = 10'000'000;  ///< triangles
   std::vector<std::size_t> tick_paths = {10'000, 100'000};
+  std::vector<std::size_t> gpu_paths = {100'000, 1'000'000, 10'000'000};
+  std::string gpu_name;  ///< A part of the device's name, or nothing for the first that is no software.
   int core = 0;
   std::vector<Scene> scenes;
   std::vector<PathSet> sets;

@@ -28,4 +28,7 @@ void measure_worlds(const Request& request, Report& report);
 /// Moving shapes beside peers, beside segments of the same paths, and close decisions beside general ones.
 void measure_shapes(const Request& request, Report& report);
 
+/// Batches on a GPU beside those of the host. Without a device, it says so and measures nothing.
+void measure_gpu(const Request& request, Report& report);
+
 }  // namespace surehit::benchmark
