@@ -164,6 +164,9 @@ TEST(HitIntervals, hold_what_is_exact_of_far_paths) {
     const Vector3<float> point = triangle.a + b * (triangle.b - triangle.a) + c * (triangle.c - triangle.a);
     const Vector3<float> start = point + vector_of(static_cast<int>(random.between(-7, 16)));
     hits.add_if_they_meet(Segment<float>{start, start + (point - start) * (1 + random.unit<float>())}, triangle);
+    // From so far away, the computed direction is rounded.
+    const Vector3<float> farther = point + vector_of(static_cast<int>(random.between(20, 60)));
+    hits.add_if_they_meet(Segment<float>{farther, point}, triangle);
   }
   EXPECT_GT(hits.count(), case_count(1'000));
   hits.check();
