@@ -316,7 +316,7 @@ TYPED_TEST(ColliderSpheres, KeepMasksFiltersAndOptions) {
     ASSERT_EQ(firsts[i], first) << i;
     hits += !expected.empty();
   }
-  EXPECT_GE(hits, case_count(30));
+  EXPECT_GE(hits, case_count(30) / 2);
 }
 
 TYPED_TEST(ColliderSpheres, OverlapAtTheStartWhateverTheRestOfTheStepIs) {
