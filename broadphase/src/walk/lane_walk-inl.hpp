@@ -222,7 +222,6 @@ class LaneWalk {
   /// Returns the lanes of `in_lists` whose path may meet a triangle of their list. It tests the box of the list, as
   /// `GridTraversal::meets_box` does (L3). If there are slabs, it tests the slab, as `GridTraversal::meets` does (L4).
   HWY_INLINE std::uint32_t meet_lists(const Cells& cells, std::uint32_t in_lists, const WalkingPaths& paths) const {
-    const FloatTag d;
     const IntTag di;
     const BitsTag du;
     const auto has_list = mask_of(du, in_lists);
@@ -230,11 +229,24 @@ class LaneWalk {
     const auto* lists = reinterpret_cast<const std::uint32_t*>(grid_.lists().data());
     const Words list = hn::IfThenElseZero(has_list, hn::ShiftRight<CellWord::list_shift>(cells.word));
     const Words box = hn::GatherIndex(du, lists, hn::BitCast(di, hn::ShiftLeft<1>(list)));
+    Floats enters, leaves;
+    const std::uint32_t meeting = meet_boxes(cells, box, in_lists, paths, enters, leaves);
+    if (slabs_ == nullptr || meeting == 0) return meeting;
+    const Ints slab = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(slabs_), hn::BitCast(di, list));
+    return meeting & ~miss_slabs(cells, slab, enters, leaves, paths);
+  }
+  /// Returns the lanes of `in_lists` whose path meets the box of their list. Sets the tau at which it enters and leaves
+  /// the box, somewhat enlarged.
+  static HWY_INLINE std::uint32_t meet_boxes(const Cells& cells, Words box, std::uint32_t in_lists,
+                                             const WalkingPaths& paths, Floats& enters, Floats& leaves) {
+    const FloatTag d;
+    const IntTag di;
+    const BitsTag du;
     const Words octant = hn::Load(du, paths.octant.data());
     const Words last_part = hn::Set(du, CellBox::parts - 1);
     const Floats part = hn::Mul(cells.size, hn::Set(d, 1.0F / CellBox::parts));
-    Floats enters = hn::Zero(d);
-    Floats leaves = hn::Load(d, paths.end.data());
+    enters = hn::Zero(d);
+    leaves = hn::Load(d, paths.end.data());
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
       const auto is_mirrored = hn::Ne(hn::And(octant, hn::Set(du, 1U << axis)), hn::Zero(du));
@@ -253,14 +265,46 @@ class LaneWalk {
       enters = hn::Max(enters, hn::Mul(hn::Sub(near, start), inverse));
       leaves = hn::Min(leaves, hn::Mul(hn::Sub(far, start), inverse));
     }
-    const std::uint32_t meeting = static_cast<std::uint32_t>(bits_of(d, hn::Le(enters, leaves))) & in_lists;
-    if (slabs_ == nullptr || meeting == 0) return meeting;
-    return meeting & ~miss_slabs(cells, list, enters, leaves, paths);
+    return static_cast<std::uint32_t>(bits_of(d, hn::Le(enters, leaves))) & in_lists;
+  }
+  /// Returns the lanes whose path misses the slab of the list (L4). The path is in the larger box of the list between
+  /// tau `enters` and tau `leaves`.
+  static HWY_INLINE std::uint32_t miss_slabs(const Cells& cells, Ints slab, Floats enters, Floats leaves,
+                                             const WalkingPaths& paths) {
+    const FloatTag d;
+    const IntTag di;
+    const BitsTag du;
+    const Words octant = hn::Load(du, paths.octant.data());
+    const Floats half = hn::Mul(cells.size, hn::Set(d, 0.5F));
+    Floats at_entry = hn::Zero(d);
+    Floats at_exit = hn::Zero(d);
+    Floats slack = hn::Zero(d);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<std::size_t>(axis);
+      const Floats component = hn::ConvertTo(d, hn::ShiftRight<27>(hn::ShiftLeftSame(slab, 27 - 5 * axis)));
+      // The sign changes where the path is mirrored.
+      const Floats sign = hn::BitCast(d, hn::ShiftLeftSame(hn::And(octant, hn::Set(du, 1U << axis)), 31 - axis));
+      const Floats normal = hn::Xor(component, sign);
+      const Floats to_start = hn::Sub(hn::Load(d, paths.start[k].data()), hn::Add(cells.low[k], half));
+      const Floats rate = hn::Load(d, paths.rate[k].data());
+      at_entry = hn::MulAdd(hn::MulAdd(enters, rate, to_start), normal, at_entry);
+      at_exit = hn::MulAdd(hn::MulAdd(leaves, rate, to_start), normal, at_exit);
+      const Floats padding = hn::Mul(hn::Set(d, GridFrame::padding_share), hn::Load(d, paths.stop[k].data()));
+      slack = hn::MulAdd(hn::Abs(component), padding, slack);
+    }
+    const Floats step = hn::Mul(cells.size, hn::Set(d, CellSlab::step));
+    const Floats first = hn::ConvertTo(d, hn::ShiftRight<24>(hn::ShiftLeft<8>(slab)));
+    const Floats last = hn::ConvertTo(d, hn::Add(hn::ShiftRight<24>(slab), hn::Set(di, 1)));
+    const Floats low = hn::Sub(hn::Mul(first, step), slack);
+    const Floats high = hn::MulAdd(last, step, slack);
+    const auto below = hn::Lt(hn::Max(at_entry, at_exit), low);
+    const auto above = hn::Gt(hn::Min(at_entry, at_exit), high);
+    return static_cast<std::uint32_t>(bits_of(d, hn::Or(below, above)));
   }
 
   /// Moves the walking lanes beyond their cells, or beyond the cubes of empty cells that begin with them (L2). Returns
   /// the lanes that still walk.
-  HWY_INLINE std::uint32_t advance(const Cells& cells, std::uint32_t walking, WalkingPaths& paths) const {
+  static HWY_INLINE std::uint32_t advance(const Cells& cells, std::uint32_t walking, WalkingPaths& paths) {
     const FloatTag d;
     const BitsTag du;
     const Words nibble = hn::Set(du, 15U);
@@ -295,43 +339,6 @@ class LaneWalk {
   }
 
  private:
-  /// Returns the lanes whose path misses the slab of the list (L4). The path is in the larger box of the list between
-  /// tau `enters` and tau `leaves`.
-  HWY_INLINE std::uint32_t miss_slabs(const Cells& cells, Words list, Floats enters, Floats leaves,
-                                      const WalkingPaths& paths) const {
-    const FloatTag d;
-    const IntTag di;
-    const BitsTag du;
-    const auto* slabs = reinterpret_cast<const std::int32_t*>(slabs_);
-    const Ints slab = hn::GatherIndex(di, slabs, hn::BitCast(di, list));
-    const Words octant = hn::Load(du, paths.octant.data());
-    const Floats half = hn::Mul(cells.size, hn::Set(d, 0.5F));
-    Floats at_entry = hn::Zero(d);
-    Floats at_exit = hn::Zero(d);
-    Floats slack = hn::Zero(d);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto k = static_cast<std::size_t>(axis);
-      const Floats component = hn::ConvertTo(d, hn::ShiftRight<27>(hn::ShiftLeftSame(slab, 27 - 5 * axis)));
-      // The sign changes where the path is mirrored.
-      const Floats sign = hn::BitCast(d, hn::ShiftLeftSame(hn::And(octant, hn::Set(du, 1U << axis)), 31 - axis));
-      const Floats normal = hn::Xor(component, sign);
-      const Floats to_start = hn::Sub(hn::Load(d, paths.start[k].data()), hn::Add(cells.low[k], half));
-      const Floats rate = hn::Load(d, paths.rate[k].data());
-      at_entry = hn::MulAdd(hn::MulAdd(enters, rate, to_start), normal, at_entry);
-      at_exit = hn::MulAdd(hn::MulAdd(leaves, rate, to_start), normal, at_exit);
-      const Floats padding = hn::Mul(hn::Set(d, GridFrame::padding_share), hn::Load(d, paths.stop[k].data()));
-      slack = hn::MulAdd(hn::Abs(component), padding, slack);
-    }
-    const Floats step = hn::Mul(cells.size, hn::Set(d, CellSlab::step));
-    const Floats first = hn::ConvertTo(d, hn::ShiftRight<24>(hn::ShiftLeft<8>(slab)));
-    const Floats last = hn::ConvertTo(d, hn::Add(hn::ShiftRight<24>(slab), hn::Set(di, 1)));
-    const Floats low = hn::Sub(hn::Mul(first, step), slack);
-    const Floats high = hn::MulAdd(last, step, slack);
-    const auto below = hn::Lt(hn::Max(at_entry, at_exit), low);
-    const auto above = hn::Gt(hn::Min(at_entry, at_exit), high);
-    return static_cast<std::uint32_t>(bits_of(d, hn::Or(below, above)));
-  }
-
   /// Puts one path into all lanes. It does not set `finest`, `enters` and `end`.
   HWY_INLINE void repeat(const ClippedPath& path, WalkingPaths& paths) const {
     const FloatTag d;

@@ -29,8 +29,11 @@ namespace surehit::detail {
 }
 
 /// A path of a scene, in double. All of its numbers are exact, except for an overflow and the inverse.
+///
+/// Its alignment, and that of a placed path, is that of a vector of four doubles. Code for some instruction sets relies
+/// on it, although it is not the alignment that the type has elsewhere.
 template <typename Scalar>
-struct ScenePath {
+struct alignas(32) ScenePath {
   explicit ScenePath(const Path<Scalar>& any_path, const PathRange<Scalar>& any_range, Scalar motion_share = 1)
       : path(any_path), range(any_range), share(motion_share), start(to_double4(any_path.start)) {
     const Double4 toward = to_double4(path.toward);
@@ -59,9 +62,15 @@ struct ScenePath {
   double inverse_square;   ///< The inverse of the square of the length of `direction`, or 0.
 };
 
+/// What rounds a hit of a placed path. The members have the meanings of those of `PlacedPath`.
+struct CertainPath {
+  std::array<double, 3> start, direction;
+  double start_error, direction_error, moved_t;
+};
+
 /// A path as an instance sees it, in the frame of the mesh. POSES.md derives the errors.
 template <typename Scalar>
-class PlacedPath {
+class alignas(32) PlacedPath {
  public:
   /// What is known of the path and the instance.
   enum class Status : std::uint8_t {
@@ -75,6 +84,14 @@ class PlacedPath {
                                    const InstanceFrame& any_frame)
       : scene_path(any_path), placement(any_placement), frame(&any_frame) {
     status = place();
+  }
+  /// Places the path with errors as small as they can be.
+  struct Carefully {};
+  SUREHIT_NOINLINE PlacedPath(const ScenePath<Scalar>& any_path, const Placement<Scalar>& any_placement,
+                              const InstanceFrame& any_frame, Carefully)
+      : scene_path(any_path), placement(any_placement), frame(&any_frame), status(Status::rough) {
+    if (frame->is_usable) status = place_carefully();
+    if (status != Status::near) status = place();
   }
   /// Takes a lane of paths that were placed side by side. The lane must be among `PlacedLanes::near`.
   SUREHIT_ALWAYS_INLINE PlacedPath(const ScenePath<Scalar>& any_path, const Placement<Scalar>& any_placement,
@@ -115,6 +132,14 @@ class PlacedPath {
     return fine.status == Status::near ? fine : *this;
   }
 
+  /// Returns what rounds a hit.
+  [[nodiscard]] CertainPath certain() const {
+    return {{moved.start[0], moved.start[1], moved.start[2]},
+            {moved.direction[0], moved.direction[1], moved.direction[2]},
+            start_error,
+            direction_error,
+            moved.moved_t};
+  }
   /// Returns the power of two by which the kernel's direction is longer. A t of the kernel counts that much less.
   [[nodiscard]] double kernel_scale() const {
     return direction_size >= 0x1p-30 && direction_size <= 0x1p30 ? 1 : inverse_power(direction_size);

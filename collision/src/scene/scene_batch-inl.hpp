@@ -18,14 +18,17 @@
 #include <type_traits>
 
 #include "scene/place_lanes-inl.hpp"
+#if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
+#include "scene/mesh_batch-inl.hpp"
+#endif
 #include "scene/scene_search-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
 /// Answers the paths of a batch, several of them at a time. They take turns: while one path waits for a node of the
-/// tree, the others step. Paths that have come to an instance are placed side by side, and then search its mesh one by
-/// one.
+/// tree, the others step. Paths that have come to an instance are placed side by side. In a scene of floats, they then
+/// search the meshes side by side too. In one of doubles, they do so one by one.
 ///
 /// When a path ends, the batch calls `finish(index, keep)`. It calls `alone(index)` for a path that leaves too many
 /// children of the tree for later.
@@ -39,16 +42,35 @@ class SceneBatch {
   /// Answers all paths.
   HWY_INLINE void run() {
     for (std::size_t slot = 0; slot < slots; ++slot) {
-      if (begin_next(slot)) walking_[walking_count_++] = slot;
+      if (has_lane(slot) && begin_next(slot)) walking_[walking_count_++] = slot;
     }
-    while (walking_count_ > 0) {
-      find_instances();
-      search_instances();
+    for (;;) {
+      if (walking_count_ * idle_share >= slots || !are_searching()) {
+        if (walking_count_ == 0) return;
+        find_instances();
+        search_instances();
+      }
+      if constexpr (has_lanes) {
+        if (are_searching()) step();
+      }
     }
   }
 
  private:
-  static constexpr std::size_t slots = 16;     ///< The number of paths that are on their way.
+  /// Takes the place of `MeshBatch` where meshes are searched one by one.
+  struct OneByOne {
+    static constexpr std::size_t slots = 16;
+  };
+#if HWY_TARGET != HWY_SCALAR
+  static constexpr bool has_lanes = std::is_same_v<Scalar, float>;
+  using Meshes = std::conditional_t<has_lanes, MeshBatch<Keep>, OneByOne>;
+#else
+  static constexpr bool has_lanes = false;
+  using Meshes = OneByOne;
+#endif
+  static constexpr std::size_t slots = Meshes::slots;  ///< The number of paths that are on their way.
+  /// Paths are brought to the next instances if at least one slot in this many waits.
+  static constexpr std::size_t idle_share = 4;
   static constexpr std::size_t max_open = 32;  ///< The room of a path for children that it leaves for later.
   static constexpr std::size_t lanes = PlaceLanes::max_lanes;
 
@@ -122,10 +144,10 @@ class SceneBatch {
           continue;
         }
         const std::uint32_t instance = of.walk.template advance<Keep::shortens>(batch_.tree, prefetch);
-        if (instance == no_instance || !of.query.takes_part(instance)) continue;
+        if (instance == no_instance) continue;
         pairs_[pair_count_++] = {slot, instance};
         const auto* const bytes = reinterpret_cast<const std::byte*>(&batch_.instances[instance]);
-        for (std::size_t line = 1; line < CommittedInstance<Scalar>::hot_lines; ++line)
+        for (std::size_t line = 0; line < CommittedInstance<Scalar>::hot_lines; ++line)
           hwy::Prefetch(bytes + line * 64);
         walks = false;
       }
@@ -135,38 +157,88 @@ class SceneBatch {
 
   /// Lets the paths that have come to an instance search its mesh. All of them walk on then.
   HWY_INLINE void search_instances() {
-    for (std::size_t from = 0; from < pair_count_; from += lanes) {
-      const std::size_t count = std::min(pair_count_ - from, lanes);
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        const auto& [slot, instance] = pairs_[from + lane];
-        place_.set(lane, slot_at(slot).search.path(), batch_.instances[instance].placed.frame);
+    // The instances were not looked at before, because they had to be fetched.
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < pair_count_; ++i) {
+      const Pair pair = pairs_[i];
+      if (slot_at(pair.slot).query.takes_part(pair.instance)) {
+        pairs_[count++] = pair;
+      } else {
+        walking_[walking_count_++] = pair.slot;
       }
-      place_.place(count, paths_.kind() == PathKind::segment, placed_);
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        if ((placed_.beside >> lane & 1) == 0) search(pairs_[from + lane], lane);
-        const std::size_t slot = pairs_[from + lane].slot;
-        if (!slot_at(slot).keep.is_done() || replace(slot)) walking_[walking_count_++] = slot;
-      }
+    }
+    for (std::size_t from = 0; from < count; from += lanes) {
+      search_some({&pairs_[from], std::min(count - from, lanes)});
     }
   }
 
-  /// Lets a path search the mesh of an instance.
-  HWY_INLINE void search(const Pair& pair, std::size_t lane) {
-    Slot& of = slot_at(pair.slot);
-    const PlacedInstance<Scalar>& instance = batch_.instances[pair.instance].placed;
-    if ((placed_.near >> lane & 1) != 0) {
-      const PlacedPath<Scalar> placed(of.search.path(), instance.placement, instance.frame, placed_, lane);
-      of.search.search_instance(placed, pair.instance, of.keep);
-    } else {
-      search_alone(of, pair.instance);
+  /// Places some pairs side by side.
+  HWY_INLINE void search_some(std::span<const Pair> pairs) {
+    for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
+      const auto& [slot, instance] = pairs[lane];
+      place_.set(lane, slot_at(slot).search.path(), batch_.instances[instance].placed.frame);
     }
-    if constexpr (Keep::shortens) of.walk.shorten(of.keep.limit());
+    place_.place(pairs.size(), paths_.kind() == PathKind::segment, placed_);
+    for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
+      if ((placed_.beside >> lane & 1) == 0 && search(pairs[lane], lane)) continue;
+      walk_on(pairs[lane].slot);
+    }
+  }
+
+  /// Lets a path walk on through the tree, unless it is done.
+  HWY_INLINE void walk_on(std::size_t slot) {
+    if (!slot_at(slot).keep.is_done() || replace(slot)) walking_[walking_count_++] = slot;
+  }
+
+  /// Returns true if lanes search meshes.
+  [[nodiscard]] bool are_searching() const {
+    if constexpr (has_lanes) {
+      return meshes_.searching() != 0;
+    } else {
+      return false;
+    }
+  }
+  /// Returns true if there is a lane for a slot, or if no slot needs one.
+  static bool has_lane(std::size_t slot) {
+    if constexpr (has_lanes) {
+      return Meshes::has_lane(slot);
+    } else {
+      return true;
+    }
+  }
+
+  /// Takes a step with all paths that search a mesh. Those that are through with it walk on through the tree.
+  HWY_INLINE void step() {
+    for (std::uint64_t ended = meshes_.step(batch_.statistics); ended != 0; ended &= ended - 1) {
+      const auto slot = static_cast<std::size_t>(std::countr_zero(ended));
+      if constexpr (Keep::shortens) slot_at(slot).walk.shorten(slot_at(slot).keep.limit());
+      walk_on(slot);
+    }
+  }
+
+  /// Lets a path search the mesh of an instance. Returns false if it has done so at once.
+  HWY_INLINE bool search(const Pair& pair, std::size_t lane) {
+    if ((placed_.near >> lane & 1) == 0) return search_alone(pair);
+    const PlacedInstance<Scalar>& at = batch_.instances[pair.instance].placed;
+    return search_placed(pair,
+                         PlacedPath<Scalar>(slot_at(pair.slot).search.path(), at.placement, at.frame, placed_, lane));
   }
 
   /// Does the same for a path that was not placed side by side with others.
-  HWY_NOINLINE void search_alone(Slot& of, std::uint32_t instance) {
-    const PlacedInstance<Scalar>& at = batch_.instances[instance].placed;
-    of.search.search_instance(PlacedPath<Scalar>(of.search.path(), at.placement, at.frame), instance, of.keep);
+  HWY_NOINLINE bool search_alone(const Pair& pair) {
+    const PlacedInstance<Scalar>& at = batch_.instances[pair.instance].placed;
+    return search_placed(pair, PlacedPath<Scalar>(slot_at(pair.slot).search.path(), at.placement, at.frame));
+  }
+
+  HWY_INLINE bool search_placed(const Pair& pair, const PlacedPath<Scalar>& placed) {
+    Slot& of = slot_at(pair.slot);
+    if constexpr (has_lanes) {
+      if (meshes_.begin(pair.slot, of.query, pair.instance, placed, of.search.narrowphase(), of.keep)) return true;
+    } else {
+      of.search.search_instance(placed, pair.instance, of.keep);
+    }
+    if constexpr (Keep::shortens) of.walk.shorten(of.keep.limit());
+    return false;
   }
 
   const SceneQuery<Scalar>& batch_;  ///< The query of the whole batch.
@@ -183,6 +255,7 @@ class SceneBatch {
   std::size_t pair_count_ = 0;
   PlaceLanes place_;
   PlacedLanes placed_;
+  Meshes meshes_;  ///< The paths that search meshes.
 };
 
 /// Answers all paths of a batch.
@@ -202,19 +275,80 @@ SceneQuery<Scalar> query_of_path(const SceneQuery<Scalar>& batch,
           batch.share};
 }
 
+/// Takes the first hits of the paths of a batch. Those in float that the kernel is certain of are rounded as many at a
+/// time as a vector has doubles.
+template <typename Scalar>
+class SceneRounding {
+ public:
+  SceneRounding(const SceneQuery<Scalar>& batch, const PathSpan<Scalar>& paths,
+                std::span<const SceneQueryOptions<Scalar>> own_options, std::span<SceneHit<Scalar>> hits)
+      : batch_(batch), paths_(paths), own_options_(own_options), hits_(hits) {}
+
+  /// Takes what a path has kept. A certain hit is rounded later, but at the latest by `flush`.
+  HWY_INLINE void add(std::size_t index, KeepFirst<Scalar>& keep) {
+    if constexpr (std::is_same_v<Scalar, float>) {
+      if (keep.is_certain()) {
+        waiting_.set(count_, keep.path(), keep.best().local);
+        index_[count_] = index;
+        best_[count_] = keep.best();
+        if (++count_ == hn::Lanes(Tag())) flush();
+        return;
+      }
+    }
+    hits_[index] = keep.hit().value_or(SceneHit<Scalar>{});
+  }
+
+  /// Rounds all hits that were added and not rounded yet.
+  HWY_NOINLINE void flush() {
+    if constexpr (std::is_same_v<Scalar, float>) {
+      const auto rounded = waiting_.round();
+      for (std::size_t i = 0; i < count_; ++i) {
+        const std::uint32_t generation = batch_.instances[best_[i].instance].generation;
+        if (!set_rounded(rounded, i, best_[i], generation, hits_[index_[i]])) round_alone(i);
+      }
+      count_ = 0;
+    }
+  }
+
+ private:
+  using Tag = hn::CappedTag<double, 8>;
+  /// No hit waits in double.
+  static constexpr std::size_t max_hits = std::is_same_v<Scalar, float> ? PlacedHits<Tag>::max_lanes : 0;
+  struct None {};
+
+  /// Lets the narrowphase decide and round a hit.
+  HWY_NOINLINE void round_alone(std::size_t i) {
+    const SceneQuery<Scalar> query = query_of_path(batch_, own_options_, index_[i]);
+    const Path<Scalar> path = paths_[index_[i]];
+    const SceneSearch<Scalar> search(query, path);
+    if (search.narrowphase().find_certain(best_[i])) {
+      hits_[index_[i]] = search.narrowphase().hit(best_[i], batch_.instances[best_[i].instance].generation);
+    }
+  }
+
+  const SceneQuery<Scalar>& batch_;
+  const PathSpan<Scalar>& paths_;
+  std::span<const SceneQueryOptions<Scalar>> own_options_;
+  std::span<SceneHit<Scalar>> hits_;
+  std::size_t count_ = 0;                                             ///< The number of hits that wait.
+  std::conditional_t<max_hits != 0, PlacedHits<Tag>, None> waiting_;  ///< Their paths and triangles.
+  std::array<PlacedCandidate<Scalar>, max_hits> best_;                ///< The hits themselves.
+  std::array<std::size_t, max_hits> index_;                           ///< The index of each path.
+};
+
 /// Sets `hits[i]` to the first hit of path i.
 template <typename Scalar>
 void search_scene_each_first(const SceneQuery<Scalar>& batch, const PathSpan<Scalar>& paths,
                              std::span<const SceneQueryOptions<Scalar>> own_options,
                              std::span<SceneHit<Scalar>> hits) noexcept {
-  const auto finish = [&](std::size_t index, KeepFirst<Scalar>& keep) {
-    hits[index] = keep.hit().value_or(SceneHit<Scalar>{});
-  };
+  SceneRounding<Scalar> rounding(batch, paths, own_options, hits);
+  const auto finish = [&](std::size_t index, KeepFirst<Scalar>& keep) { rounding.add(index, keep); };
   const auto alone = [&](std::size_t index) {
     hits[index] =
         search_scene_first(query_of_path(batch, own_options, index), paths[index]).value_or(SceneHit<Scalar>{});
   };
   search_scene_batch<KeepFirst<Scalar>>(batch, paths, own_options, finish, alone);
+  rounding.flush();
 }
 
 /// Sets `blocked[i]` to 1 if path i has a hit, else to 0.

@@ -21,6 +21,13 @@ bool SceneNarrowphase<Scalar>::find_contact(const PlacedPath<Scalar>& path, Plac
 }
 
 template <typename Scalar>
+bool SceneNarrowphase<Scalar>::find_certain(PlacedCandidate<Scalar>& candidate) const {
+  const PlacedPath<Scalar> path(path_, candidate.placed->placement, candidate.placed->frame,
+                                typename PlacedPath<Scalar>::Carefully());
+  return find_contact(path, candidate);
+}
+
+template <typename Scalar>
 SUREHIT_NOINLINE bool SceneNarrowphase<Scalar>::find_exactly(PlacedCandidate<Scalar>& candidate) const {
   const PlacedTriangle<Scalar> triangle = placed(candidate);
   std::optional<Contact> contact;
@@ -67,16 +74,6 @@ void SceneNarrowphase<Scalar>::sort(std::vector<PlacedCandidate<Scalar>>& found)
   found.erase(std::unique(found.begin(), found.end(), [&](const One& x, const One& y) { return ids(x) == ids(y); }),
               found.end());
   std::sort(found.begin(), found.end(), [&](const One& x, const One& y) { return comes_before(x, y); });
-}
-
-template <typename Scalar>
-bool SceneNarrowphase<Scalar>::try_round(const PlacedPath<Scalar>& path, const PlacedCandidate<Scalar>& candidate,
-                                         std::uint32_t generation, SceneHit<Scalar>& hit) const {
-  const BoundedContact bounded = placed_contact(path, candidate.placed->frame.is_mirrored, candidate.local);
-  hit.triangle = candidate.id;
-  hit.side = bounded.contact.side;
-  hit.instance = {candidate.instance, generation};
-  return detail::try_round<Scalar>(bounded, hit);
 }
 
 template <typename Scalar>

@@ -41,15 +41,14 @@ class SceneNarrowphase {
   /// it. `path` is the path as the candidate's instance sees it.
   [[nodiscard]] bool find_contact(const PlacedPath<Scalar>& path, PlacedCandidate<Scalar>& candidate) const;
 
+  /// Does the same with a path that it places carefully.
+  [[nodiscard]] bool find_certain(PlacedCandidate<Scalar>& candidate) const;
+
   /// Returns true if x comes before y: by the exact t, then by the instance, then by the triangle.
   [[nodiscard]] bool comes_before(const PlacedCandidate<Scalar>& x, const PlacedCandidate<Scalar>& y) const;
 
   /// Sorts the candidates by `comes_before`, and keeps each triangle of an instance once.
   void sort(std::vector<PlacedCandidate<Scalar>>& found) const;
-
-  /// Rounds a hit with stage 2 alone. Returns false if stage 2 cannot decide the pair, or cannot round the hit.
-  [[nodiscard]] bool try_round(const PlacedPath<Scalar>& path, const PlacedCandidate<Scalar>& candidate,
-                               std::uint32_t generation, SceneHit<Scalar>& hit) const;
 
   /// Returns the contact as it is reported. `generation` is that of the instance.
   [[nodiscard]] SceneHit<Scalar> hit(const PlacedCandidate<Scalar>& candidate, std::uint32_t generation) const;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "query/query_walk-inl.hpp"
+#include "scene/placed_rounding-inl.hpp"
 #include "scene/scene_narrowphase.hpp"
 #include "scene/scene_query.hpp"
 #include "scene/tree_walk-inl.hpp"
@@ -44,6 +45,20 @@ struct HitInterval {
   }
 };
 
+/// Sets a hit from a lane of rounded ones. Returns false if its numbers are not right.
+template <typename Rounded>
+HWY_INLINE bool set_rounded(const Rounded& rounded, std::size_t lane, const PlacedCandidate<float>& of,
+                            std::uint32_t generation, SceneHit<float>& hit) {
+  hit.t = rounded.t[lane];
+  hit.u = rounded.u[lane];
+  hit.v = rounded.v[lane];
+  hit.triangle = of.id;
+  const bool is_positive = (rounded.positive >> lane & 1) != 0;
+  hit.side = is_positive != of.placed->frame.is_mirrored ? Side::front : Side::back;
+  hit.instance = {of.instance, generation};
+  return (rounded.rounded >> lane & 1) != 0;
+}
+
 /// Keeps the first hit of a path in a scene. If the kernel is certain of a hit and of its order, the narrowphase
 /// decides it when the path ends. The narrowphase decides all others at once.
 template <typename Scalar>
@@ -64,7 +79,7 @@ class KeepFirst {
     t_upper_ = t.upper;
     grid_ = &block.query.grid;
     entry_ = block.entry(lane);
-    path_.emplace(block.path);
+    path_ = block.path.certain();
     const auto& [a, b, c] = block.triangle(lane);
     best_.instance = instance;
     best_.local = {a.template cast<Scalar>(), b.template cast<Scalar>(), c.template cast<Scalar>()};
@@ -88,10 +103,22 @@ class KeepFirst {
   /// Returns the t at which the search may end.
   [[nodiscard]] double limit() const { return t_upper_; }
   [[nodiscard]] bool is_done() const { return false; }
+  [[nodiscard]] bool is_found() const { return state_ != State::none; }
+  /// Returns true if only the kernel has decided the best hit.
+  [[nodiscard]] bool is_certain() const { return state_ == State::certain; }
+  /// Returns the path of a certain hit.
+  [[nodiscard]] const CertainPath& path() const { return path_; }
+  /// Returns the best hit. Its contact is only set if it is not certain.
+  [[nodiscard]] const PlacedCandidate<Scalar>& best() {
+    best_.id = best_id();
+    return best_;
+  }
   [[nodiscard]] std::optional<SceneHit<Scalar>> hit() {
     if (!is_found()) return std::nullopt;
-    SceneHit<Scalar> hit;
-    if (state_ == State::certain && try_round_certain(hit)) return hit;
+    if constexpr (std::is_same_v<Scalar, float>) {
+      SceneHit<Scalar> hit;
+      if (is_certain() && try_round_certain(hit)) return hit;
+    }
     return hit_of(decided());
   }
 
@@ -102,21 +129,21 @@ class KeepFirst {
     decided,  ///< The narrowphase has decided the best hit.
   };
 
-  [[nodiscard]] bool is_found() const { return state_ != State::none; }
   [[nodiscard]] std::uint32_t best_id() const { return state_ == State::certain ? grid_->entries()[entry_] : best_.id; }
   [[nodiscard]] SceneHit<Scalar> hit_of(const PlacedCandidate<Scalar>& candidate) const {
     return narrowphase_.hit(candidate, query_.instances[candidate.instance].generation);
   }
   /// Rounds a certain hit with the path as it was placed. Returns false if its errors are too large for that.
   bool try_round_certain(SceneHit<Scalar>& hit) {
-    best_.id = best_id();
-    return narrowphase_.try_round(*path_, best_, query_.instances[best_.instance].generation, hit);
+    PlacedHits<hn::CappedTag<double, 1>> one;
+    one.set(0, path_, best_.local);
+    return set_rounded(one.round(), 0, best(), query_.instances[best_.instance].generation, hit);
   }
   /// Returns the best hit. If only the kernel has decided it, the narrowphase decides it first.
   const PlacedCandidate<Scalar>& decided() {
     if (state_ == State::certain) {
       best_.id = best_id();
-      const bool is_hit = narrowphase_.find_contact(path_->refined(), best_);
+      const bool is_hit = narrowphase_.find_certain(best_);
       assert(is_hit);
       (void)is_hit;
       state_ = State::decided;
@@ -131,7 +158,7 @@ class KeepFirst {
   std::size_t entry_ = 0;                                     ///< The index of a certain hit among its entries.
   double t_lower_ = std::numeric_limits<double>::infinity();  ///< The exact t of the best hit is at least this.
   double t_upper_ = std::numeric_limits<double>::infinity();  ///< The exact t of the best hit is at most this.
-  std::optional<PlacedPath<Scalar>> path_;                    ///< The path as the instance of a certain hit sees it.
+  CertainPath path_;                                          ///< The path of a certain hit.
   PlacedCandidate<Scalar> best_;  ///< The best hit. It is not set before there is one. A certain hit has no id yet.
 };
 
@@ -260,6 +287,18 @@ class InstanceVisitor {
   Keep& keep_;
 };
 
+/// Cuts a long path to the grid's cover, if this is useful. Sets the tau at which it enters the cover. Returns false if
+/// it misses the cover.
+HWY_INLINE bool enter_cover(const Grid& grid, ClippedPath& clipped, float& enters) {
+  constexpr float few_cells = 4;
+  const GridCover& cover = grid.cover();
+  if (!cover.is_useful() || !is_long(few_cells, grid, clipped, 0)) return true;
+  const GridCover::Part part = cover.part_of(clipped.start, clipped.inverse_rate, clipped.octant, clipped.end);
+  enters = part.enters;
+  clipped.end = part.leaves;
+  return part.enters <= part.leaves;
+}
+
 /// Gives the visitor the triangles of an instance that the path may meet.
 template <typename Scalar, typename MeshScalar, typename Visitor>
 HWY_NOINLINE void walk_mesh(const Query<MeshScalar>& query, const PlacedPath<Scalar>& path, Visitor& visitor) {
@@ -289,32 +328,46 @@ HWY_NOINLINE void walk_mesh(const Query<MeshScalar>& query, const PlacedPath<Sca
   }
   float enters = 0;
   if constexpr (std::is_same_v<MeshScalar, float>) {
-    constexpr float few_cells = 4;
-    if (const GridCover& cover = grid.cover(); cover.is_useful() && is_long(few_cells, grid, clipped, 0)) {
-      const GridCover::Part part = cover.part_of(clipped.start, clipped.inverse_rate, clipped.octant, clipped.end);
-      if (part.enters > part.leaves) return;
-      enters = part.enters;
-      clipped.end = part.leaves;
-    }
+    if (!enter_cover(grid, clipped, enters)) return;
   }
   OnDemand<MeshScalar> when(path, range, grid.frame());
   walk_frame(grid.frame(), enters, query, path, range, clipped, when, visitor);
 }
+
+/// The search of one path in the mesh of one instance.
+template <typename MeshScalar, typename Scalar, typename Keep>
+struct MeshSearch {
+  HWY_INLINE MeshSearch(const SceneQuery<Scalar>& of_scene, const ColliderState<MeshScalar>& mesh, std::uint32_t index,
+                        const SceneNarrowphase<Scalar>& narrowphase, Keep& keep)
+      : options(options_of(of_scene, index)),
+        query{mesh.grid, mesh.mesh, mesh.masks, options, nullptr, of_scene.statistics, 0},
+        visitor(narrowphase, index, of_scene.instances[index].placed, trusts_kernel(of_scene, query), keep) {}
+  MeshSearch(const MeshSearch&) = delete;
+  MeshSearch& operator=(const MeshSearch&) = delete;
+
+  const QueryOptions<MeshScalar> options;
+  const Query<MeshScalar> query;  ///< It has the options above.
+  InstanceVisitor<Scalar, MeshScalar, Keep> visitor;
+
+ private:
+  static QueryOptions<MeshScalar> options_of(const SceneQuery<Scalar>& of_scene, std::uint32_t index) {
+    QueryOptions<MeshScalar> options;
+    options.mask = of_scene.options.mask;
+    if (of_scene.is_ignored(index)) options.ignored_triangle = of_scene.options.ignored_triangle;
+    return options;
+  }
+  static bool trusts_kernel(const SceneQuery<Scalar>& of_scene, const Query<MeshScalar>& query) {
+    return of_scene.filter == nullptr && of_scene.options.culling == Culling::none && counts_every_hit(query);
+  }
+};
 
 /// Searches one instance.
 template <typename MeshScalar, typename Scalar, typename Keep>
 HWY_INLINE void search_mesh(const SceneQuery<Scalar>& query, const ColliderState<MeshScalar>& mesh,
                             const PlacedPath<Scalar>& path, std::uint32_t index,
                             const SceneNarrowphase<Scalar>& narrowphase, Keep& keep) {
-  QueryOptions<MeshScalar> options;
-  options.mask = query.options.mask;
-  if (query.is_ignored(index)) options.ignored_triangle = query.options.ignored_triangle;
-  const Query<MeshScalar> of_mesh{mesh.grid, mesh.mesh, mesh.masks, options, nullptr, query.statistics, 0};
-  const bool trusts_kernel =
-      query.filter == nullptr && query.options.culling == Culling::none && counts_every_hit(of_mesh);
-  InstanceVisitor<Scalar, MeshScalar, Keep> visitor(narrowphase, index, query.instances[index].placed, trusts_kernel,
-                                                    keep);
-  walk_mesh(of_mesh, path, visitor);
+  MeshSearch<MeshScalar, Scalar, Keep> search(query, mesh, index, narrowphase, keep);
+  walk_mesh(search.query, path, search.visitor);
 }
 
 /// The search of one path in a scene.
