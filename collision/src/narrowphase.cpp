@@ -85,8 +85,6 @@ template <typename Scalar>
 bool Narrowphase<Scalar>::comes_before(const Candidate<Scalar>& x, const Candidate<Scalar>& y) const {
   if (x.contact.t_upper < y.contact.t_lower) return true;
   if (y.contact.t_upper < x.contact.t_lower) return false;
-  // Where the bounds of both contacts are one number, both t are this number.
-  if (x.contact.t_lower == y.contact.t_upper && x.contact.t_upper == y.contact.t_lower) return x.id < y.id;
   // Where a path starts in two triangles, both t are the begin of the range.
   if (x.contact.at_start && y.contact.at_start) return x.id < y.id;
   // In levels, most ties are floors that lie on floors. If neither contact is edge-on, the path crosses the plane, so
@@ -96,6 +94,8 @@ bool Narrowphase<Scalar>::comes_before(const Candidate<Scalar>& x, const Candida
     const bool share_end = x.contact.at_end && y.contact.at_end;
     if (share_end || share_axis_plane(x.triangle, y.triangle)) return x.id < y.id;
   }
+  // Where the bounds of both contacts are one number, both t are this number.
+  if (x.contact.t_lower == y.contact.t_upper && x.contact.t_upper == y.contact.t_lower) return x.id < y.id;
   return exactly_before(x, y);
 }
 

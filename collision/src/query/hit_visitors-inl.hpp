@@ -103,7 +103,8 @@ HWY_NOINLINE std::uint64_t lanes_near(const CandidateBlock<Scalar, AnyPath>& blo
 template <typename Scalar, typename AnyPath>
 HWY_NOINLINE std::uint64_t look_at_start(const CandidateBlock<Scalar, AnyPath>& block, const Path<Scalar>& path,
                                          std::uint64_t& lanes) {
-  if (!path.has_start()) return 0;
+  // A triangle alone is decided as fast without this.
+  if (!path.has_start() || std::has_single_bit(lanes)) return 0;
   const SharingLanes sharing = lanes_that_share(path, block.list, block.from);
   std::uint64_t at_start = sharing.corner;
   for (std::size_t axis = 0; axis < 3 && path.has_end(); ++axis) {
@@ -143,8 +144,7 @@ HWY_NOINLINE bool visit_one_by_one(const CandidateBlock<Scalar, AnyPath>& block,
       lanes = lanes_near(block, path, limit, lanes);  // Stack is scarce in double.
     }
     if (lanes == 0) return shorter;
-    // A triangle alone is decided as fast without this.
-    if (!std::has_single_bit(lanes)) at_start = look_at_start(block, path, lanes);
+    at_start = look_at_start(block, path, lanes);
   }
   const typename Visitor::Narrowphase narrowphase(path, block.query.options, block.range, block.query.statistics);
   OpenLanes open = {lanes, 0};
