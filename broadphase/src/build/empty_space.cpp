@@ -52,7 +52,7 @@ class Octants {
  public:
   /// Rows are padded to whole vectors. Their cells beyond the grid count as empty. What is stored there is read only by
   /// other such cells.
-  Octants(const std::array<std::uint32_t, 3>& cells, UnsetVector<std::uint8_t>& scratch)
+  Octants(const std::array<std::uint32_t, 3>& cells, ScratchVector<std::uint8_t>& scratch)
       : cells_(cells), pitch_((cells[0] + row_unit - 1) / row_unit * row_unit) {
     const std::size_t all_rows = std::size_t{cells[1]} * cells[2] * pitch_;
     scratch.resize((1 + octants) * all_rows + pitch_);
@@ -199,7 +199,7 @@ void transpose(BitMatrix& rows) {
 }  // namespace
 
 void measure_empty_space(std::span<std::uint32_t> words, const std::array<std::uint32_t, 3>& cells,
-                         UnsetVector<std::uint8_t>& scratch) {
+                         ScratchVector<std::uint8_t>& scratch) {
   Octants distances(cells, scratch);
   const auto for_rows = [&](const auto& visit) {
     std::uint32_t* row = words.data();

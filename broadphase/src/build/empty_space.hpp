@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid/grid.hpp"
+#include "support/scratch_vector.hpp"
 
 namespace surehit::detail {
 
@@ -13,7 +14,7 @@ namespace surehit::detail {
 /// of the largest cube of empty cells that begins with this cell. It is at most `CellWord::max_distance`. Beyond the
 /// grid all is empty. x runs fastest, then y, then z. `scratch` may hold anything; only its memory is used.
 void measure_empty_space(std::span<std::uint32_t> words, const std::array<std::uint32_t, 3>& cells,
-                         UnsetVector<std::uint8_t>& scratch);
+                         ScratchVector<std::uint8_t>& scratch);
 
 /// Does the same for a brick. Outside the brick nothing counts as empty.
 void measure_empty_space(std::span<std::uint32_t, Grid::brick_size> words);

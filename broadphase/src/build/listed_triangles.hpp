@@ -77,7 +77,7 @@ class ListedTriangles {
   static constexpr std::size_t vertices_in_a_part = std::size_t{1} << 13;
 
   /// `points` is memory for the positions of the vertices. All arguments must outlive this.
-  ListedTriangles(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, UnsetVector<PaddedPoint>& points)
+  ListedTriangles(const TriangleMeshView<Scalar>& mesh, const Box<Scalar>& box, ScratchVector<PaddedPoint>& points)
       : mesh_(mesh), box_(box), points_(points) {}
 
   [[nodiscard]] std::size_t count() const { return mesh_.triangle_count(); }
@@ -116,7 +116,7 @@ class ListedTriangles {
  private:
   const TriangleMeshView<Scalar>& mesh_;
   const Box<Scalar>& box_;
-  UnsetVector<PaddedPoint>& points_;
+  ScratchVector<PaddedPoint>& points_;
 };
 
 /// Some triangles of a mesh, as an inner grid lists them. The functions do the same as those of `ListedTriangles`.

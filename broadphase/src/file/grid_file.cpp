@@ -252,7 +252,7 @@ class GridReading {
   std::size_t entries_ = 0;        ///< The number of entries of the lists so far.
   std::size_t outer_entries_ = 0;  ///< The number of entries of the outermost grid.
   std::vector<std::uint32_t> words_;
-  UnsetVector<std::uint8_t> distances_;
+  ScratchVector<std::uint8_t> distances_;
 };
 
 template <typename Scalar>

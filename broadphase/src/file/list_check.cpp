@@ -260,7 +260,7 @@ std::optional<ListFault> find_list_fault(const TriangleMeshView<Scalar>& mesh, c
               std::vector<std::vector<std::uint32_t>>(grid.inner_frames().size()),
               max_inner_share * mesh.triangle_count()};
   const Box<Scalar> box;  // Only a build needs it.
-  UnsetVector<PaddedPoint> points;
+  ScratchVector<PaddedPoint> points;
   ListedTriangles<Scalar> triangles(mesh, box, points);
   const GridFrame frame = finest<Scalar>(grid.frame());
   triangles.compute_points(frame, nullptr);

@@ -28,7 +28,7 @@ class EmptySpace : public testing::Test {
 
   static void expect_top_measured(const std::vector<std::uint32_t>& words, const Cells& cells) {
     std::vector<std::uint32_t> measured = words;
-    detail::UnsetVector<std::uint8_t> scratch(7, 3);  // as another build may leave it
+    detail::ScratchVector<std::uint8_t> scratch(7, 3);  // as another build may leave it
     detail::measure_empty_space(measured, cells, scratch);
     expect_exact(words, measured, cells, true);
   }
