@@ -38,7 +38,7 @@ inline bool are_spread(const GridFrame& frame, std::span<const PaddedBox> boxes)
 /// would enter an inner grid in each of them. The lists are those of the frame's top cells. `counts` is memory.
 inline std::optional<std::array<double, 3>> resolution_around_main_part(const GridFrame& frame, const CellLists& lists,
                                                                         std::span<const PaddedBox> boxes,
-                                                                        UnsetVector<std::uint32_t>& counts) {
+                                                                        ScratchVector<std::uint32_t>& counts) {
   const auto& cells = frame.cells;
   if (std::min({cells[0], cells[1], cells[2]}) < 2 || are_spread(frame, boxes)) return std::nullopt;
   const std::array<std::size_t, 3> first = {0, cells[0], std::size_t{cells[0]} + cells[1]};
