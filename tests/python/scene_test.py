@@ -116,6 +116,8 @@ class SceneTest(unittest.TestCase):
         scene.add(box)
         scene.commit()
         self.assertEqual((scene.first_hit(ray).t, len(scene)), (1, 2))
+        self.assertFalse(hasattr(snapshot, "memory_bytes"))  # it shares its memory with the scene
+        self.assertGreater(scene.memory_bytes, 0)
         again = snapshot.snapshot()
         del scene, box, snapshot  # a snapshot keeps its share
         self.assertEqual((again.first_hit(ray), again.first_hits(surehit.Rays([ray.start], ray.toward))[0]),

@@ -131,7 +131,8 @@ class SweptWalk {
       const Times in_slab = outer.during(static_cast<double>(i) * size, static_cast<double>(i + 1) * size);
       if (is_late(in_slab)) continue;
       const auto rows = middle.range(in_slab, inverse_size);
-      const double empty_until = empty_from(frame, axes, order, {i, i}, rows, inner.range(in_slab, inverse_size));
+      const std::array<std::int64_t, 2> slabs = {outer.way < 0 ? first : i, outer.way < 0 ? i : last};
+      const double empty_until = empty_from(frame, axes, order, slabs, rows, inner.range(in_slab, inverse_size));
       if (empty_until > std::min(1.0, visitor_.limit())) return;
       if (empty_until > in_slab.enters) {
         const std::int64_t next = outer.first_of(outer.range({empty_until, empty_until}, inverse_size));
@@ -151,14 +152,14 @@ class SweptWalk {
     }
   }
 
-  /// Returns a time before which all cells are empty that the box meets in a slab and after it, or 0. It begins to meet
-  /// the slab in the cells of these ranges (W5).
+  /// Returns a time before which all cells are empty that the box meets in the first of these slabs and after it, or 0.
+  /// It begins to meet that slab in these rows and columns (W5).
   [[nodiscard]] double empty_from(const GridFrame& frame, const std::array<Axis, 3>& axes,
-                                  const std::array<std::size_t, 3>& order, const std::array<std::int64_t, 2>& slab,
+                                  const std::array<std::size_t, 3>& order, const std::array<std::int64_t, 2>& slabs,
                                   const std::array<std::int64_t, 2>& rows,
                                   const std::array<std::int64_t, 2>& columns) const {
     if (rows[0] > rows[1] || columns[0] > columns[1]) return 0;
-    const std::array<const std::array<std::int64_t, 2>*, 3> ranges = {&slab, &rows, &columns};
+    const std::array<const std::array<std::int64_t, 2>*, 3> ranges = {&slabs, &rows, &columns};
     std::size_t index = frame.first_top;
     std::uint32_t octant = 0;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -14,7 +14,7 @@ struct Magnitude {
   int size = 0;
 };
 
-/// Drops leading zeros: returns how many limbs the magnitude has.
+/// Returns how many limbs are left without leading zeros.
 [[nodiscard]] inline int trimmed(const Limb* limb, int size) {
   while (size > 0 && limb[size - 1] == 0) --size;
   return size;
@@ -44,7 +44,7 @@ void add(Limb* limb, int& size, bool& negative, Magnitude other, bool other_nega
 [[nodiscard]] int shift_left(Limb* limb, int size, int count, int capacity);
 
 /// Returns ±numerator / denominator × 2^exponent, rounded once to nearest, ties to even. Zero is +0. The denominator
-/// must not be zero. Both have room for 65 bits more than the longer one has, and are overwritten.
+/// must not be zero. Both have room for two limbs more than the longer one has, and are overwritten.
 template <typename Scalar>
 [[nodiscard]] Scalar rounded_quotient(Limb* numerator, int numerator_size, Limb* denominator, int denominator_size,
                                       int exponent, bool negative);

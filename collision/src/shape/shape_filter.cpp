@@ -80,10 +80,11 @@ struct LanePrecision<float> {
 ///
 /// V5. The squares of two numbers have the order of the numbers, so V2 and V3 take no root. The product r² |m|² is off
 /// by less than 16 u of itself.
-/// Proof. If a square overflows, it is infinite, and infinity is not above infinity. In float, underflow changes both
-///     squares by less than 2^-147 (1 + |m|² + r²), whose root is below 2^-73 (1 + |m| + r). Let S, E and F be above
-///     2^-18. Then 64 u S E F and 64 u E² F are above it. V2 and V3 have at least as much left over. In double they are
-///     above 2^-150, which covers 2^-500 (1 + |m| + r) likewise.
+/// Proof. Sizes are below `largest`, so r² |m|² is below 2^964 in double and 2^124 in float. No entry of the library
+///     leaves flush-to-zero on. In float, underflow changes both squares by less than 2^-147 (1 + |m|² + r²), whose
+///     root is below 2^-73 (1 + |m| + r). Let S, E and F be above 2^-18. Then 64 u S E F and 64 u E² F are above it. V2
+///     and V3 have at least as much left over. In double they are above 2^-150, which covers 2^-500 (1 + |m| + r)
+///     likewise.
 ///
 /// V6. Let the height along n be at least h + c(n) + 256 u E² (F + S) at all times when the shape may touch the
 /// triangle. Then V4 holds with the root of r² (n·n + 256 u E⁴) - h² in place of r |n|.
@@ -91,7 +92,8 @@ struct LanePrecision<float> {
 ///     along n. The distance beyond it and that along n belong to a triangle with a right angle. Times |n|, the latter
 ///     is at least h. So the square of the former, times n·n, is at most r² n·n - h². n·n is off by less than 96 u E⁴
 ///     for its components, and by 36 u E⁴ for products and sums. Roundings of r² and h² are in the 16 u of V5, since h
-///     is at most r |n|. Underflow changes the root by less than 2^-73 (1 + r), and 1024 u E² F is above it.
+///     is at most r |n|. Both are finite, so their difference is no NaN: h² is below 2^968 in double and 2^128 in
+///     float. Underflow changes the root by less than 2^-73 (1 + |n| + r), and 1024 u E² F is above it.
 ///
 /// On an axis of coordinates, the heights are off by less than 16 u (W + E + S). The reach r + h_i has one rounding,
 /// and counts only if it is less than W + E + S.

@@ -17,6 +17,8 @@
 #include "support/threads.hpp"
 #include "surehit/collider.hpp"
 #include "surehit/intersect.hpp"
+#include "surehit/swept_box.hpp"
+#include "surehit/swept_capsule.hpp"
 
 namespace surehit::test {
 namespace {
@@ -164,8 +166,26 @@ TYPED_TEST(ColliderSpheres, FindWhatIsBehindEmptySpace) {
       const ShapeHit<Scalar> first = expected.empty() ? ShapeHit<Scalar>{} : expected.front();
       ASSERT_TRUE(collider.first_hit(sphere).value_or(ShapeHit<Scalar>{}) == first);
       ASSERT_EQ(collider.any_hit(sphere), !expected.empty());
+      const SweptSphere<Scalar> at_rest{sphere.start, sphere.start, sphere.radius};
+      ASSERT_EQ(collider.overlaps(at_rest), !brute_force(mesh.view(), at_rest).empty());
     }
   }
+}
+
+// The empty cube around the first cell that a shape at rest meets ends below the triangle.
+TYPED_TEST(ColliderSpheres, FindWhatIsAboveEmptySpaceAtRest) {
+  using Scalar = TypeParam;
+  GeneratedMesh<Scalar> mesh;
+  mesh.add({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  mesh.add({{16, 16, 16}, {15, 16, 16}, {16, 15, 16}});
+  mesh.add({{9, 9, 13}, {10, 9, 13}, {9, 10, 13}});
+  const Collider<Scalar> collider(mesh.view(), {.grid = {.resolution = {4, 4, 4}}});
+  const Vector3<Scalar> below(Scalar(9.25), Scalar(9.25), Scalar(11.875));
+  EXPECT_TRUE(collider.overlaps(SweptSphere<Scalar>{below, below, Scalar(1.25)}));
+  EXPECT_FALSE(collider.overlaps(SweptSphere<Scalar>{below, below, 1}));
+  const Vector3<Scalar> low(Scalar(9.25), Scalar(9.25), 8);
+  EXPECT_TRUE(collider.overlaps(SweptBox<Scalar>{low, low, {Scalar(0.125), Scalar(0.125), 6}}));
+  EXPECT_TRUE(collider.overlaps(SweptCapsule<Scalar>{low, low, {0, 0, 5}, Scalar(0.125)}));
 }
 
 TYPED_TEST(ColliderSpheres, FindAllThatIsThereFromAfarAndWithAnySize) {

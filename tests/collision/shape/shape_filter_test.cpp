@@ -108,5 +108,18 @@ TYPED_TEST(ShapeFilterOf, leaves_out_what_is_beside_a_rolling_ball) {
   EXPECT_FALSE(is_kept(Scalar(0.25)));
 }
 
+using ShapeFilterOfDouble = ShapeFilterOf<double>;
+
+// Two squares would be infinite, and so their difference would be no number.
+TEST_F(ShapeFilterOfDouble, keeps_what_huge_balls_touch) {
+  const Triangle<double> triangle = {{0, 0, 0}, {0x1p175, 0, 0}, {0, 0x1p175, 0}};
+  const Vector3<double> centre(-0.25 * 0x1p180, 0x1p174, 0.875 * 0x1p180);
+  const SweptSphere<double> sphere{centre, centre, 0x1p180};
+  ASSERT_TRUE(exact_contact(sphere, triangle).has_value());
+  const List list(triangle);
+  ShapeFilter<double>::Times enters;
+  EXPECT_EQ(ShapeFilter<double>(sphere).find(list.corners.data(), 1, 0, 1, enters) & 1, 1U);
+}
+
 }  // namespace
 }  // namespace surehit::test

@@ -288,12 +288,3 @@ class Queries(Generic[PathHit, TouchHit]):
         corners = np.empty((2, 3), self.dtype)
         check(self._function("box")(self._handle, corners.ctypes.data))
         return corners[0], corners[1]
-
-    @property
-    def memory_bytes(self) -> int:
-        """The memory that it has allocated."""
-        count = c_size_t()
-        check(self._function("memory_bytes")(self._handle, byref(count)))
-        return count.value
-
-

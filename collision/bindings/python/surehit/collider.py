@@ -130,6 +130,13 @@ class Collider(Queries[Hit, ShapeHit]):
         check(self._function("triangle_count")(self._handle, byref(count)))
         return count.value
 
+    @property
+    def memory_bytes(self) -> int:
+        """The memory that it has allocated."""
+        count = c_size_t()
+        check(self._function("memory_bytes")(self._handle, byref(count)))
+        return count.value
+
     def triangle(self, triangle: int) -> NDArray[Any]:
         """Returns the corners of a triangle, one a row, as they were given."""
         corners = np.empty((3, 3), self.dtype)

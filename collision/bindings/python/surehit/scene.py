@@ -123,9 +123,8 @@ class Scene(_Instances):
     exact arithmetic, where m is the last column. M may rotate, scale, mirror and shear. Each of its entries must be 0,
     or between 2^-64 and 2^64 in magnitude. Its determinant must not be 0.
 
-    Changes take effect with the next ``commit``. Until then, queries answer as before. Functions that tell about one
-    instance tell what was set last. A scene of float64 may have
-    colliders of float32 too. Among hits with equal exact t, the lowest instance index comes first.
+    Changes take effect with the next ``commit``. Until then, queries answer as before. ``len``, ``in``, ``instances`` and
+    what is told about one instance are of what was set last. A scene of float64 may have colliders of float32 too. Among hits with equal exact t, the lowest instance index comes first.
 
     Moving shapes have the sizes and axes of the scene, whatever the poses are. While a shape moves, instances with a
     motion move too.
@@ -197,6 +196,13 @@ class Scene(_Instances):
         """Lets all changes since the last commit take effect. No query may run at the same time."""
         raised = Raised()
         raised.check(self._function("commit")(self._handle, executor_pointer(executor, raised)))
+
+    @property
+    def memory_bytes(self) -> int:
+        """The memory that it has allocated."""
+        count = c_size_t()
+        check(self._function("memory_bytes")(self._handle, byref(count)))
+        return count.value
 
     def __repr__(self) -> str:
         return f"<Scene of {len(self)} instances in {self.dtype}>"
