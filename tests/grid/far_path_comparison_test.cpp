@@ -136,5 +136,36 @@ TEST_F(FarPathComparison, of_props_in_levels_of_almost_any_size) {
   }
 }
 
+/// The way from the start of a path to the mesh is no float, in a slow direction.
+TEST_F(FarPathComparison, of_ways_that_overflow) {
+  constexpr float far = 0x1.cp127F;
+  GeneratedMesh<float> stray = placed<float>(scattered_triangles<float>(1000, 0.05F, random_), 1, {11, 11, 11});
+  stray.add({{far, -1, -1}, {far, 1, -1}, {far, 0, 1}});
+  GeneratedMesh<float> wall;
+  for (int i = -5; i < 5; ++i) {
+    const auto y = static_cast<float>(10 * i);
+    for (int k = -5; k < 5; ++k) {
+      const auto z = static_cast<float>(10 * k);
+      wall.add({{far, y, z}, {far, y + 10, z}, {far, y, z + 10}});
+    }
+  }
+  const Ray<float> slow{{-far, -0x1p49F, 0}, {0x1.cp99F, 0x1p20F, 0}};
+  const Line<float> back{{-far, 0, 0}, {-0x1.cp99F, 0, 0}};
+  for (const GeneratedMesh<float>* mesh : {&stray, &wall}) {
+    for (const std::int64_t target : instruction_sets()) {
+      const ForcedInstructionSet forced(target);
+      GridComparison<float> comparison(mesh->view(), {}, {{}});
+      comparison.expect_same(slow);
+      comparison.expect_same(back);
+      comparison.expect_same(slow, QueryOptions<float>{.max_t = 0x1p30F});
+      EXPECT_GE(comparison.hit_count(), 2U);
+      for (const Collider<float>& collider : comparison.colliders()) {
+        expect_batch(collider, std::vector<Ray<float>>(24, slow));
+        expect_batch(collider, std::vector<Line<float>>(24, back));
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace surehit::test

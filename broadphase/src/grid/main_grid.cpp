@@ -15,6 +15,16 @@ namespace {
 /// Returns the number of top cells of a frame.
 std::size_t cell_count(const GridFrame& frame) { return std::size_t{frame.cells[0]} * frame.cells[1] * frame.cells[2]; }
 
+constexpr double largest = std::numeric_limits<float>::max();
+
+/// Returns whether some of the mesh's box is within the range of float on each axis.
+bool is_among_floats(const GridFrame& frame) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (frame.low[axis] > largest || frame.high[axis] < -largest) return false;
+  }
+  return true;
+}
+
 /// Returns a box that contains the box of a cell's list, but for what is outside of the mesh's box. Each side is moved
 /// outward by one padding, and by more than the roundings of double.
 MainGrid::OtherBox box_around(const Grid& grid, const detail::ListCell& cell) {
@@ -29,7 +39,6 @@ MainGrid::OtherBox box_around(const Grid& grid, const detail::ListCell& cell) {
       const double scaled = (position - double{frame.margin[axis]}) / frame.scale[axis] + frame.origin[axis];
       return (scaled + outward * rounding) / frame.unit[0] / frame.unit[1];
     };
-    constexpr double largest = std::numeric_limits<float>::max();
     const double low = std::clamp(unscaled(box.low(axis), -1), std::max(frame.low[axis], -largest), largest);
     const double high = std::clamp(unscaled(box.high(axis), 1), -largest, std::min(frame.high[axis], largest));
     constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -45,7 +54,7 @@ MainGrid::OtherBox box_around(const Grid& grid, const detail::ListCell& cell) {
 
 MainGrid::MainGrid(const Grid& grid) {
   if (!grid.is_mostly_inner()) return;
-  std::size_t most_cells = 0;
+  std::size_t max_cells = 0;
   std::size_t lists = 0;
   std::array<detail::ListCell, max_boxes + 1> cells;
   std::size_t main = 0;
@@ -54,24 +63,25 @@ MainGrid::MainGrid(const Grid& grid) {
       cells[lists] = cell;
       if (cell.word.has_inner_grid()) {
         const std::size_t count = cell_count(grid.inner_frame(cell.word));
-        if (count > most_cells) {
-          most_cells = count;
+        if (count > max_cells) {
+          max_cells = count;
           main = lists;
         }
       }
     }
     ++lists;
   });
-  if (most_cells == 0 || lists > cells.size()) return;
+  if (max_cells == 0 || lists > cells.size()) return;
+  const GridFrame& frame = grid.inner_frame(cells[main].word);
+  if (!frame.has_floats || !is_among_floats(grid.frame())) return;
   for (std::size_t i = 0; i < lists; ++i) {
     const bool has_main = i == main;
     if (has_main && grid.entry_count(cells[i].word) == 0) continue;
     if (box_count_ == max_boxes) return;
     boxes_[box_count_++] = box_around(grid, cells[i]);
   }
-  const GridFrame& frame = grid.inner_frame(cells[main].word);
   frame_index_ = static_cast<std::size_t>(&frame - grid.inner_frames().data());
-  exists_ = frame.has_floats;
+  exists_ = true;
 }
 
 }  // namespace surehit

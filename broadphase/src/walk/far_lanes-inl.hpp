@@ -78,7 +78,9 @@ struct BoxLanes {
       const auto is_beside = hn::Or(hn::Gt(to_low, hn::Zero(d)), hn::Lt(to_high, hn::Zero(d)));
       misses = hn::Or(misses, hn::And(hn::Eq(way, hn::Zero(d)), is_beside));
       const Floats size = hn::Abs(way);
-      const auto counts = hn::And(hn::Ge(size, hn::Set(d, min_way)), hn::Le(size, hn::Set(d, max_way)));
+      const auto is_usual = hn::And(hn::Ge(size, hn::Set(d, min_way)), hn::Le(size, hn::Set(d, max_way)));
+      const Floats farthest = hn::Max(hn::Abs(to_low), hn::Abs(to_high));
+      const auto counts = hn::And(is_usual, hn::Lt(farthest, infinity));
       const Floats inverse = hn::Div(hn::Set(d, 1.0F), way);
       const Floats at_low = hn::Mul(to_low, inverse);
       const Floats at_high = hn::Mul(to_high, inverse);
@@ -91,6 +93,7 @@ struct BoxLanes {
   }
 
  private:
+  // An axis does not count whose differences overflow.
   static constexpr float min_way = 0x1p-100F;  ///< An axis with less motion does not count, but for none at all.
   static constexpr float max_way = 0x1p100F;   ///< Nor does an axis with more motion.
   static constexpr float slack = 0x1p-20F;     ///< The share of itself by which each end is moved outward.

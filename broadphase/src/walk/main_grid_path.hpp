@@ -19,12 +19,15 @@ SUREHIT_ALWAYS_INLINE inline bool misses_others(const MainGrid& main, const Path
   const Float4 toward = {path.toward[0], path.toward[1], path.toward[2], 0};
   const Float4 way = direction_of(path.kind, start, toward);
   const Float4 size = absolute(way);
-  const Int4 counts = (size >= all_lanes(0x1p-100F)) & (size <= all_lanes(0x1p100F));
+  const Int4 is_usual = (size >= all_lanes(0x1p-100F)) & (size <= all_lanes(0x1p100F));
   const Float4 inverse = 1 / way;
   bool misses_all = true;
   for (const MainGrid::OtherBox& box : main.boxes()) {
-    const Float4 at_low = (box.low - start) * inverse;
-    const Float4 at_high = (box.high - start) * inverse;
+    const Float4 to_low = box.low - start;
+    const Float4 to_high = box.high - start;
+    const Int4 counts = is_usual & (max(absolute(to_low), absolute(to_high)) < all_lanes(infinity));
+    const Float4 at_low = to_low * inverse;
+    const Float4 at_high = to_high * inverse;
     Float4 entries = choose(counts, min(at_low, at_high), all_lanes(-infinity));
     Float4 exits = choose(counts, max(at_low, at_high), all_lanes(infinity));
     entries[3] = first_t;

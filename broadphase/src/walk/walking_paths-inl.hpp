@@ -79,7 +79,7 @@ struct alignas(max_lanes * sizeof(float)) WalkingPaths {
   void shorten(std::size_t lane, double t, const WalkParameter& tau) { end[lane] = std::min(end[lane], tau.beyond(t)); }
 
   /// Copies other paths into some lanes. If bit i of `lanes` is set, lane i becomes lane `from_lane[i]` of `from`. It
-  /// does not copy `stop`, because paths are clipped to the outermost frame, and so are the lanes that they take.
+  /// does not copy `stop`, because paths are clipped to the frame in which all lanes begin.
   HWY_INLINE void copy(std::uint32_t lanes, const WalkingPaths& from, const LaneIndices& from_lane) {
     const auto indices = hn::Load(IntTag(), from_lane.data());
     const auto copy_all = [&](auto d, auto& to, const auto& of) {

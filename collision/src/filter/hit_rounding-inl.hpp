@@ -131,10 +131,10 @@ HWY_INLINE hn::Mask<D> is_exact(D d, const Vectors<D>& x, const Vectors<D>& y, c
 ///
 /// R8. Products of S' do not underflow if |t0| is at least 2^-200. In other lanes nothing is certain.
 /// Proof. The last places of t0, S and D are at least 2^-252, 2^-149 and 2^-149. So a component of S' is zero or at
-/// least
-///     2^-401. The other factors of its products are zero or at least 2^-149, and there are two of them.
+///     least 2^-401. The other factors of its products are zero or at least 2^-149, and there are two of them.
 ///
-/// R9. The sum of t0 and an end of the interval of t - t0 is rounded by 2^-53 of itself. Twice as much is added.
+/// R9. The sum of t0 and an end of the interval of t - t0, and the one with `rounding`, are each rounded by 2^-53 of
+/// themselves. `rounding` is four times that of the largest sum, so its own two roundings are covered too.
 template <class D>
 HWY_INLINE HitIntervals<D> intervals_from_hits(D d, PathKind kind, const Vectors<D>& start, const Vectors<D>& toward,
                                                const Vectors<D>& a, const Vectors<D>& b, const Vectors<D>& c,
@@ -152,7 +152,8 @@ HWY_INLINE HitIntervals<D> intervals_from_hits(D d, PathKind kind, const Vectors
   const V length = hn::Sub(from_start.t.upper, from_start.t.lower);
   const Vectors<D> origin = {zero, zero, zero};
   HitIntervals<D> hits(d, moved, direction, origin, difference<D>(b, a), difference<D>(c, a), length, edge_size);
-  const V rounding = hn::Mul(hn::Add(hn::Abs(t0), length), hn::Set(d, 0x1p-52));  // R9
+  const V farthest = hn::Max(hn::Abs(hits.t.lower), hn::Abs(hits.t.upper));
+  const V rounding = hn::Mul(hn::Add(hn::Abs(t0), farthest), hn::Set(d, 0x1p-51));  // R9
   const V infinity = hn::Inf(d);
   hits.t.lower = hn::IfThenElse(are_known, hn::Sub(hn::Add(t0, hits.t.lower), rounding), hn::Neg(infinity));
   hits.t.upper = hn::IfThenElse(are_known, hn::Add(hn::Add(t0, hits.t.upper), rounding), infinity);

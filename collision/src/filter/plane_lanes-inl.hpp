@@ -72,8 +72,8 @@ struct SeenLanes {
 ///     If a sum of six products might overflow, the bound is infinite, because 16 m^2 is. Then nothing is certain.
 ///
 /// C2. Let n be the sum of P's three areas with the edges. It is off by at most 4 bounds of C1.
-/// Proof. Each area is off by a bound. Its size is at most 2 m^2, so the two roundings of the sum are below another
-/// one.
+/// Proof. Each area is off by half a bound. Its size is at most 2 m^2, so the two roundings of the sum are below a
+///     whole bound. What is left covers the roundings of five bounds, and of their sum with n.
 ///
 /// C3. The segment misses the triangle if they are apart as seen along the axis. They are apart there if P and Q are
 ///     beside an edge's line, and if no corner is as far on this side. They also are if all corners are on one side of

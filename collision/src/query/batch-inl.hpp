@@ -239,7 +239,7 @@ class Batch {
     } else {
       taus_[slot] = clipped.tau;
     }
-    // A start that was moved is near the outermost grid, and has the reach of that grid.
+    // A start that was moved is near the grid in which the batch begins, and has the reach of that grid.
     if (!jobs_.is_moved(slot)) jobs_.path(slot).reach = KernelPath<Scalar>(path, frame).reach;
     in_inner_frame_ |= bit;
     return true;
@@ -338,7 +338,7 @@ class Batch {
     has_outer_ &= ~of_slots;
   }
 
-  /// A walk through the outermost grid that goes on when the path has left an inner grid.
+  /// A walk through the first grid that goes on when the path has left an inner grid.
   struct OuterWalk {
     WalkingPath path;                                              ///< The walk.
     Scalar reach;                                                  ///< The reach of the path in the kernel.
@@ -380,7 +380,7 @@ class Batch {
 /// Returns true if there is a main grid, and only few paths of a batch may meet what is not in it. It looks at the
 /// first paths. No answer depends on this. Paths of doubles always begin in the outermost grid.
 template <typename Scalar, typename Queries>
-HWY_INLINE bool mostly_miss_the_others(const Queries& queries, const PathSpan<Scalar>& paths) {
+HWY_INLINE bool is_mostly_in_main_grid(const Queries& queries, const PathSpan<Scalar>& paths) {
   constexpr std::size_t samples = 64;
   constexpr std::size_t few_share = 16;
   if constexpr (std::is_same_v<Scalar, float>) {
@@ -416,7 +416,7 @@ HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[
   }
 #if HWY_TARGET != HWY_SCALAR
   if (!queries.admits_nothing() && !grid.is_one_list()) {
-    const GridFrame& frame = mostly_miss_the_others(queries, paths) ? grid.main_frame() : grid.frame();
+    const GridFrame& frame = is_mostly_in_main_grid(queries, paths) ? grid.main_frame() : grid.frame();
     Batch<Scalar, Visitor, Queries, Finish, Alone>(queries, frame, paths, finish, alone).run();
     return;
   }

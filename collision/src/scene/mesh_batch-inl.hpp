@@ -98,7 +98,6 @@ class MeshBatch {
     const PlacedPath<float> path;
     MeshSearch<float, float, Keep> search;
     bool has_kernel_path = false;  ///< True if the path and its weights are set for the kernel.
-    RangeWeights<float> weights;   ///< The weights of its range.
     double enters;                 ///< The t where tau is 0.
   };
 
@@ -113,9 +112,10 @@ class MeshBatch {
   }
 
   // What `ListJobs` asks for.
+  using Weights = std::array<RangeWeights<float>, max_slots<float>>;
   struct WeightsOfSlots {
-    const MeshBatch& batch;
-    [[nodiscard]] const RangeWeights<float>& weights_in(std::size_t slot) const { return batch.visit_at(slot).weights; }
+    const Weights& weights;
+    [[nodiscard]] const RangeWeights<float>& weights_in(std::size_t slot) const { return weights[slot]; }
   };
   struct LimitsOfSlots {
     const MeshBatch& batch;
@@ -190,8 +190,7 @@ class MeshBatch {
       }
       jobs_.set_count(count);
       for (std::size_t first_job = 0; first_job < jobs_.count(); first_job += Jobs::max_jobs) {
-        for (const typename Jobs::Open& open :
-             jobs_.classify(first_job, from, WeightsOfSlots{*this}, LimitsOfSlots{*this})) {
+        for (const typename Jobs::Open& open : jobs_.classify(first_job, from, LimitsOfSlots{*this})) {
           done |= visit_job(open);
         }
       }
@@ -209,10 +208,10 @@ class MeshBatch {
     if (!visit.has_kernel_path) {
       visit.has_kernel_path = true;
       jobs_.path(slot) = visit.path.template kernel_path<float>();
-      visit.weights = visit.path.template kernel_weights<float>();
+      weights_[slot] = visit.path.template kernel_weights<float>();
     }
     const CellWord word(words_[slot]);
-    jobs_.load_list(slot, visit.search.query, word, visit.weights);
+    jobs_.load_list(slot, visit.search.query, word);
     return word.has_inner_grid();
   }
 
@@ -235,7 +234,7 @@ class MeshBatch {
   HWY_NOINLINE std::uint64_t visit_inner(std::size_t slot) {
     Visit& of = visit_at(slot);
     KernelInput<float> input(jobs_.path(slot), any_range);
-    input.weights = of.weights;
+    input.weights = weights_[slot];
     walk_inner(of.search.query, of.path, any_range, input, CellWord(words_[slot]), of.search.visitor);
     if constexpr (Keep::shortens) shorten(slot);
     return std::uint64_t{of.search.visitor.is_done()} << slot;
@@ -250,7 +249,8 @@ class MeshBatch {
 
   std::array<MeshLanes, vectors> lanes_;
   std::array<LaneWalk::Cells, vectors> cells_;
-  Jobs jobs_;
+  Weights weights_;  ///< The weights of the range of each path.
+  Jobs jobs_{WeightsOfSlots{weights_}};
   std::array<VisitMemory, slots> visits_;  ///< A visit is made when a path begins to search.
   std::uint64_t walking_ = 0;              ///< The slots whose paths walk.
   std::uint64_t in_only_list_ = 0;         ///< The slots whose mesh has only one list.
