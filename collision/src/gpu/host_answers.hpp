@@ -62,7 +62,8 @@ inline void round_on_host(const Colliderf& collider, const Pathf& path, const Qu
   }
 }
 
-/// Answers some paths by the host's batch, with the options that they have in theirs. Their numbers lie side by side.
+/// Answers some paths by the host's batch, with the options that they have in theirs. Their numbers lie side by side,
+/// and `open` has their indices in the batch of the caller, which a filter takes.
 template <typename Answer>
 void answer_open(const Colliderf& collider, PathKind kind, const std::vector<float>& numbers,
                  const std::vector<std::size_t>& open, const BatchOptionsf& options, std::vector<Answer>& found) {
@@ -72,6 +73,8 @@ void answer_open(const Colliderf& collider, PathKind kind, const std::vector<flo
     for (const std::size_t path : open) own_options.push_back(options.path_options[path]);
     own.path_options = own_options;
   }
+  const auto of_batch = [&](std::size_t path, const Hitf& hit) { return (*options.filter)(open[path], hit); };
+  if (options.filter) own.filter = of_batch;
   found.resize(open.size());
   ask(collider, span_of(kind, numbers), std::span<Answer>(found), own);
 }

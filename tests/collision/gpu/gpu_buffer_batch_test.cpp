@@ -173,6 +173,19 @@ TEST_F(GpuGroundTest, filters_and_meshes_that_the_device_cannot_have) {
   expect_same_in_buffers(device, GpuCollider(device, empty), empty, std::span(paths).first(100));
 }
 
+/// The last path is in a dispatch of its own, and only there the filter takes its hit.
+TEST_F(GpuBufferBatchTest, filters_get_the_index_of_a_path_in_its_batch) {
+  GeneratedMesh<float> mesh;
+  mesh.add({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
+  const Colliderf collider(mesh.view());
+  const GpuCollider on_gpu(device, collider);
+  constexpr std::size_t last = std::size_t{1} << 16;
+  const std::vector<Segmentf> paths(last + 1, {{1, 1, 1}, {1, 1, -1}});
+  const auto is_last = [](std::size_t path, const Hitf&) { return path == last; };
+  expect_same_in_buffers(device, on_gpu, collider, paths, {.filter = is_last});
+  EXPECT_EQ(expect_same_as_host(on_gpu, collider, paths, {.filter = is_last}), 1U);
+}
+
 TEST_F(GpuGroundTest, short_batches) {
   const GpuCollider on_gpu(device, collider);
   const std::vector<Segmentf> paths = draw(100, 10);
