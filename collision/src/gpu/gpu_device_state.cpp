@@ -346,7 +346,9 @@ std::optional<GpuError> GpuDeviceState::wait(GpuSlot& slot) {
   const char* const what = "while a batch was under way";
   if (auto error = noted(vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes), what)) return error;
   slot.is_under_way = false;
-  return noted(vulkan.ResetFences(device, 1, &slot.fence), what);
+  const VkResult reset = vulkan.ResetFences(device, 1, &slot.fence);
+  if (reset != VK_SUCCESS) is_lost = true;  // The next wait would end before the work does.
+  return noted(reset, what);
 }
 
 void GpuDeviceState::abandon() noexcept {

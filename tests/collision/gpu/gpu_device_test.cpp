@@ -251,6 +251,10 @@ VKAPI_ATTR VkResult VKAPI_CALL no_wait(VkDevice device, std::uint32_t count, con
   if (wait_result == VK_SUCCESS) throw std::bad_alloc();
   return wait_result;
 }
+PFN_vkResetFences reset = nullptr;
+VKAPI_ATTR VkResult VKAPI_CALL no_reset(VkDevice device, std::uint32_t count, const VkFence* fences) {
+  return calls_left-- > 0 ? reset(device, count, fences) : VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
 GpuDeviceState* faulty = nullptr;
 detail::DeviceHit faulty_answer = {};
 VKAPI_ATTR VkResult VKAPI_CALL faulty_answers(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
@@ -360,6 +364,23 @@ TEST_F(GpuDeviceTest, a_batch_that_throws_leaves_no_work_under_way) {
   std::reverse(expected.begin(), expected.end());
   EXPECT_TRUE(on_gpu.first_hits(paths, hits));
   EXPECT_EQ(hits, expected);
+}
+
+/// A fence that stays signaled would end the next wait at once, before the device has answered.
+TEST_F(GpuDeviceTest, a_fence_that_cannot_be_reset_is_not_used_again) {
+  const GpuCollider on_gpu(device, collider);
+  const std::span<const Segmentf> few = std::span(paths).first(100);
+  std::vector<Hitf> hits(few.size());
+  reset = std::exchange(state().vulkan.ResetFences, no_reset);
+  calls_left = 0;
+  const GpuBatchResult failed = on_gpu.first_hits(few, hits);
+  state().vulkan.ResetFences = reset;
+  ASSERT_TRUE(failed.error);
+  EXPECT_EQ(failed.error->reason, Reason::out_of_memory);
+  const GpuBatchResult next = on_gpu.first_hits(few, hits);
+  ASSERT_TRUE(next.error);
+  EXPECT_EQ(next.error->reason, Reason::device_lost);
+  EXPECT_EQ(next.finished, 0U);
 }
 
 TEST_F(GpuDeviceTest, an_upload_that_fails_leaves_no_work_under_way) {
