@@ -364,8 +364,10 @@ void GpuDeviceState::abandon() noexcept {
 bool GpuDeviceState::has_returned() noexcept {
   bool has = true;
   for (const GpuSlot& slot : slots) {
-    // A device that was lost has returned.
-    if (slot.is_under_way) has &= vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, one_second) != VK_TIMEOUT;
+    if (!slot.is_under_way) continue;
+    const VkResult result = vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, one_second);
+    // A device that was lost has returned. Any other error says nothing of the work.
+    has &= result == VK_SUCCESS || result == VK_ERROR_DEVICE_LOST;
   }
   return has;
 }

@@ -402,16 +402,23 @@ TEST_F(GpuDeviceTest, an_upload_that_fails_leaves_no_work_under_way) {
 /// A device that has not answered may still read the mesh, so it keeps the mesh until it is closed. Where it still has
 /// not answered then, all memory is left to it, and nothing waits for it.
 TEST_F(GpuDeviceTest, a_device_that_does_not_answer_keeps_the_mesh) {
-  for (const bool answers_at_last : {false, true}) {
+  struct Case {
+    VkResult result;
+    bool answers_at_last;
+    Reason reason;
+  };
+  for (const auto& [result, answers_at_last, reason] :
+       {Case{VK_TIMEOUT, false, Reason::device_lost}, Case{VK_TIMEOUT, true, Reason::device_lost},
+        Case{VK_ERROR_OUT_OF_HOST_MEMORY, false, Reason::out_of_memory}}) {
     device = any_gpu();
     GpuCollider on_gpu(device, collider);
     std::vector<Hitf> hits(paths.size());
     wait_for = std::exchange(state().vulkan.WaitForFences, no_wait);
     give_back = std::exchange(state().vulkan.FreeMemory, counted_free);
-    wait_result = VK_TIMEOUT;
+    wait_result = result;
     calls_left = 0;
     failures_left = answers_at_last ? 1 : 1000;
-    EXPECT_EQ(on_gpu.first_hits(paths, hits).error->reason, Reason::device_lost);
+    EXPECT_EQ(on_gpu.first_hits(paths, hits).error->reason, reason);
     freed = 0;
     on_gpu = GpuCollider();
     EXPECT_EQ(freed, 0);
