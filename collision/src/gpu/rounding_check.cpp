@@ -41,6 +41,26 @@ bool may_be_product_and_sum(float result, float a, float b, float c) {
   return may_be(result, double{product.below} + double{c}) || may_be(result, double{product.above} + double{c});
 }
 
+/// Returns true if nothing in the pairs of these numbers is flushed, and doubles have them exactly.
+bool has_exact_pairs(float a, float b) {
+  const auto is_moderate = [](float x) { return std::fabs(x) >= 0x1p-12F && std::fabs(x) <= 0x1p12F; };
+  return is_moderate(a) && is_moderate(b);
+}
+
+/// Returns true if a device may return this pair for a + b (G10). It sums to the exact number nearly.
+bool may_be_sum_pair(float high, float low, float a, float b) {
+  const double sum = double{a} + double{b};  // It is exact for these numbers, and so is what is left.
+  const double rest = sum - double{high};
+  return may_be(high, sum) && std::fabs(double{low}) <= 0x1p-23 * std::fabs(sum) &&
+         std::fabs(rest - double{low}) <= 0x1p-46 * std::fabs(sum);
+}
+
+/// Returns true if a device may return this pair for a b (G11). It is exact.
+bool may_be_product_pair(float high, float low, float a, float b) {
+  const double product = double{a} * double{b};
+  return may_be(high, product) && double{low} == product - double{high};
+}
+
 std::string fault(const char* operation, const RoundingCase& numbers, float result) {
   char text[160];
   std::snprintf(text, sizeof text, "it computes %s of %a, %a and %a as %a", operation, double{numbers[0]},
@@ -76,7 +96,8 @@ std::optional<std::string> rounding_fault(std::span<const RoundingCase> cases,
   if (results.size() != cases.size()) return "it computes too little";
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const auto [a, b, c] = cases[i];
-    const auto [sum, difference, product, quotient, product_and_sum] = results[i];
+    const auto [sum, difference, product, quotient, product_and_sum, sum_high, sum_low, product_high, product_low] =
+        results[i];
     if (!may_be(sum, double{a} + double{b})) return fault("the sum", cases[i], sum);
     if (!may_be(difference, double{a} - double{b})) return fault("the difference", cases[i], difference);
     if (!may_be(product, double{a} * double{b})) return fault("the product", cases[i], product);
@@ -84,6 +105,11 @@ std::optional<std::string> rounding_fault(std::span<const RoundingCase> cases,
     if (is_normal && !may_be_quotient(quotient, a, b)) return fault("the quotient", cases[i], quotient);
     if (!may_be_product_and_sum(product_and_sum, a, b, c)) {
       return fault("the product and the sum", cases[i], product_and_sum);
+    }
+    if (!has_exact_pairs(a, b)) continue;
+    if (!may_be_sum_pair(sum_high, sum_low, a, b)) return fault("the low part of the sum", cases[i], sum_low);
+    if (!may_be_product_pair(product_high, product_low, a, b)) {
+      return fault("the low part of the product", cases[i], product_low);
     }
   }
   return std::nullopt;
