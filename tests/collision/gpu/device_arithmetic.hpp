@@ -1,9 +1,12 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
 
 #include "support/random.hpp"
 
@@ -86,6 +89,21 @@ class DeviceFloat {
 
   float value_ = 0;
 };
+
+/// Calls `work` for each way to round, with and without denormals.
+template <typename Work>
+void on_every_device(const Work& work) {
+  for (const bool flushes : {false, true}) {
+    for (const DeviceRounding rounding : all_device_roundings) {
+      SCOPED_TRACE(std::to_string(static_cast<int>(rounding)) + (flushes ? " with flushes" : ""));
+      DeviceFloat::rounding = rounding;
+      DeviceFloat::flushes = flushes;
+      work();
+    }
+  }
+  DeviceFloat::rounding = DeviceRounding::nearest;
+  DeviceFloat::flushes = false;
+}
 
 /// The arithmetic of `hit_rounding.glsl`, on a device that rounds as `DeviceFloat` says.
 struct DeviceArithmetic {

@@ -88,6 +88,11 @@ std::vector<RoundingResult> rounded_on_device(const std::vector<RoundingCase>& c
   return results;
 }
 
+TEST(GpuRoundingTest, any_device_that_rounds_as_vulkan_says_will_do) {
+  const std::vector<RoundingCase> cases = detail::rounding_cases();
+  on_every_device([&] { EXPECT_EQ(detail::rounding_fault(cases, rounded_on_device(cases)).value_or(""), ""); });
+}
+
 TEST(GpuRoundingTest, a_device_that_rounds_otherwise_is_refused) {
   const std::vector<RoundingCase> cases = detail::rounding_cases();
   const auto fault = [&](const auto& change) {

@@ -21,21 +21,6 @@ namespace {
 
 using Arithmetic = DeviceArithmetic;
 
-/// Calls `work` for each way to round, with and without denormals.
-template <typename Work>
-void on_every_device(const Work& work) {
-  for (const bool flushes : {false, true}) {
-    for (const DeviceRounding rounding : all_device_roundings) {
-      SCOPED_TRACE(std::to_string(static_cast<int>(rounding)) + (flushes ? " with flushes" : ""));
-      DeviceFloat::rounding = rounding;
-      DeviceFloat::flushes = flushes;
-      work();
-    }
-  }
-  DeviceFloat::rounding = DeviceRounding::nearest;
-  DeviceFloat::flushes = false;
-}
-
 mpq_class exact(DeviceFloat x) { return mpq_class(double{x.value()}); }
 mpq_class exact(const Arithmetic::FloatPair& x) { return exact(x.high) + exact(x.low); }
 Arithmetic::vec3 vector(const Vector3f& x) { return {x[0], x[1], x[2]}; }
