@@ -95,11 +95,17 @@ struct GpuHandles {
   std::uint32_t queue_family = 0;              ///< The index of the queue's family.
 };
 
-/// A part of a buffer of the caller's, on a device.
+/// A part of a buffer of the caller's, on a device. A buffer whose sharing mode is exclusive must belong to the queue
+/// family of the device, which is `GpuHandles::queue_family`.
+///
+/// A batch refuses a part that ends beyond its buffer. It counts the memory that the buffer needs, because Vulkan does
+/// not tell the size. So a part may end a little beyond its buffer unnoticed, by less than the granularity of that
+/// memory.
 struct GpuBufferPart {
   std::uint64_t buffer = 0;  ///< The `VkBuffer`, which storage and transfers in both directions may use.
-  std::uint64_t offset = 0;  ///< Where the part begins, in bytes: a multiple of `minStorageBufferOffsetAlignment`.
-  std::uint64_t size = 0;    ///< How long the part is, in bytes.
+  /// Where the part begins, in bytes: a multiple of 4 and of `minStorageBufferOffsetAlignment`.
+  std::uint64_t offset = 0;
+  std::uint64_t size = 0;  ///< How long the part is, in bytes.
 };
 
 /// Paths in a buffer of the caller's, on a device. Each has six floats: its start and its end, or its origin and its

@@ -1,5 +1,7 @@
 #include "gpu/gpu_buffer_batch.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
 
 namespace surehit::detail {
@@ -10,8 +12,10 @@ GpuError bad(const std::string& what) { return {GpuError::Reason::bad_buffer, wh
 std::optional<GpuError> part_fault(const GpuDeviceState& device, const GpuBufferPart& part, std::uint64_t needed,
                                    const std::string& whose) {
   if (part.buffer == 0) return bad("the buffer of the " + whose + " is null");
-  const std::uint64_t alignment = device.report.properties.limits.minStorageBufferOffsetAlignment;
-  if (alignment != 0 && part.offset % alignment != 0) {
+  // Both are powers of two. The shader reads and writes words.
+  const auto alignment =
+      std::max<std::uint64_t>(sizeof(std::uint32_t), device.report.properties.limits.minStorageBufferOffsetAlignment);
+  if (part.offset % alignment != 0) {
     return bad("the " + whose + " begin at byte " + std::to_string(part.offset) + " of their buffer, and " +
                device.name + " needs a multiple of " + std::to_string(alignment));
   }

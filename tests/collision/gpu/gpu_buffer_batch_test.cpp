@@ -233,6 +233,9 @@ TEST_F(GpuGroundTest, bad_buffers_are_refused_with_the_reason) {
   const VkDeviceSize of_device = std::exchange(alignment, 256);
   EXPECT_EQ(refused(100, {front.buffer, 8192 + 64, 4096}, back),
             "the paths begin at byte 8256 of their buffer, and " + device.name() + " needs a multiple of 256");
+  alignment = 1;
+  EXPECT_EQ(refused(100, front, {front.buffer, 8192 + 2, 4096}),
+            "the answers begin at byte 8194 of their buffer, and " + device.name() + " needs a multiple of 4");
   alignment = of_device;
   EXPECT_EQ(GpuCollider().first_hits({PathKind::ray, 100, front}, back).error->reason, Reason::not_updated);
 }
