@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Says of each path of a dispatch what is certain: a miss, a triangle that it hits (first, where this is asked), or
-// nothing. GPU.md has the lemmas G1 to G9. Only what is `precise` is computed as it is written (G1).
+// nothing. GPU.md has the lemmas G1 to G14. Only what is `precise` is computed as it is written (G1).
 
 #define real float
 #include "hit_rounding.glsl"
