@@ -27,7 +27,7 @@ class World {
   /// Asks a GPU from now on, as `GpuBatches` says. The answers are the same. Where there is glass, first hits are left
   /// to the host, because the rule about glass is a filter.
   void use_gpu(const std::string& name) { gpu_ = std::make_unique<GpuBatches>(collider_, name); }
-  /// How many rays to ask about at once.
+  /// Returns the number of rays that are asked about at once.
   [[nodiscard]] std::size_t rays_of_a_batch() const { return gpu_ != nullptr ? 1 << 18 : 1 << 14; }
   /// The GPU that is asked, or null.
   [[nodiscard]] const GpuBatches* gpu() const { return gpu_.get(); }

@@ -2,13 +2,13 @@
 // that a test can attack it with roundings that a device may choose. The device's floats are `real` here. Only what is
 // `precise` is computed as it is written (G1).
 
-const real unit = 1.0 / 8388608.0;                   // 2^-23 (G1)
-const real pair_relative = 40.0 * unit * unit;       // G12
-const real pair_flushes = unit * unit / 16.0;        // 2^-50 (G12)
-const real least_pair_size = 1.0 / 1048576.0;        // 2^-20 (G12)
-const real slack_of_bounds = 1.125;                  // G13
-const real largest_quotient = 1152921504606846976.0;  // 2^60 (G13)
-const real least_quotient = 1.0 / largest_quotient;
+const real max_gap = 1.0 / 8388608.0;                 // 2^-23: floats around 1 are at most this far apart (G1).
+const real pair_relative = 40.0 * max_gap * max_gap;  // G12
+const real pair_flushes = max_gap * max_gap / 16.0;   // 2^-50 (G12)
+const real min_pair_size = 1.0 / 1048576.0;           // 2^-20 (G12)
+const real slack_of_bounds = 1.125;                   // G13
+const real max_quotient = 1152921504606846976.0;      // 2^60 (G13)
+const real min_quotient = 1.0 / max_quotient;
 
 // The sum of two floats, of which `low` is about as small as an error of rounding.
 struct FloatPair {
@@ -29,7 +29,7 @@ FloatPair pair_of(real high, real low) {
   return result;
 }
 
-// x + y, off by at most 2^-46 of it (G10).
+// Returns x + y, off by at most 2^-46 of it (G10). `larger` is no less in size.
 FloatPair ordered_sum_of(real larger, real smaller) {
   precise real sum = larger + smaller;
   precise real part = sum - larger;
@@ -42,10 +42,10 @@ FloatPair sum_of(real x, real y) {
   return ordered_sum_of(is_ordered ? x : y, is_ordered ? y : x);
 }
 
-// The upper 12 bits of the significand.
+// Returns x with the upper 12 bits of its significand alone.
 real upper_half(real x) { return uintBitsToFloat(floatBitsToUint(x) & 0xfffff000u); }
 
-// x y, exactly (G11).
+// Returns x y exactly (G11).
 FloatPair product_of(real x, real y) {
   real x_upper = upper_half(x);
   real y_upper = upper_half(y);
@@ -86,43 +86,43 @@ PairVector difference_of(vec3 x, vec3 y) {
   return result;
 }
 
-real size_of_pairs(PairVector v) {
-  return max(max(abs(v.x.high), abs(v.y.high)), max(abs(v.z.high), least_pair_size));
+real size_of_pairs(PairVector p) {
+  return max(max(abs(p.x.high), abs(p.y.high)), max(abs(p.z.high), min_pair_size));
 }
 
-// x y - z w.
+// Returns x y - z w.
 FloatPair component_of(FloatPair x, FloatPair y, FloatPair z, FloatPair w) {
   FloatPair all = sum_of_pairs(product_of_pairs(x, y), negated(product_of_pairs(z, w)));
   return sum_of(all.high, all.low);
 }
 
-PairVector cross_of_pairs(PairVector v, PairVector w) {
+PairVector cross_of_pairs(PairVector p, PairVector q) {
   PairVector result;
-  result.x = component_of(v.y, w.z, v.z, w.y);
-  result.y = component_of(v.z, w.x, v.x, w.z);
-  result.z = component_of(v.x, w.y, v.y, w.x);
+  result.x = component_of(p.y, q.z, p.z, q.y);
+  result.y = component_of(p.z, q.x, p.x, q.z);
+  result.z = component_of(p.x, q.y, p.y, q.x);
   return result;
 }
 
-FloatPair dot_of_pairs(PairVector v, PairVector w) {
-  FloatPair of_x_and_y = sum_of_pairs(product_of_pairs(v.x, w.x), product_of_pairs(v.y, w.y));
-  FloatPair all = sum_of_pairs(of_x_and_y, product_of_pairs(v.z, w.z));
+FloatPair dot_of_pairs(PairVector p, PairVector q) {
+  FloatPair of_x_and_y = sum_of_pairs(product_of_pairs(p.x, q.x), product_of_pairs(p.y, q.y));
+  FloatPair all = sum_of_pairs(of_x_and_y, product_of_pairs(p.z, q.z));
   return sum_of(all.high, all.low);
 }
 
-// The sum of the sizes of all six products in v · (w × x), apart from roundings.
-real products_of(PairVector v, PairVector w, PairVector x) {
-  precise real in_x = abs(v.x.high) * (abs(w.y.high * x.z.high) + abs(w.z.high * x.y.high));
-  precise real in_y = abs(v.y.high) * (abs(w.z.high * x.x.high) + abs(w.x.high * x.z.high));
-  precise real in_z = abs(v.z.high) * (abs(w.x.high * x.y.high) + abs(w.y.high * x.x.high));
+// Returns the sum of the sizes of all six products in p · (q × r), apart from roundings.
+real products_of(PairVector p, PairVector q, PairVector r) {
+  precise real in_x = abs(p.x.high) * (abs(q.y.high * r.z.high) + abs(q.z.high * r.y.high));
+  precise real in_y = abs(p.y.high) * (abs(q.z.high * r.x.high) + abs(q.x.high * r.z.high));
+  precise real in_z = abs(p.z.high) * (abs(q.x.high * r.y.high) + abs(q.y.high * r.x.high));
   precise real all = in_x + in_y + in_z;
   return all;
 }
 
-// How far off v · (w × x) is at most (G12).
-real bound_of(PairVector v, PairVector w, PairVector x) {
-  precise real of_sizes = size_of_pairs(v) * size_of_pairs(w) * size_of_pairs(x);
-  precise real bound = pair_relative * products_of(v, w, x) + pair_flushes * of_sizes;
+// Returns how far off p · (q × r) is at most (G12).
+real bound_of(PairVector p, PairVector q, PairVector r) {
+  precise real of_sizes = size_of_pairs(p) * size_of_pairs(q) * size_of_pairs(r);
+  precise real bound = pair_relative * products_of(p, q, r) + pair_flushes * of_sizes;
   return bound;
 }
 
@@ -139,7 +139,7 @@ Remainder remainder_of(FloatPair n, real n_bound, FloatPair m, real m_bound, rea
   precise real small = q * m.low;
   precise real low = n.low - small;
   precise real rest = high + low;
-  precise real roundings = unit * (abs(large) + abs(high) + abs(small) + abs(low) + abs(rest));
+  precise real roundings = max_gap * (abs(large) + abs(high) + abs(small) + abs(low) + abs(rest));
   precise real bound = n_bound + abs(q) * m_bound + roundings;
   Remainder result;
   result.rest = rest;
@@ -152,9 +152,9 @@ struct RoundedNumber {
   bool is_rounded;
 };
 
-bool is_in_range(real q) { return abs(q) >= least_quotient && abs(q) <= largest_quotient; }
+bool is_in_range(real q) { return abs(q) >= min_quotient && abs(q) <= max_quotient; }
 
-// The float nearest to n / m, where that is certain. m is positive (G14).
+// Returns the float nearest to n / m, where that is certain. m is positive (G14).
 RoundedNumber quotient_of(FloatPair n, real n_bound, FloatPair m, real m_bound) {
   RoundedNumber result;
   result.number = 0.0;
@@ -171,12 +171,12 @@ RoundedNumber quotient_of(FloatPair n, real n_bound, FloatPair m, real m_bound) 
   precise real gap = abs(next - q);
   precise real half_way = 0.5 * gap * m.high;
   precise real bound = slack_of_bounds * (of_q.bound + 1.25 * gap * (abs(m.low) + m_bound));
-  precise real most = abs(of_q.rest) + bound;
-  precise real least = abs(of_q.rest) - bound;
+  precise real max_rest = abs(of_q.rest) + bound;
+  precise real min_rest = abs(of_q.rest) - bound;
   precise real beyond_next = 2.5 * half_way;
   precise real widest = 0.5 * half_way;
-  bool is_nearest = most < half_way && bound < widest;
-  bool is_next_nearest = least > half_way && most < beyond_next;
+  bool is_nearest = max_rest < half_way && bound < widest;
+  bool is_next_nearest = min_rest > half_way && max_rest < beyond_next;
   result.is_rounded = is_nearest || is_next_nearest;
   result.number = is_nearest ? q : next;
   return result;

@@ -72,7 +72,7 @@ const uint any_undecided = 2;
 const uint no_side = 0;
 const uint front = 1;
 const uint back = 2;
-const uint is_not_rounded = 4;   // Is added to the side.
+const uint is_not_rounded = 4;  // It is added to the side.
 const uint side_undecided = 8;
 
 // The flags of a path's limits.
@@ -82,13 +82,13 @@ const uint is_whole = 4;       // The range is [0, 1].
 const uint hits_nothing = 8;   // The range is empty.
 const uint is_for_host = 16;   // The kernel cannot weigh the range.
 
-const float relative = 72.0 * unit;                  // G3
-const float least_size = 1.0 / 1073741824.0;         // 2^-30 (G2)
-const uint largest_bits = 0x50000000u;               // Those of 2^33 (G2).
-const float least_rate = 1.0 / 1152921504606846976.0;  // 2^-60 (G6)
-const float still_slack = 2.0 * least_rate;          // G6
-const float t_slack = 16.0 * unit;                   // G6
-const float least_t = 4.0 * least_rate;              // G6
+const float relative = 72.0 * max_gap;               // G3
+const float min_size = 1.0 / 1073741824.0;           // 2^-30 (G2)
+const uint max_bits = 0x50000000u;                   // Those of 2^33 (G2).
+const float min_rate = 1.0 / 1152921504606846976.0;  // 2^-60 (G6)
+const float still_slack = 2.0 * min_rate;            // G6
+const float t_slack = 16.0 * max_gap;                // G6
+const float min_t = 4.0 * min_rate;                  // G6
 const float beyond = 1.2676506e30;                   // 2^100
 
 const uint max_depth = 64;
@@ -103,7 +103,7 @@ bvec3 is_moving;  // On these axes, the path moves fast enough to be cut.
 vec3 still;       // How far outside of a box a path may be that hardly moves on the axis, or `beyond`.
 PathLimits range;
 
-float size_of(vec3 v) { return max(max(abs(v.x), abs(v.y)), max(abs(v.z), least_size)); }
+float size_of(vec3 x) { return max(max(abs(x.x), abs(x.y)), max(abs(x.z), min_size)); }
 
 vec3 cross_of(vec3 x, vec3 y) {
   precise vec3 left = x.yzx * y.zxy;
@@ -123,13 +123,13 @@ bool read_path(uint path) {
   uvec3 from = uvec3(path_words[6 * path], path_words[6 * path + 1], path_words[6 * path + 2]);
   uvec3 to = uvec3(path_words[6 * path + 3], path_words[6 * path + 4], path_words[6 * path + 5]);
   uvec3 sizes = max(from & 0x7fffffffu, to & 0x7fffffffu);
-  if (any(greaterThan(sizes, uvec3(largest_bits)))) return false;
+  if (any(greaterThan(sizes, uvec3(max_bits)))) return false;
   start = uintBitsToFloat(from);
   toward = uintBitsToFloat(to);
   precise vec3 step = toward - start;
   way = is_segment != 0 ? step : toward;
   way_size = size_of(way);
-  is_moving = greaterThanEqual(abs(way), vec3(least_rate));
+  is_moving = greaterThanEqual(abs(way), vec3(min_rate));
   precise vec3 quotients = vec3(1.0) / mix(vec3(1.0), way, is_moving);
   inverse = quotients;
   // A ray stays where it is on an axis only if its direction is zero there. A segment is short.
@@ -150,8 +150,8 @@ bool misses_box(vec3 low, vec3 high, out float enters) {
   vec3 exits = mix(vec3(beyond), max(t_of_low, t_of_high), is_moving);
   float entry = max(max(entries.x, entries.y), max(entries.z, range.first));
   float exit = min(min(exits.x, exits.y), min(exits.z, range.last));
-  precise float lower = entry - (abs(entry) * t_slack + least_t);
-  precise float upper = exit + (abs(exit) * t_slack + least_t);
+  precise float lower = entry - (abs(entry) * t_slack + min_t);
+  precise float upper = exit + (abs(exit) * t_slack + min_t);
   enters = lower;
   return lower > upper;
 }
@@ -213,7 +213,7 @@ uint classify(vec3 a, vec3 b, vec3 c, out float lower, out float upper, out bool
   if (misses) return is_missed;
   if (!hits) return is_open;
   precise float t = height / det;
-  precise float radius = 2.0 * (height_bound + abs(t) * det_bound) / det + least_t;  // G5
+  precise float radius = 2.0 * (height_bound + abs(t) * det_bound) / det + min_t;  // G5
   precise float below = t - radius;
   precise float above = t + radius;
   lower = below;
