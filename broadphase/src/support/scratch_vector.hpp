@@ -27,8 +27,7 @@ struct ScratchAllocator : DefaultInitAllocator<T, is_filled> {
   // NOLINTEND(readability-identifier-naming)
 
   [[nodiscard]] T* allocate(std::size_t count) {
-    if (!is_large(count)) return Small::allocate(count);
-    if (count > max_bytes / sizeof(T)) throw std::bad_array_new_length();
+    if (!is_large(count) || count > max_bytes / sizeof(T)) return Small::allocate(count);  // Too large a size throws.
     T* const memory = static_cast<T*>(::operator new (pages_of(count), std::align_val_t{large_page}));
     prefer_large_pages(memory, pages_of(count));
     return memory;

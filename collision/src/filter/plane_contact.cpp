@@ -163,13 +163,13 @@ BoundedContact plane_contact(const Path<Scalar>& path, const Triangle<Scalar>& t
   std::array<Bounded, 3> starts;
   std::array<Bounded, 3> ends;
   for (std::size_t i = 0; i < 3; ++i) {
-    const PlaneVector edge = difference(*corners[i + 1], *corners[i]);
+    const Vector3<Scalar>& from = *corners[i];
+    const Vector3<Scalar>& to = *corners[i + 1];
     const auto weight_of = [&](const Vector3<Scalar>& point) {
       const auto is_at = [&](const Vector3<Scalar>& corner) { return point[x] == corner[x] && point[y] == corner[y]; };
-      const bool is_at_corner = is_at(*corners[i]) || is_at(*corners[i + 1]);
-      return is_at_corner ? exact(0) : cross(edge, difference(point, *corners[i]));  // G7
+      return is_at(from) || is_at(to) ? exact(0) : cross(difference(to, from), difference(point, from));  // G7
     };
-    weights[i] = {weight_of(path.start), cross(edge, d)};
+    weights[i] = {weight_of(path.start), cross(difference(to, from), d)};
     if (*side < 0) weights[i] = {-weights[i].s, -weights[i].d};
     starts[i] = weights[i].s;
     if (path.has_end()) ends[i] = *side < 0 ? -weight_of(path.toward) : weight_of(path.toward);

@@ -111,7 +111,7 @@ class FilterLanes {
   using V = hn::Vec<Tag>;
   using Mask = hn::Mask<Tag>;
   using Precision = LanePrecision<Number>;
-  using Numbers = FilterNumbers<Number>;
+  using Numbers = ShapeNumbers<Number>;
   using Point = V[3];
 
  public:
@@ -329,7 +329,7 @@ class FilterLanes {
 };
 
 template <typename Scalar, typename Number>
-HWY_INLINE std::uint64_t find(Core core, const FilterNumbers<Number>& shape, const Scalar* corners, std::size_t count,
+HWY_INLINE std::uint64_t find(Core core, const ShapeNumbers<Number>& shape, const Scalar* corners, std::size_t count,
                               std::size_t from, double limit, double* enters) {
   switch (core) {
     case Core::box:

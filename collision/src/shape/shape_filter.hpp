@@ -27,7 +27,7 @@ inline constexpr double largest_float = 0x1p20;
 
 /// The numbers of a shape that the lanes need.
 template <typename Number>
-struct FilterNumbers {
+struct ShapeNumbers {
   std::array<Number, 3> start;         ///< The centre at t = 0.
   std::array<Number, 3> step;          ///< The centre at t = 1 less that at t = 0.
   std::array<Number, 3> inverse_step;  ///< One over each component of the step, or NaN.
@@ -59,10 +59,10 @@ class ShapeFilter {
                                    Times& enters) const;
 
   // What the functions for each instruction set need.
-  Core core;                      ///< What the core is.
-  FilterNumbers<double> doubles;  ///< For lanes of doubles.
-  FilterNumbers<float> floats;    ///< For lanes of floats, if they fit.
-  bool fits_float = false;        ///< True if the sizes are such that the bounds hold in float.
+  Core core;                     ///< What the core is.
+  ShapeNumbers<double> doubles;  ///< For lanes of doubles.
+  ShapeNumbers<float> floats;    ///< For lanes of floats, if they fit.
+  bool fits_float = false;       ///< True if the sizes are such that the bounds hold in float.
 
  private:
   /// Sets all members.
