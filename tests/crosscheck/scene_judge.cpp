@@ -69,13 +69,15 @@ class SceneJudge {
     }
   }
 
-  /// Each path with its own options, with and without a filter. The filter knows the path too.
+  /// Each path with its own options, with and without a filter. The filter knows the path too. Each question comes
+  /// several times, so that a path follows others in the batch.
   template <typename AnyPath>
   void ask_batches(PathKind kind) {
     std::vector<std::size_t> ids;
     std::vector<AnyPath> paths;
     std::vector<SceneQueryOptions<Scalar>> options;
-    for (std::size_t i = 0; i < questions_.size(); ++i) {
+    for (std::size_t k = 0; k < 8 * questions_.size(); ++k) {
+      const std::size_t i = (k + 5 * (k / questions_.size())) % questions_.size();
       const Path<Scalar>& path = questions_[i].path;
       if (path.kind != kind) continue;
       ids.push_back(i);

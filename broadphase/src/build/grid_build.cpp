@@ -360,9 +360,10 @@ class GridBuild {
 };
 
 std::size_t GridScratch::memory_bytes() const noexcept {
-  const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector.front()); };
-  std::size_t sum = bytes(points_) + bytes(boxes_) + bytes(words_) + bytes(distances_) + bytes(pending_) +
-                    bytes(inner_ids_) + bytes(current_ids_);
+  const auto bytes = [](const auto& vector) { return vector.get_allocator().bytes_of(vector.capacity()); };
+  const auto few = [](const auto& vector) { return vector.capacity() * sizeof(vector.front()); };
+  std::size_t sum = bytes(points_) + bytes(boxes_) + bytes(words_) + bytes(distances_) + few(pending_) +
+                    few(inner_ids_) + few(current_ids_);
   const auto add = [&](const detail::CellEntries& entries) { sum += bytes(entries.cells) + bytes(entries.triangles); };
   for (const detail::CellLists& lists : lists_) {
     add(lists.entries);

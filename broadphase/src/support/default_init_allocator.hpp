@@ -33,6 +33,9 @@ struct DefaultInitAllocator : std::allocator<T> {
     return memory;
   }
 
+  /// A vector in C++23 would call that of `std::allocator`, which allocates other memory.
+  void allocate_at_least(std::size_t count) = delete;
+
   template <typename U>
   void construct(U* address) noexcept {
     ::new (static_cast<void*>(address)) U;

@@ -14,8 +14,7 @@ namespace surehit::detail {
 inline constexpr std::size_t large_page = std::size_t{1} << 21;
 
 /// An allocator for the memory of a build. Large memory consists of whole large pages, because faults of small pages
-/// take much of the time. The last page is used in part, which is no loss for memory that is given back soon.
-/// Otherwise, it is a `DefaultInitAllocator`.
+/// take much of the time. The last page may be used in part. Otherwise, it is a `DefaultInitAllocator`.
 template <typename T, bool is_filled = true>
 struct ScratchAllocator : DefaultInitAllocator<T, is_filled> {
   using Small = DefaultInitAllocator<T, is_filled>;
@@ -30,6 +29,7 @@ struct ScratchAllocator : DefaultInitAllocator<T, is_filled> {
     if (!is_large(count) || count > max_bytes / sizeof(T)) return Small::allocate(count);  // Too large a size throws.
     T* const memory = static_cast<T*>(::operator new (pages_of(count), std::align_val_t{large_page}));
     prefer_large_pages(memory, pages_of(count));
+    if constexpr (is_filled) fault_in(memory, count * sizeof(T));
     return memory;
   }
   void deallocate(T* memory, std::size_t count) noexcept {
@@ -40,6 +40,10 @@ struct ScratchAllocator : DefaultInitAllocator<T, is_filled> {
     }
   }
 
+  /// Returns how many bytes memory for these elements takes.
+  [[nodiscard]] static std::size_t bytes_of(std::size_t count) {
+    return is_large(count) ? pages_of(count) : count * sizeof(T);
+  }
   /// Returns whether memory for these elements consists of large pages. They are at least half full.
   [[nodiscard]] static bool is_large([[maybe_unused]] std::size_t count) {
 #if defined(__linux__)

@@ -31,6 +31,10 @@ class MeshBatch {
  public:
   static constexpr std::size_t slots = 24;  ///< The number of paths. More would take stack.
 
+  MeshBatch() = default;
+  MeshBatch(const MeshBatch&) = delete;  // `jobs_` keeps the addresses of weights.
+  MeshBatch& operator=(const MeshBatch&) = delete;
+
   /// Returns true if there is a lane for a slot.
   static bool has_lane(std::size_t slot) { return slot % max_lanes < hn::Lanes(FloatTag()); }
   /// Returns the slots whose paths search a mesh.

@@ -26,7 +26,9 @@ TEST(ScratchVector, has_all_that_it_was_asked_for) {
       EXPECT_EQ(memory.back(), 7);
       const bool is_large = ScratchAllocator<std::uint8_t>::is_large(memory.capacity());
       EXPECT_FALSE(is_large && bytes < large_page / 2);
+      EXPECT_GE(ScratchAllocator<std::uint8_t>::bytes_of(bytes), bytes);
       if (is_large) {
+        EXPECT_EQ(ScratchAllocator<std::uint8_t>::bytes_of(bytes) % large_page, 0u);
         EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory.data()) % large_page, 0u);
       }
     }
