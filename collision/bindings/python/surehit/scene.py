@@ -123,8 +123,9 @@ class Scene(_Instances):
     exact arithmetic, where m is the last column. M may rotate, scale, mirror and shear. Each of its entries must be 0,
     or between 2^-64 and 2^64 in magnitude. Its determinant must not be 0.
 
-    Changes take effect with the next ``commit``. Until then, queries answer as before. ``len``, ``in``, ``instances`` and
-    what is told about one instance are of what was set last. A scene of float64 may have colliders of float32 too. Among hits with equal exact t, the lowest instance index comes first.
+    Changes take effect with the next ``commit``. Until then, queries answer as before. ``len``, ``in``, ``instances``
+    and what is told about one instance are of what was set last. A scene of float64 may have colliders of float32 too.
+    Among hits with equal exact t, the lowest instance index comes first.
 
     Moving shapes have the sizes and axes of the scene, whatever the poses are. While a shape moves, instances with a
     motion move too.
