@@ -84,7 +84,9 @@ class InnerGridComparison : public testing::Test {
       rays.push_back(
           {path.start, path.kind == PathKind::segment ? Vector3<Scalar>(path.toward - path.start) : path.toward});
     }
-    EXPECT_GT(comparison.hit_count(), 0U);
+    if (rays.size() > 3) {  // A few may all miss.
+      EXPECT_GT(comparison.hit_count(), 0U);
+    }
     for (const Collider<Scalar>& collider : comparison.colliders()) {
       expect_batch<Scalar, Segment<Scalar>>(collider, segments);
       expect_batch<Scalar, Ray<Scalar>>(collider, rays);

@@ -132,7 +132,9 @@ class GpuBufferBatch {
       if (auto error = device_.wait(slot)) return error;
     }
     listed_.resize(counts.leftovers);
-    std::memcpy(listed_.data(), slot.host_list.data() + sizeof counts, listed_.size() * sizeof(ListedPath));
+    if (!listed_.empty()) {
+      std::memcpy(listed_.data(), slot.host_list.data() + sizeof counts, listed_.size() * sizeof(ListedPath));
+    }
     std::sort(listed_.begin(), listed_.end(), [](const ListedPath& x, const ListedPath& y) { return x.path < y.path; });
     std::size_t unrounded = 0;
     for (std::size_t i = 0; i < listed_.size(); ++i) {

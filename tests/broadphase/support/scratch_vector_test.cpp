@@ -36,9 +36,9 @@ TEST(ScratchVector, has_all_that_it_was_asked_for) {
 }
 
 TEST(ScratchVector, of_more_than_any_memory_is_an_error) {
-  constexpr std::size_t most = std::numeric_limits<std::size_t>::max() / 2 / sizeof(std::uint64_t);
-  EXPECT_THROW(static_cast<void>(ScratchAllocator<std::uint64_t>().allocate(most)), std::bad_alloc);
-  EXPECT_THROW(static_cast<void>(ScratchAllocator<std::uint64_t>().allocate(2 * most)), std::bad_alloc);
+  constexpr std::size_t too_many = std::numeric_limits<std::size_t>::max() / 2 / sizeof(std::uint64_t) + 1;
+  EXPECT_THROW(static_cast<void>(ScratchAllocator<std::uint64_t>().allocate(too_many)), std::bad_alloc);
+  EXPECT_THROW(static_cast<void>(ScratchAllocator<std::uint64_t>().allocate(2 * too_many)), std::bad_alloc);
 }
 
 }  // namespace
