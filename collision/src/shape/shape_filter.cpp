@@ -51,8 +51,8 @@ struct LanePrecision<float> {
 /// E is the largest component of p and q, W that of w, S that of the step, H that of h, and F is W + E + r + H. Let u
 /// be 2^-53 in double and 2^-24 in float.
 ///
-/// V1. f·w is off by less than 54 u S E W, (f - g)·w by less than 120 u S E W, A by less than 54 u S E², and n·w by
-/// less than 54 u E² W.
+/// V1. f·w is off by less than 54 u S E W, and (f - g)·w by less than 120 u S E W. A is off by less than 54 u S E².
+/// n·w is off by less than 54 u E² W.
 /// Proof. A difference has one rounding. So a component of f has two products of two differences each, off by 3 u of
 ///     itself, and the rounded difference of both: less than 8 u S E, and it is at most 2 S E. A product with a
 ///     component of w adds 3 u of itself. The three products and two sums are off by less than 3 (8 + 2 · 3) u S E W,
