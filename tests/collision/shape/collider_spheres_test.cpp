@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/shape/shape_comparison.hpp"
 #include "support/case_count.hpp"
 #include "support/floating_point_mode.hpp"
 #include "support/grid_breaking_meshes.hpp"
@@ -23,51 +24,14 @@
 namespace surehit::test {
 namespace {
 
-/// What `all_hits` has to find, by asking every triangle. Hits with the same rounded t are in the exact order.
-template <typename Scalar>
-std::vector<ShapeHit<Scalar>> brute_force(const TriangleMeshView<Scalar>& mesh, const SweptSphere<Scalar>& sphere,
-                                          const ShapeQueryOptions<Scalar>& options = {}) {
-  std::vector<ShapeHit<Scalar>> hits;
-  for (std::uint32_t id = 0; id < mesh.triangle_count(); ++id) {
-    if (id == options.ignored_triangle) continue;
-    if (auto hit = intersect(sphere, mesh.triangle(id), options)) {
-      hit->triangle = id;
-      hits.push_back(*hit);
-    }
-  }
-  std::stable_sort(hits.begin(), hits.end(), [&](const auto& x, const auto& y) {
-    if (x.t != y.t) return x.t < y.t;
-    if (x.started_touching || y.started_touching) return x.started_touching && !y.started_touching;
-    return comes_before(sphere, mesh.triangle(x.triangle), mesh.triangle(y.triangle));
-  });
-  return hits;
-}
+constexpr auto by_judge = [](const auto& sphere, const auto& x, const auto& y) { return comes_before(sphere, x, y); };
 
 template <typename Scalar>
 class ColliderSpheres : public testing::Test {
  protected:
-  /// Asks a collider of the mesh about balls in every way, and compares with brute force.
   static void compare(const TriangleMeshView<Scalar>& mesh, const std::vector<SweptSphere<Scalar>>& spheres,
                       const std::string& what) {
-    const Collider<Scalar> collider(mesh);
-    std::vector<ShapeHit<Scalar>> firsts(spheres.size());
-    std::vector<std::uint8_t> blocked(spheres.size());
-    collider.first_hits(spheres, firsts);
-    collider.any_hits(spheres, blocked);
-    std::vector<ShapeHit<Scalar>> all;
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-      const SweptSphere<Scalar>& sphere = spheres[i];
-      const std::vector<ShapeHit<Scalar>> expected = brute_force(mesh, sphere);
-      collider.all_hits(sphere, all);
-      ASSERT_EQ(all.size(), expected.size()) << what << ", ball " << i;
-      for (std::size_t k = 0; k < all.size(); ++k) ASSERT_TRUE(all[k] == expected[k]) << what << ", ball " << i;
-      const ShapeHit<Scalar> first = expected.empty() ? ShapeHit<Scalar>{} : expected.front();
-      ASSERT_TRUE(collider.first_hit(sphere).value_or(ShapeHit<Scalar>{}) == first) << what << ", ball " << i;
-      ASSERT_TRUE(firsts[i] == first) << what << ", ball " << i;
-      ASSERT_EQ(collider.any_hit(sphere), !expected.empty()) << what << ", ball " << i;
-      ASSERT_EQ(blocked[i] != 0, !expected.empty()) << what << ", ball " << i;
-      ASSERT_EQ(collider.overlaps(sphere), first.started_touching) << what << ", ball " << i;
-    }
+    compare_with_brute_force(mesh, spheres, by_judge, what);
   }
 
   /// Balls that begin in or beside the box of a mesh. Their steps are from a thousandth of the box to twice its size.
@@ -162,12 +126,12 @@ TYPED_TEST(ColliderSpheres, FindWhatIsBehindEmptySpace) {
     };
     for (std::size_t k = 0; k < 600; ++k) {
       const SweptSphere<Scalar> sphere{draw(), draw(), Scalar(0.15) * random.unit<Scalar>()};
-      const auto expected = brute_force(mesh.view(), sphere);
+      const auto expected = brute_force(mesh.view(), sphere, by_judge);
       const ShapeHit<Scalar> first = expected.empty() ? ShapeHit<Scalar>{} : expected.front();
       ASSERT_TRUE(collider.first_hit(sphere).value_or(ShapeHit<Scalar>{}) == first);
       ASSERT_EQ(collider.any_hit(sphere), !expected.empty());
       const SweptSphere<Scalar> at_rest{sphere.start, sphere.start, sphere.radius};
-      ASSERT_EQ(collider.overlaps(at_rest), !brute_force(mesh.view(), at_rest).empty());
+      ASSERT_EQ(collider.overlaps(at_rest), !brute_force(mesh.view(), at_rest, by_judge).empty());
     }
   }
 }
@@ -322,7 +286,7 @@ TYPED_TEST(ColliderSpheres, KeepMasksFiltersAndOptions) {
   std::vector<ShapeHit<Scalar>> all;
   std::size_t hits = 0;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    auto expected = brute_force<Scalar>(mesh.view(), spheres[i], options[i]);
+    auto expected = brute_force(mesh.view(), spheres[i], by_judge, options[i]);
     std::erase_if(expected, [&](const auto& hit) { return (masks[hit.triangle] & options[i].mask) == 0; });
     collider.all_hits(spheres[i], all, options[i]);
     ASSERT_EQ(all, expected) << i;
