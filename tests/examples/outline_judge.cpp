@@ -184,7 +184,24 @@ std::string OutlineJudge::complaint_about_rim(const Triangles& triangles, bool i
   return "";
 }
 
+template <typename Scalar>
+std::vector<OutlineJudge> judges_of(const std::vector<std::array<Scalar, 3>>& outline, Random& random) {
+  std::vector<OutlineJudge> all;
+  mpz_class largest;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    all.emplace_back(outline, axis, random);
+    largest = std::max(largest, mpz_class(abs(all.back().doubled_area())));
+  }
+  std::vector<OutlineJudge> judges;
+  for (OutlineJudge& judge : all) {
+    if (5 * abs(judge.doubled_area()) >= largest) judges.push_back(std::move(judge));
+  }
+  return judges;
+}
+
 template OutlineJudge::OutlineJudge(const std::vector<std::array<float, 3>>&, std::size_t, Random&);
 template OutlineJudge::OutlineJudge(const std::vector<std::array<double, 3>>&, std::size_t, Random&);
+template std::vector<OutlineJudge> judges_of(const std::vector<std::array<float, 3>>&, Random&);
+template std::vector<OutlineJudge> judges_of(const std::vector<std::array<double, 3>>&, Random&);
 
 }  // namespace surehit::test

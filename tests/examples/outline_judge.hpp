@@ -59,4 +59,8 @@ class OutlineJudge {
   int winds_right_ = 0;
 };
 
+/// Returns judges that look along the axes from which the outline is seen from far enough out of its plane.
+template <typename Scalar>
+[[nodiscard]] std::vector<OutlineJudge> judges_of(const std::vector<std::array<Scalar, 3>>& outline, Random& random);
+
 }  // namespace surehit::test

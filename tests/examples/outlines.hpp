@@ -1,18 +1,20 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "place.hpp"
 #include "support/random.hpp"
 
 namespace surehit::test {
 
-using Place = std::array<std::int64_t, 2>;
-
 /// The corners of a polygon in the plane, in whole numbers. Those drawn here wind to the left.
 using Outline = std::vector<Place>;
+
+/// Returns the corners as text, for messages.
+[[nodiscard]] std::string text_of(const Outline& outline);
 
 /// No corner is on another edge, nor where another corner is. Corners between their neighbours on a line are possible.
 [[nodiscard]] Outline draw_star(std::size_t corner_count, std::int64_t radius, Random& random);

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <sstream>
 #include <string>
 
+#include "exact_outline.hpp"
 #include "outline_judge.hpp"
 #include "outlines.hpp"
+#include "placed_outline.hpp"
 #include "support/case_count.hpp"
 #include "support/neighbour.hpp"
 #include "support/random.hpp"
@@ -22,105 +23,11 @@ namespace {
 
 using Corners = std::vector<std::uint32_t>;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-template <typename Scalar>
-using Vertices = std::vector<std::array<Scalar, 3>>;
-using Vector = std::array<double, 3>;
 
 Triangles fan_of(const Corners& corners) {
   Triangles fan;
   for (std::size_t i = 2; i < corners.size(); ++i) fan.push_back({corners[0], corners[i - 1], corners[i]});
   return fan;
-}
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double length_of(const Vector& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
-
-/// Where a place (x, y) goes: to x u + y v + origin.
-struct Plane {
-  Vector u;
-  Vector v;
-  Vector origin;
-
-  [[nodiscard]] Vector normal() const { return cross(u, v); }
-  [[nodiscard]] Vector at(const Place& place) const {
-    Vector result;
-    for (std::size_t i = 0; i < 3; ++i) {
-      result[i] = static_cast<double>(place[0]) * u[i] + static_cast<double>(place[1]) * v[i] + origin[i];
-    }
-    return result;
-  }
-};
-
-/// Perpendicular to an axis, looked at from either side.
-Plane draw_axis_plane(Random& random) {
-  Plane plane{};
-  const std::size_t axis = random.below(3);
-  const std::size_t turned = random.below(2);
-  plane.u[(axis + 1 + turned) % 3] = random.one_in(2) ? 1 : -1;
-  plane.v[(axis + 2 - turned) % 3] = 1;
-  plane.origin[axis] = static_cast<double>(random.between(-3, 3));
-  return plane;
-}
-
-/// In whole numbers, so that nothing is rounded.
-Plane draw_whole_plane(Random& random) {
-  for (;;) {
-    Plane plane;
-    for (std::size_t i = 0; i < 3; ++i) {
-      plane.u[i] = static_cast<double>(random.between(-5, 5));
-      plane.v[i] = static_cast<double>(random.between(-5, 5));
-      plane.origin[i] = static_cast<double>(random.between(-50, 50));
-    }
-    if (length_of(plane.normal()) != 0) return plane;
-  }
-}
-
-/// Any one in which angles do not become too sharp.
-Plane draw_plane(Random& random) {
-  for (;;) {
-    Plane plane;
-    for (std::size_t i = 0; i < 3; ++i) {
-      plane.u[i] = random.symmetric<double>();
-      plane.v[i] = random.symmetric<double>();
-      plane.origin[i] = 10 * random.symmetric<double>();
-    }
-    if (length_of(plane.normal()) > 0.5) return plane;
-  }
-}
-
-/// Rounds where the plane makes it necessary.
-template <typename Scalar>
-Vertices<Scalar> placed(const Outline& outline, const Plane& plane, int exponent = 0) {
-  Vertices<Scalar> vertices;
-  for (const Place& place : outline) {
-    const Vector at = plane.at(place);
-    vertices.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) {
-      vertices.back()[i] = std::scalbn(static_cast<Scalar>(at[i]), exponent);
-    }
-  }
-  return vertices;
-}
-
-/// Corners are moved off the plane, by less than `height`. Those that coincide stay together.
-template <typename Scalar>
-Vertices<Scalar> bent(const Outline& outline, const Plane& plane, double height, Random& random, int exponent = 0) {
-  Vector normal = plane.normal();
-  const double length = length_of(normal);
-  std::map<Place, double> heights;
-  Vertices<Scalar> vertices;
-  for (const Place& place : outline) {
-    const double up = heights.try_emplace(place, height / length * random.symmetric<double>()).first->second;
-    const Vector at = plane.at(place);
-    vertices.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) {
-      vertices.back()[i] = std::scalbn(static_cast<Scalar>(at[i] + up * normal[i]), exponent);
-    }
-  }
-  return vertices;
 }
 
 /// A size at which bent outlines of whole numbers stay as they are, as far as products overflow and underflow.
@@ -130,14 +37,8 @@ int draw_exponent(Random& random) {
   return static_cast<int>(random.between(-most, most));
 }
 
-std::string text_of(const Outline& outline) {
-  std::ostringstream text;
-  for (const Place& place : outline) text << " {" << place[0] << ", " << place[1] << "}";
-  return text.str();
-}
-
 template <typename Scalar>
-std::string text_of(const Vertices<Scalar>& vertices, const Corners& corners) {
+std::string message_of(const Vertices<Scalar>& vertices, const Corners& corners) {
   std::ostringstream text;
   text << std::hexfloat << "the outline";
   for (const std::uint32_t corner : corners) {
@@ -167,22 +68,6 @@ Corners corners_from(std::size_t start, bool is_reversed, std::size_t size) {
   return corners;
 }
 
-/// What is seen along the axes that look at the outline from far enough out of its plane.
-template <typename Scalar>
-std::vector<OutlineJudge> judges_of(const Vertices<Scalar>& vertices, Random& random) {
-  std::vector<OutlineJudge> all;
-  mpz_class largest;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    all.emplace_back(vertices, axis, random);
-    largest = std::max(largest, mpz_class(abs(all.back().doubled_area())));
-  }
-  std::vector<OutlineJudge> judges;
-  for (OutlineJudge& judge : all) {
-    if (5 * abs(judge.doubled_area()) >= largest) judges.push_back(std::move(judge));
-  }
-  return judges;
-}
-
 enum class Shape { plane, nearly_plane };
 
 /// From every corner on and in both directions. A plane outline is cut rightly if and only if it is so as seen along
@@ -197,7 +82,7 @@ void expect_cut(const Vertices<Scalar>& vertices, Shape shape, Random& random, i
     const bool is_reversed = i >= size;
     const Corners corners = corners_from(i % size, is_reversed, size);
     Triangles triangles = {{7, 8, 9}};
-    ASSERT_TRUE(example::triangulate(vertices, corners, triangles)) << text_of(vertices, corners);
+    ASSERT_TRUE(example::triangulate(vertices, corners, triangles)) << message_of(vertices, corners);
     ASSERT_EQ(triangles.front(), (Triangles::value_type{7, 8, 9}));
     triangles.erase(triangles.begin());
 
@@ -210,68 +95,11 @@ void expect_cut(const Vertices<Scalar>& vertices, Shape shape, Random& random, i
       if (complaint.empty() && looks_at_points) complaint = judge.complaint_about_cover(triangles);
       if (complaint.empty() == (shape == Shape::nearly_plane)) break;
     }
-    ASSERT_EQ(complaint, "") << text_of(vertices, corners);
+    ASSERT_EQ(complaint, "") << message_of(vertices, corners);
     if (shape == Shape::plane && triangles != fan && judges[0].doubled_area() != 0) {
-      ASSERT_NE(judges[0].complaint(fan, is_reversed), "") << "not the fan: " << text_of(vertices, corners);
+      ASSERT_NE(judges[0].complaint(fan, is_reversed), "") << "not the fan: " << message_of(vertices, corners);
     }
   }
-}
-
-/// A point in rationals, and what the rationals say about outlines of them.
-struct ExactPoint {
-  mpq_class x, y;
-};
-using ExactOutline = std::vector<ExactPoint>;
-
-int turn_of(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
-  return sgn(mpq_class((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)));
-}
-
-bool is_on(const ExactPoint& point, const ExactPoint& a, const ExactPoint& b) {
-  return turn_of(a, b, point) == 0 && std::min(a.x, b.x) <= point.x && point.x <= std::max(a.x, b.x) &&
-         std::min(a.y, b.y) <= point.y && point.y <= std::max(a.y, b.y);
-}
-
-bool cross_inside(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d) {
-  return turn_of(a, b, c) * turn_of(a, b, d) < 0 && turn_of(c, d, a) * turn_of(c, d, b) < 0;
-}
-
-/// Whether two edges cross, each inside, in a point to which no other edge comes.
-bool crosses_properly(const ExactOutline& outline) {
-  const std::size_t size = outline.size();
-  for (std::size_t i = 0; i < size; ++i) {
-    for (std::size_t j = i + 1; j < size; ++j) {
-      const ExactPoint& a = outline[i];
-      const ExactPoint& b = outline[(i + 1) % size];
-      const ExactPoint& c = outline[j];
-      const ExactPoint& d = outline[(j + 1) % size];
-      if (!cross_inside(a, b, c, d)) continue;
-      const mpq_class before = (d.x - c.x) * (a.y - c.y) - (d.y - c.y) * (a.x - c.x);
-      const mpq_class after = (d.x - c.x) * (b.y - c.y) - (d.y - c.y) * (b.x - c.x);
-      const mpq_class t = before / (before - after);
-      const ExactPoint crossing = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
-      bool is_alone = true;
-      for (std::size_t k = 0; k < size; ++k) {
-        is_alone &= k == i || k == j || !is_on(crossing, outline[k], outline[(k + 1) % size]);
-      }
-      if (is_alone) return true;
-    }
-  }
-  return false;
-}
-
-/// Whether edges have nothing in common but the corners between neighbours.
-bool is_simple(const ExactOutline& outline) {
-  const std::size_t size = outline.size();
-  for (std::size_t i = 0; i < size; ++i) {
-    const ExactPoint& a = outline[i];
-    const ExactPoint& b = outline[(i + 1) % size];
-    for (std::size_t j = 0; j < size; ++j) {
-      if (j != i && j != (i + 1) % size && is_on(outline[j], a, b)) return false;
-      if (cross_inside(a, b, outline[j], outline[(j + 1) % size])) return false;
-    }
-  }
-  return true;
 }
 
 template <typename Scalar>
@@ -473,8 +301,8 @@ TYPED_TEST(Triangulate, cuts_convex_polygons_into_fans) {
     for (std::size_t i = 0; i < 2 * vertices.size(); ++i) {
       const Corners corners = corners_from(i % vertices.size(), i >= vertices.size(), vertices.size());
       Triangles triangles;
-      ASSERT_TRUE(example::triangulate(vertices, corners, triangles)) << text_of(vertices, corners);
-      ASSERT_EQ(triangles, fan_of(corners)) << text_of(vertices, corners);
+      ASSERT_TRUE(example::triangulate(vertices, corners, triangles)) << message_of(vertices, corners);
+      ASSERT_EQ(triangles, fan_of(corners)) << message_of(vertices, corners);
     }
   };
   for (std::size_t i = 0; i < case_count(200) && !this->HasFatalFailure(); ++i) {
@@ -509,8 +337,8 @@ void expect_refused(const Vertices<Scalar>& vertices) {
   for (std::size_t i = 0; i < 2 * vertices.size(); ++i) {
     const Corners corners = corners_from(i % vertices.size(), i >= vertices.size(), vertices.size());
     Triangles triangles = {{7, 8, 9}};
-    ASSERT_FALSE(example::triangulate(vertices, corners, triangles)) << text_of(vertices, corners);
-    ASSERT_EQ(triangles, (Triangles{{7, 8, 9}})) << text_of(vertices, corners);
+    ASSERT_FALSE(example::triangulate(vertices, corners, triangles)) << message_of(vertices, corners);
+    ASSERT_EQ(triangles, (Triangles{{7, 8, 9}})) << message_of(vertices, corners);
   }
 }
 
