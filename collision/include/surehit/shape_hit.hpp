@@ -58,10 +58,9 @@ template <FloatOrDouble Scalar>
 ///
 /// - For a ball, it leads from the touched point to the centre.
 /// - For a capsule, it leads from the touched point to the nearest point of the core.
-/// - For a box, it is across the plane that separates the two at t. Where several planes do, those along the faces of
-/// the
-///   box come first, and then that of the triangle. If they touch at the start, the shortest way out of the triangle
-///   leads along it.
+/// - For a box, it is across the plane that separates the two at t. Where several planes do, those along its faces come
+///   first, and then that of the triangle. If they touch at the start, the shortest way out of the triangle leads along
+///   it.
 ///
 /// Where the centre or the core is on the triangle, it is the triangle's normal, or its opposite if the shape moves
 /// along the normal. It is zero if they do not touch, or if nothing tells a direction.
