@@ -8,6 +8,7 @@
 #include "support/case_count.hpp"
 #include "support/pair_families.hpp"
 #include "support/scene_drawer.hpp"
+#include "support/scene_path_drawer.hpp"
 #include "support/scene_text.hpp"
 
 namespace surehit::test {

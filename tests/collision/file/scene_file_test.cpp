@@ -13,6 +13,7 @@
 #include "support/saved_file.hpp"
 #include "support/scalars.hpp"
 #include "support/scene_drawer.hpp"
+#include "support/scene_path_drawer.hpp"
 
 namespace surehit::test {
 namespace {

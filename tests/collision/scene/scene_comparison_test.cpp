@@ -14,6 +14,7 @@
 #include "support/same_bits.hpp"
 #include "support/scalars.hpp"
 #include "support/scene_drawer.hpp"
+#include "support/scene_path_drawer.hpp"
 #include "support/scene_text.hpp"
 
 namespace surehit::test {

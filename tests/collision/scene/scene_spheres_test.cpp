@@ -15,6 +15,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/scalars.hpp"
 #include "support/scene_drawer.hpp"
+#include "support/scene_path_drawer.hpp"
 #include "support/scene_text.hpp"
 #include "support/threads.hpp"
 #include "surehit/scene.hpp"
