@@ -243,6 +243,30 @@ TYPED_TEST(InnerGridComparison, of_a_main_part_and_a_few_others) {
   }
 }
 
+/// The main part is three walls that meet in a corner, and this corner lies within a padding of the box's middle, on
+/// either side. A cell that ends in the middle would list a wall that is beyond it, in an inner grid of its own.
+TYPED_TEST(InnerGridComparison, of_walls_in_the_middle_of_the_box) {
+  constexpr TypeParam far = 1000;
+  constexpr TypeParam padding = 2 * far * TypeParam{GridFrame::padding_share};
+  GeneratedMesh<TypeParam> few;
+  for (const TypeParam to : {-far, far}) few.add({{to, to, to}, {to * TypeParam{0.9F}, to, to}, {to, to, to / 2}});
+  for (const double share : {-0.9, -0.5, 0., 0.5, 0.9, 1.5}) {
+    for (const bool is_low : {false, true}) {
+      SCOPED_TRACE(share);
+      const auto corner = Vector3<TypeParam>::Constant(static_cast<TypeParam>(share) * padding);
+      GeneratedMesh<TypeParam> walls;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto ground = rough_ground<TypeParam>(12, TypeParam{0.3F}, this->random_);
+        const auto wall = flattened<TypeParam>(ground, axis, TypeParam{0});
+        const Box<TypeParam> box = box_of(wall.view());
+        walls = joined(walls, placed<TypeParam>(wall, 1, corner - (is_low ? box.low : box.high)));
+      }
+      const Collider<TypeParam> collider(joined(walls, few).view());
+      EXPECT_EQ(detail::ColliderState<TypeParam>::of(collider).grid.inner_frames().size(), 1U);
+    }
+  }
+}
+
 TYPED_TEST(InnerGridComparison, of_a_prop_that_moves_through_the_level) {
   const auto level = this->level(1);
   const auto prop = this->prop(1e3F, {0, 0, 0});

@@ -75,8 +75,10 @@ inline std::optional<std::array<double, 3>> resolution_around_main_part(const Gr
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float stop = frame.float_stop[axis];
     if ((main.high[axis] - main.low[axis]) * max_part_share > stop) return std::nullopt;
-    // A part of this size lies across the middle or across a third, but not across both.
-    const bool is_across_middle = 2 * main.low[axis] <= stop && stop <= 2 * main.high[axis];
+    // A part of this size lies across the middle or across a third, but not across both. A triangle that is nearer to
+    // a plane than a padding, up to roundings, would be listed on both sides.
+    const float room = 2 * frame.padding(axis);
+    const bool is_across_middle = main.low[axis] - room <= stop / 2 && stop / 2 <= main.high[axis] + room;
     resolution[axis] = is_across_middle ? 3 : 2;
   }
   return resolution;
