@@ -182,8 +182,8 @@ HWY_INLINE void visit_cells(const Query<float>& query, const PathRange<float>& r
   }
 }
 
-/// Cuts a path into pieces, and walks one piece in each lane. It begins at tau `enters`.
-template <bool has_levels, typename AnyPath, typename Visitor>
+/// Cuts a path into pieces, and walks one piece in each lane. It begins at tau `enters`. The grid must have no levels.
+template <typename AnyPath, typename Visitor>
 HWY_NOINLINE void walk_in_pieces(float enters, const Query<float>& query, const AnyPath& path,
                                  const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
   const LaneWalk walk(query.grid, query.mesh.slabs());
@@ -192,7 +192,7 @@ HWY_NOINLINE void walk_in_pieces(float enters, const Query<float>& query, const 
   const KernelInput<float> input(path, range, query.grid.frame());
   auto walking = static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(BitsTag())) - 1);
   while (walking != 0) {
-    const LaneWalk::Cells cells = walk.look<has_levels>(pieces, walking);
+    const LaneWalk::Cells cells = walk.look<false>(pieces, walking);
     visit_cells(query, range, path, input, walk, cells, walking, pieces, visitor);
     if (visitor.is_done()) return;
     walking = walk.advance(cells, walking, pieces);
@@ -221,6 +221,7 @@ HWY_NOINLINE void walk_all_cells(float enters, const Query<float>& query, const 
 /// Walks the path in lanes if it is long enough for this to be faster. Returns true if it walked. If many cells have
 /// lists, it is faster to visit all cells. If few cells have lists, it is faster to leap over the others. If nearly all
 /// lists are in inner grids, a single walk is faster, because lanes would wait for the one that enters an inner grid.
+/// Measurements chose a single walk for grids with levels too.
 template <typename AnyPath, typename Visitor>
 HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const AnyPath& path,
                               const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
@@ -228,19 +229,13 @@ HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const Any
   constexpr float min_cells_at_once = 4;
   constexpr std::size_t full_share = 4;  // More than one top cell in this many must have a list.
   const Grid& grid = query.grid;
-  const bool has_levels = grid.levels() > 0;
-  // A path from afar meets little in a grid with levels, but lanes would load a cell each.
-  constexpr bool is_from_afar = std::is_same_v<AnyPath, FarPath>;
-  if (grid.is_mostly_inner() || (is_from_afar && has_levels)) return false;
-  const bool takes_all =
-      LaneWalk::can_enter_crossings && !has_levels && grid.lists().size() * full_share > grid.top().size();
+  if (grid.is_mostly_inner() || grid.levels() > 0) return false;
+  const bool takes_all = LaneWalk::can_enter_crossings && grid.lists().size() * full_share > grid.top().size();
   if (!is_long(takes_all ? min_cells_at_once : min_cells_in_pieces, grid, clipped, enters)) return false;
   if (takes_all) {
     walk_all_cells(enters, query, path, range, clipped, visitor);
-  } else if (has_levels) {
-    walk_in_pieces<true>(enters, query, path, range, clipped, visitor);
   } else {
-    walk_in_pieces<false>(enters, query, path, range, clipped, visitor);
+    walk_in_pieces(enters, query, path, range, clipped, visitor);
   }
   return true;
 }
