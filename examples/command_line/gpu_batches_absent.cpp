@@ -4,17 +4,31 @@
 
 namespace surehit::example {
 
-struct GpuBatches::State {};
+template <typename Asked>
+struct GpuBatchesOf<Asked>::State {};
 
-GpuBatches::GpuBatches(const Colliderf&, const std::string&) {
+template <typename Asked>
+GpuBatchesOf<Asked>::GpuBatchesOf(const Asked&, const std::string&) {
   throw std::runtime_error("this program was built without surehit::gpu");
 }
-GpuBatches::~GpuBatches() = default;
+template <typename Asked>
+GpuBatchesOf<Asked>::~GpuBatchesOf() = default;
 
-// No object of this class comes into being.
-void GpuBatches::first_hits(const PathSpanf&, std::span<Hitf>, const BatchOptionsf&) const {}
-void GpuBatches::any_hits(const PathSpanf&, std::span<std::uint8_t>, const BatchOptionsf&) const {}
-std::string GpuBatches::name() const { return {}; }
-GpuCounts GpuBatches::counts() const { return {}; }
+// No object comes into being.
+template <typename Asked>
+void GpuBatchesOf<Asked>::first_hits(const PathSpanf&, std::span<Hit>, const Options&) const {}
+template <typename Asked>
+void GpuBatchesOf<Asked>::any_hits(const PathSpanf&, std::span<std::uint8_t>, const Options&) const {}
+template <typename Asked>
+std::string GpuBatchesOf<Asked>::name() const {
+  return {};
+}
+template <typename Asked>
+GpuCounts GpuBatchesOf<Asked>::counts() const {
+  return {};
+}
+
+template class GpuBatchesOf<Colliderf>;
+template class GpuBatchesOf<Scenef>;
 
 }  // namespace surehit::example

@@ -1,21 +1,29 @@
 #include <mutex>
 #include <surehit/gpu.hpp>
+#include <surehit/gpu_scene.hpp>
+#include <type_traits>
 
 #include "command_line/gpu_batches.hpp"
 
 namespace surehit::example {
 
-struct GpuBatches::State {
-  State(const Colliderf& mesh, const std::string& name)
-      : device(GpuDevice::open({.name = name})), collider(device, mesh) {}
+template <typename Asked>
+struct GpuBatchesOf<Asked>::State {
+  using OnGpu = std::conditional_t<std::is_same_v<Asked, Scenef>, GpuScene, GpuCollider>;
 
-  template <typename Answer>
-  void ask(GpuBatchResult (GpuCollider::*question)(const PathSpanf&, std::span<Answer>, const BatchOptionsf&,
-                                                   const GpuBatchOptions&) const,
-           const PathSpanf& paths, std::span<Answer> answers, const BatchOptionsf& options) {
+  State(const Asked& asked, const std::string& name) : device(GpuDevice::open({.name = name})) {
+    if constexpr (std::is_same_v<Asked, Scenef>) {
+      on_gpu = GpuScene(device, asked.snapshot());
+    } else {
+      on_gpu = GpuCollider(device, asked);
+    }
+  }
+
+  /// `question(options)` asks the device with these options.
+  template <typename Question>
+  void ask(const Question& question) {
     GpuStatistics statistics;
-    const GpuBatchResult result =
-        (collider.*question)(paths, answers, options, {.goes_on_without_device = true, .statistics = &statistics});
+    const GpuBatchResult result = question(GpuBatchOptions{.goes_on_without_device = true, .statistics = &statistics});
     if (!result) throw GpuError(*result.error);
     const std::lock_guard lock(mutex);
     counts.paths += statistics.paths;
@@ -23,25 +31,39 @@ struct GpuBatches::State {
   }
 
   GpuDevice device;
-  GpuCollider collider;
+  OnGpu on_gpu;
   std::mutex mutex;
   GpuCounts counts;
 };
 
-GpuBatches::GpuBatches(const Colliderf& collider, const std::string& name)
-    : state_(std::make_unique<State>(collider, name)) {}
-GpuBatches::~GpuBatches() = default;
+template <typename Asked>
+GpuBatchesOf<Asked>::GpuBatchesOf(const Asked& asked, const std::string& name)
+    : state_(std::make_unique<State>(asked, name)) {}
+template <typename Asked>
+GpuBatchesOf<Asked>::~GpuBatchesOf() = default;
 
-void GpuBatches::first_hits(const PathSpanf& paths, std::span<Hitf> hits, const BatchOptionsf& options) const {
-  state_->ask(&GpuCollider::first_hits, paths, hits, options);
+template <typename Asked>
+void GpuBatchesOf<Asked>::first_hits(const PathSpanf& paths, std::span<Hit> hits, const Options& options) const {
+  state_->ask([&](const GpuBatchOptions& gpu) { return state_->on_gpu.first_hits(paths, hits, options, gpu); });
 }
 
-void GpuBatches::any_hits(const PathSpanf& paths, std::span<std::uint8_t> blocked, const BatchOptionsf& options) const {
-  state_->ask(&GpuCollider::any_hits, paths, blocked, options);
+template <typename Asked>
+void GpuBatchesOf<Asked>::any_hits(const PathSpanf& paths, std::span<std::uint8_t> blocked,
+                                   const Options& options) const {
+  state_->ask([&](const GpuBatchOptions& gpu) { return state_->on_gpu.any_hits(paths, blocked, options, gpu); });
 }
 
-std::string GpuBatches::name() const { return state_->device.name(); }
+template <typename Asked>
+std::string GpuBatchesOf<Asked>::name() const {
+  return state_->device.name();
+}
 
-GpuCounts GpuBatches::counts() const { return state_->counts; }
+template <typename Asked>
+GpuCounts GpuBatchesOf<Asked>::counts() const {
+  return state_->counts;
+}
+
+template class GpuBatchesOf<Colliderf>;
+template class GpuBatchesOf<Scenef>;
 
 }  // namespace surehit::example

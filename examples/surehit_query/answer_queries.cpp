@@ -88,7 +88,8 @@ class Queries {
   }
 
  private:
-  static constexpr bool may_use_gpu = std::is_same_v<Asked, AskedMesh<float>>;
+  static constexpr bool may_use_gpu = std::is_same_v<Scalar, float>;
+  using Target = std::conditional_t<may_use_gpu, typename Asked::Target, Colliderf>;
   using Answer = typename Asked::Answer;
   using Answers = AnsweredBlock (Queries::*)(std::size_t, std::size_t) const;
 
@@ -194,7 +195,7 @@ class Queries {
   MoreColumns columns_;
   Asked asked_;
   NumberTable<Scalar> table_;
-  std::optional<GpuBatches> gpu_;  ///< where it was asked for
+  std::optional<GpuBatchesOf<Target>> gpu_;  ///< where it was asked for
 };
 
 template <typename Shape, typename Scalar>

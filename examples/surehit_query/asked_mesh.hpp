@@ -32,6 +32,7 @@ template <typename Scalar>
 template <typename Scalar>
 class AskedMesh {
  public:
+  using Target = Collider<Scalar>;
   using Answer = Hit<Scalar>;
   using Options = QueryOptions<Scalar>;
   using ShapeAnswer = ShapeHit<Scalar>;

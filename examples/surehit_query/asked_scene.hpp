@@ -21,6 +21,7 @@ namespace surehit::example {
 template <typename Scalar>
 class AskedScene {
  public:
+  using Target = Scene<Scalar>;
   using Answer = SceneHit<Scalar>;
   using Options = SceneQueryOptions<Scalar>;
   using ShapeAnswer = SceneShapeHit<Scalar>;

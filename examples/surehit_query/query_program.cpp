@@ -150,7 +150,7 @@ void add_more_columns(CLI::App& command, QueryRequest& request) {
 
 /// Where a mesh of floats is asked about straight paths.
 void add_gpu(CLI::App& command, QueryRequest& request) {
-  command.add_flag("--gpu", request.uses_gpu, "Ask on a GPU, for straight paths and a mesh in float; same output");
+  command.add_flag("--gpu", request.uses_gpu, "Ask on a GPU, for straight paths in float; same output");
   const auto choose = [&request](const std::string& name) {
     request.uses_gpu = true;
     request.gpu_name = name;
@@ -336,7 +336,6 @@ void check_shape(const QueryRequest& request) {
 void check_gpu(const QueryRequest& request) {
   if (!request.uses_gpu) return;
   if (is_shape(request.path)) throw CLI::ValidationError("--gpu", "only straight paths have it");
-  if (!request.scene_path.empty()) throw CLI::ValidationError("--gpu", "a scene has none");
   if (request.scalar != ScalarKind::single_precision) throw CLI::ValidationError("--gpu", "only float has it");
 }
 

@@ -184,6 +184,9 @@ class SUREHIT_API SceneQueries {
   [[nodiscard]] const detail::CommittedScene<Scalar>& committed() const noexcept;
 
   detail::CommittedShare<Scalar> committed_;  ///< It is null if nothing was ever committed.
+
+ private:
+  friend struct detail::CommittedScene<Scalar>;
 };
 
 extern template class SUREHIT_API SceneQueries<float>;

@@ -19,6 +19,13 @@ struct DeviceHit {
 };
 static_assert(sizeof(DeviceHit) == 20);
 
+/// What a device says of a path in `first_hits` of a scene.
+struct DeviceSceneHit {
+  DeviceHit hit;
+  std::uint32_t instance;  ///< The index of the instance.
+};
+static_assert(sizeof(DeviceSceneHit) == 24);
+
 /// What a device says of a path in `any_hits`: 0 for a miss, 1 for a hit, 2 for neither.
 using DeviceAny = std::uint32_t;
 
@@ -53,7 +60,7 @@ enum class Leftover : std::uint8_t {
   return side == front || side == back ? Leftover::rounding : Leftover::all;
 }
 
-[[nodiscard]] inline Leftover leftover_of(DeviceAny answer, std::size_t) {
+[[nodiscard]] inline Leftover leftover_of(DeviceAny answer) {
   if (answer == 0) return Leftover::nothing_of_miss;
   return answer == 1 ? Leftover::nothing_of_hit : Leftover::all;
 }

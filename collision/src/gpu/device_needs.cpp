@@ -17,7 +17,7 @@ std::string missing_of(const DeviceReport& report) {
       limits.maxComputeWorkGroupCount[0] < paths_in_dispatch / threads_in_group) {
     return "work groups of 64 threads";
   }
-  if (limits.maxPerStageDescriptorStorageBuffers < 6) return "six buffers for a shader";
+  if (limits.maxPerStageDescriptorStorageBuffers < 8) return "eight buffers for a shader";
   return {};
 }
 

@@ -10,19 +10,21 @@
 #include <vector>
 
 #include "gpu/device_answers.hpp"
-#include "gpu/gpu_collider_state.hpp"
+#include "gpu/gpu_device_state.hpp"
 #include "gpu/host_answers.hpp"
 #include "gpu/in_dispatches.hpp"
 #include "surehit/gpu.hpp"
 
 namespace surehit::detail {
 
-/// A batch of one kind, on its way through the device and the host.
-template <typename Answer>
+/// A batch of one kind, on its way through the device and the host. The state is that of an uploaded collider or scene.
+template <typename State, typename Answer>
 class GpuBatch {
  public:
-  GpuBatch(const GpuColliderState& state, const PathSpanf& paths, std::span<Answer> answers,
-           const BatchOptionsf& options, const GpuBatchOptions& gpu)
+  using BatchOptions = typename State::BatchOptions;
+
+  GpuBatch(const State& state, const PathSpanf& paths, std::span<Answer> answers, const BatchOptions& options,
+           const GpuBatchOptions& gpu)
       : state_(state), paths_(paths), answers_(answers), options_(options), gpu_(gpu) {
     const std::size_t count = std::min(paths.size(), answers.size());
     count_ = options.path_options.empty() ? count : std::min(count, options.path_options.size());
@@ -49,8 +51,8 @@ class GpuBatch {
 
  private:
   static constexpr std::size_t step = paths_in_dispatch;
-  static constexpr bool wants_first = std::is_same_v<Answer, Hitf>;
-  using DeviceAnswer = std::conditional_t<wants_first, DeviceHit, DeviceAny>;
+  static constexpr bool wants_first = std::is_same_v<Answer, typename State::FirstHit>;
+  using DeviceAnswer = std::conditional_t<wants_first, typename State::DeviceFirst, DeviceAny>;
 
   std::optional<GpuError> run_on_device() {
     return in_dispatches(
@@ -70,34 +72,32 @@ class GpuBatch {
     } else {
       for (std::size_t i = 0; i < count; ++i) paths_.copy(first + i, numbers + 6 * i);
     }
-    const std::size_t limits = write_limits(slot, paths_.kind(), options_, first, count);
+    const std::size_t limits = write_limits(state_, slot, paths_.kind(), options_, first, count);
     ++statistics_.dispatches;
     const GpuCopy there[] = {copy_of(slot.host_paths, slot.paths, count * sizeof(float[6])),
                              copy_of(slot.host_limits, slot.limits, limits * sizeof(PathLimits))};
-    const GpuDispatch dispatch = {wants_first ? GpuTask::first_hits : GpuTask::any_hits,
-                                  pushed_words(paths_.kind(), options_, count, false)};
+    const GpuDispatch dispatch = {wants_first ? State::first_task : State::any_task,
+                                  pushed_words(paths_.kind(), !options_.path_options.empty(), count, false)};
     const GpuCopy back = copy_of(slot.answers, slot.host_answers, count * sizeof(DeviceAnswer));
-    const GpuMesh& mesh = *state_.mesh;
-    state_.device->bind(slot, mesh.nodes.get(), mesh.triangles.get(), {slot.paths.get()}, {slot.answers.get()});
+    state_.device->bind(slot, state_.mesh->buffers(), {slot.paths.get()}, {slot.answers.get()});
     return state_.device->submit(slot, there, &dispatch, {&back, 1});
   }
 
   void finish(GpuSlot& slot, std::size_t first) {
     const std::span found(reinterpret_cast<const DeviceAnswer*>(slot.host_answers.data()),
                           std::min(step, count_ - first));
-    const std::size_t triangle_count = state_.collider->triangle_count();
     open_.clear();
     unrounded_.clear();
     for (std::size_t i = 0; i < found.size(); ++i) {
-      switch (leftover_of(found[i], triangle_count)) {
+      switch (state_.leftover_of(found[i])) {
         case Leftover::nothing_of_miss:
           ++statistics_.misses;
-          answers_[first + i] = answer_of(found[i]);
+          answers_[first + i] = answer_on_device(found[i]);
           break;
         case Leftover::nothing_of_hit:
           ++statistics_.hits;
           if (wants_first) ++statistics_.rounded;
-          answers_[first + i] = answer_of(found[i]);
+          answers_[first + i] = answer_on_device(found[i]);
           break;
         case Leftover::rounding:
           unrounded_.push_back(i);
@@ -109,32 +109,43 @@ class GpuBatch {
     statistics_.undecided += open_.size();
     statistics_.hits += unrounded_.size();
     statistics_.rounded_by_host += unrounded_.size();
-    if constexpr (wants_first) {
+    if constexpr (std::is_same_v<Answer, Hitf>) {
       in_tasks(options_.executor, unrounded_.size(), [&](std::size_t from, std::size_t to) {
         for (const std::size_t i : std::span(unrounded_).subspan(from, to - from)) {
-          round_on_host(*state_.collider, paths_[first + i], options_of(options_, first + i), found[i].triangle,
+          round_on_host(state_.asked(), paths_[first + i], options_of(options_, first + i), found[i].triangle,
                         answers_[first + i]);
         }
       });
+    } else {
+      for (const std::size_t i : unrounded_) open_.push_back(first + i);  // A scene rounds while it answers.
     }
     if (open_.empty()) return;
     numbers_.resize(6 * open_.size());
     for (std::size_t i = 0; i < open_.size(); ++i) paths_.copy(open_[i], numbers_.data() + 6 * i);
-    answer_open(*state_.collider, paths_.kind(), numbers_, open_, options_, found_);
+    answer_open(state_.asked(), paths_.kind(), numbers_, open_, options_, found_);
     for (std::size_t i = 0; i < open_.size(); ++i) answers_[open_[i]] = found_[i];
   }
 
-  void answer_on_host(std::size_t first) {
-    BatchOptionsf options = options_;
-    if (!options.path_options.empty()) options.path_options = options.path_options.subspan(first, count_ - first);
-    statistics_.undecided += count_ - first;
-    ask(*state_.collider, paths_.subspan(first, count_ - first), answers_.subspan(first, count_ - first), options);
+  /// Returns an answer that has left nothing to the host.
+  Answer answer_on_device(const DeviceAnswer& answer) const {
+    if constexpr (wants_first) {
+      return state_.answer_of(answer);
+    } else {
+      return answer_of(answer);
+    }
   }
 
-  const GpuColliderState& state_;
+  void answer_on_host(std::size_t first) {
+    BatchOptions options = options_;
+    if (!options.path_options.empty()) options.path_options = options.path_options.subspan(first, count_ - first);
+    statistics_.undecided += count_ - first;
+    ask(state_.asked(), paths_.subspan(first, count_ - first), answers_.subspan(first, count_ - first), options);
+  }
+
+  const State& state_;
   const PathSpanf& paths_;
   std::span<Answer> answers_;
-  const BatchOptionsf& options_;
+  const BatchOptions& options_;
   const GpuBatchOptions& gpu_;
   std::size_t count_ = 0;
   std::size_t finished_ = 0;

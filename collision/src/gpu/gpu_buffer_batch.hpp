@@ -83,16 +83,16 @@ class GpuBufferBatch {
       const GpuCopy back = {paths.buffer, slot.host_paths.get(), {paths.offset, 0, paths.size}};
       return device_.submit(slot, {&back, 1}, nullptr, {}, waits_for_all);
     }
-    const std::size_t limits = write_limits(slot, paths_.kind, options_, first, count);
+    const std::size_t limits = write_limits(state_, slot, paths_.kind, options_, first, count);
     std::memset(slot.host_list.data(), 0, sizeof(ListedCounts));
     ++statistics_.dispatches;
     const GpuCopy there[] = {copy_of(slot.host_limits, slot.limits, limits * sizeof(PathLimits)),
                              copy_of(slot.host_list, slot.list, sizeof(ListedCounts))};
     const GpuDispatch dispatch = {wants_first ? GpuTask::first_hits : GpuTask::any_hits,
-                                  pushed_words(paths_.kind, options_, count, true)};
+                                  pushed_words(paths_.kind, !options_.path_options.empty(), count, true)};
     const GpuCopy back =
         copy_of(slot.list, slot.host_list, sizeof(ListedCounts) + std::min(count, listed_at_once) * sizeof(ListedPath));
-    device_.bind(slot, state_.mesh->nodes.get(), state_.mesh->triangles.get(), paths, answers_from(first));
+    device_.bind(slot, state_.mesh->buffers(), paths, answers_from(first));
     return device_.submit(slot, there, &dispatch, {&back, 1}, waits_for_all);
   }
 

@@ -40,18 +40,6 @@ GpuBatchResult run(const GpuColliderState* state, const Paths& paths, const Answ
   return Batch(*state, paths, answers, options, gpu).run();
 }
 
-std::optional<GpuError> upload(GpuDeviceState& device, std::span<const std::byte> bytes, const char* what,
-                               detail::GpuBuffer& buffer) {
-  const std::uint64_t max = device.report.properties.limits.maxStorageBufferRange;
-  if (bytes.size() > max) {
-    return GpuError(GpuError::Reason::too_large, std::string(what) + " take " + std::to_string(bytes.size()) +
-                                                     " bytes, and a buffer of " + device.name + " has at most " +
-                                                     std::to_string(max));
-  }
-  if (auto error = buffer.make(device, bytes.size(), detail::GpuBuffer::Place::device, what)) return error;
-  return device.upload(bytes, buffer);
-}
-
 }  // namespace
 
 GpuResult GpuCollider::try_upload(const GpuDevice& device, const Colliderf& collider) {
@@ -72,10 +60,10 @@ GpuResult GpuCollider::try_upload(const GpuDevice& device, const Colliderf& coll
     const std::lock_guard lock(on.mutex);
     if (on.is_lost) return GpuError(GpuError::Reason::device_lost, "the device was lost; it must be opened anew");
     detail::GpuWork work(on, state->mesh);
-    if (auto error = upload(on, std::as_bytes(std::span(tree.nodes)), "the nodes of a mesh", mesh.nodes)) {
+    if (auto error = on.upload(std::as_bytes(std::span(tree.nodes)), "the nodes of a mesh", *mesh.nodes)) {
       return *error;
     }
-    if (auto error = upload(on, std::as_bytes(std::span(tree.triangles)), "the triangles of a mesh", mesh.triangles)) {
+    if (auto error = on.upload(std::as_bytes(std::span(tree.triangles)), "the triangles of a mesh", *mesh.triangles)) {
       return *error;
     }
     work.end();
@@ -91,12 +79,12 @@ GpuResult GpuCollider::try_update() {
 
 GpuBatchResult GpuCollider::first_hits(const PathSpanf& paths, std::span<Hitf> hits, const BatchOptionsf& options,
                                        const GpuBatchOptions& gpu) const {
-  return run<detail::GpuBatch<Hitf>>(state_.get(), paths, hits, options, gpu);
+  return run<detail::GpuBatch<GpuColliderState, Hitf>>(state_.get(), paths, hits, options, gpu);
 }
 
 GpuBatchResult GpuCollider::any_hits(const PathSpanf& paths, std::span<std::uint8_t> blocked,
                                      const BatchOptionsf& options, const GpuBatchOptions& gpu) const {
-  return run<detail::GpuBatch<std::uint8_t>>(state_.get(), paths, blocked, options, gpu);
+  return run<detail::GpuBatch<GpuColliderState, std::uint8_t>>(state_.get(), paths, blocked, options, gpu);
 }
 
 GpuBatchResult GpuCollider::first_hits(const GpuPaths& paths, const GpuBufferPart& hits, const BatchOptionsf& options,
@@ -109,8 +97,6 @@ GpuBatchResult GpuCollider::any_hits(const GpuPaths& paths, const GpuBufferPart&
   return run<detail::GpuBufferBatch<std::uint8_t>>(state_.get(), paths, blocked, options, gpu);
 }
 
-std::size_t GpuCollider::memory_bytes() const noexcept {
-  return state_ == nullptr ? 0 : state_->mesh->nodes.size() + state_->mesh->triangles.size();
-}
+std::size_t GpuCollider::memory_bytes() const noexcept { return state_ == nullptr ? 0 : state_->mesh->size(); }
 
 }  // namespace surehit

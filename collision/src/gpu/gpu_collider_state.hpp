@@ -3,30 +3,37 @@
 #include <cstdint>
 #include <memory>
 
+#include "gpu/device_answers.hpp"
 #include "gpu/gpu_device_state.hpp"
+#include "gpu/path_limits.hpp"
 #include "surehit/gpu.hpp"
 
 namespace surehit::detail {
 
 /// What an uploaded collider has behind its pointer.
 struct GpuColliderState {
+  using FirstHit = Hitf;
+  using BatchOptions = BatchOptionsf;
+  using DeviceFirst = DeviceHit;
+  static constexpr GpuTask first_task = GpuTask::first_hits;
+  static constexpr GpuTask any_task = GpuTask::any_hits;
+
   std::shared_ptr<GpuDeviceState> device;
   const Colliderf* collider;
   std::uint64_t version;       ///< That of the collider when it was uploaded.
   std::uint64_t mask_version;  ///< The same of its masks.
   bool is_on_device;           ///< False if the host answers all paths, because the device could decide none.
   std::shared_ptr<GpuMesh> mesh;
-};
 
-/// Adds what a batch did.
-inline void add(const GpuStatistics& of_batch, GpuStatistics& all) {
-  all.paths += of_batch.paths;
-  all.misses += of_batch.misses;
-  all.hits += of_batch.hits;
-  all.rounded += of_batch.rounded;
-  all.rounded_by_host += of_batch.rounded_by_host;
-  all.undecided += of_batch.undecided;
-  all.dispatches += of_batch.dispatches;
-}
+  [[nodiscard]] const Colliderf& asked() const { return *collider; }
+  [[nodiscard]] PathLimits limits(PathKind kind, const QueryOptionsf& options) const {
+    return path_limits(kind, options);
+  }
+  [[nodiscard]] Leftover leftover_of(const DeviceHit& answer) const {
+    return detail::leftover_of(answer, collider->triangle_count());
+  }
+  [[nodiscard]] Leftover leftover_of(DeviceAny answer) const { return detail::leftover_of(answer); }
+  [[nodiscard]] Hitf answer_of(const DeviceHit& answer) const { return detail::answer_of(answer); }
+};
 
 }  // namespace surehit::detail

@@ -6,12 +6,13 @@
 #include "gpu/device_answers.hpp"
 #include "gpu/path_limits.hpp"
 #include "roundings.spv.hpp"
+#include "scene_walk.spv.hpp"
 #include "tree_walk.spv.hpp"
 
 namespace surehit::detail {
 namespace {
 
-constexpr std::uint32_t buffer_count = 6;
+constexpr std::uint32_t buffer_count = 8;
 constexpr std::uint64_t one_second = 1'000'000'000;
 constexpr std::uint64_t two_minutes = 120 * one_second;
 constexpr const char* while_beginning = "while beginning a batch";
@@ -184,6 +185,14 @@ std::optional<GpuError> GpuDeviceState::prepare() {
   return make_pipeline(GpuTask::first_hits, tree_walk_spirv);
 }
 
+std::optional<GpuError> GpuDeviceState::prepare_scenes() {
+  for (const GpuTask task : {GpuTask::scene_any_hits, GpuTask::scene_first_hits}) {
+    if (pipelines_[static_cast<std::size_t>(task)] != VK_NULL_HANDLE) continue;
+    if (auto error = make_pipeline(task, scene_walk_spirv)) return error;
+  }
+  return std::nullopt;
+}
+
 std::optional<GpuError> GpuDeviceState::make_layouts() {
   std::array<VkDescriptorSetLayoutBinding, buffer_count> bindings = {};
   for (std::uint32_t i = 0; i < buffer_count; ++i) {
@@ -210,7 +219,7 @@ std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<co
   VkShaderModule compiled = VK_NULL_HANDLE;
   const std::string what = "while compiling a shader for " + name;
   if (auto error = error_of(vulkan.CreateShaderModule(device, &source, nullptr, &compiled), what)) return error;
-  const std::uint32_t wants_first = task == GpuTask::first_hits ? 1 : 0;
+  const std::uint32_t wants_first = task == GpuTask::first_hits || task == GpuTask::scene_first_hits ? 1 : 0;
   const VkSpecializationMapEntry entry = {0, 0, sizeof wants_first};
   const VkSpecializationInfo constants = {1, &entry, sizeof wants_first, &wants_first};
   auto info = of_type<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
@@ -255,7 +264,7 @@ std::optional<GpuError> GpuDeviceState::make_slots() {
     };
     for (const Wanted& wanted : {Wanted{&slot.host_paths, &slot.paths, sizeof(float[6])},
                                  Wanted{&slot.host_limits, &slot.limits, sizeof(PathLimits)},
-                                 Wanted{&slot.host_answers, &slot.answers, sizeof(DeviceHit)},
+                                 Wanted{&slot.host_answers, &slot.answers, sizeof(DeviceSceneHit)},
                                  Wanted{&slot.host_list, &slot.list, sizeof(ListedPath)}}) {
       const std::size_t bytes = wanted.size * paths_in_dispatch + sizeof(ListedCounts);
       if (auto error = wanted.on_host->make(*this, bytes, GpuBuffer::Place::host, "a batch")) return error;
@@ -265,12 +274,18 @@ std::optional<GpuError> GpuDeviceState::make_slots() {
   return std::nullopt;
 }
 
-void GpuDeviceState::bind(const GpuSlot& slot, VkBuffer nodes, VkBuffer triangles, const GpuRange& paths,
+void GpuDeviceState::bind(const GpuSlot& slot, const std::array<VkBuffer, 4>& of_mesh, const GpuRange& paths,
                           const GpuRange& answers) const {
   std::array<VkDescriptorBufferInfo, buffer_count> infos;
   std::array<VkWriteDescriptorSet, buffer_count> writes;
-  const std::array<GpuRange, buffer_count> all = {
-      GpuRange{nodes}, GpuRange{triangles}, paths, GpuRange{slot.limits.get()}, answers, GpuRange{slot.list.get()}};
+  const std::array<GpuRange, buffer_count> all = {GpuRange{of_mesh[0]},
+                                                  GpuRange{of_mesh[1]},
+                                                  paths,
+                                                  GpuRange{slot.limits.get()},
+                                                  answers,
+                                                  GpuRange{slot.list.get()},
+                                                  GpuRange{of_mesh[2]},
+                                                  GpuRange{of_mesh[3]}};
   for (std::uint32_t i = 0; i < buffer_count; ++i) {
     infos[i] = {all[i].buffer, all[i].offset, all[i].size};
     writes[i] = of_type<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
@@ -380,8 +395,9 @@ void GpuDeviceState::forget() noexcept {
     }
   }
   if (mesh != nullptr) {
-    mesh->nodes.forget();
-    mesh->triangles.forget();
+    for (GpuBuffer* buffer : {mesh->nodes.get(), mesh->triangles.get(), &mesh->scene_nodes, &mesh->instances}) {
+      buffer->forget();
+    }
   }
   vulkan.library = nullptr;
 }
@@ -390,6 +406,17 @@ std::optional<GpuError> GpuDeviceState::noted(VkResult result, const char* what)
   // Before the text of the error, which may find no memory.
   if (result == VK_ERROR_DEVICE_LOST || result == VK_TIMEOUT) is_lost = true;
   return error_of(result, what);
+}
+
+std::optional<GpuError> GpuDeviceState::upload(std::span<const std::byte> bytes, const char* what, GpuBuffer& buffer) {
+  const std::uint64_t max = report.properties.limits.maxStorageBufferRange;
+  if (bytes.size() > max) {
+    return GpuError(GpuError::Reason::too_large, std::string(what) + " take " + std::to_string(bytes.size()) +
+                                                     " bytes, and a buffer of " + name + " has at most " +
+                                                     std::to_string(max));
+  }
+  if (auto error = buffer.make(*this, bytes.size(), GpuBuffer::Place::device, what)) return error;
+  return upload(bytes, buffer);
 }
 
 std::optional<GpuError> GpuDeviceState::upload(std::span<const std::byte> bytes, const GpuBuffer& to) {
@@ -408,7 +435,8 @@ std::optional<GpuError> GpuDeviceState::round(std::span<const RoundingCase> case
   GpuSlot& slot = slots[0];
   std::memcpy(slot.host_paths.data(), cases.data(), cases.size_bytes());
   // The shader reads no mesh.
-  bind(slot, slot.limits.get(), slot.limits.get(), {slot.paths.get()}, {slot.answers.get()});
+  VkBuffer unread = slot.limits.get();
+  bind(slot, {unread, unread, unread, unread}, {slot.paths.get()}, {slot.answers.get()});
   const GpuDispatch dispatch = {GpuTask::roundings, {static_cast<std::uint32_t>(cases.size()), 0, 0, 0, 0}};
   const GpuCopy there = copy_of(slot.host_paths, slot.paths, cases.size_bytes());
   const GpuCopy back = copy_of(slot.answers, slot.host_answers, results.size_bytes());

@@ -47,13 +47,26 @@ struct GpuSlot {
   bool is_under_way = false;  ///< True from when work begins until it has been waited for.
 };
 
-/// The buffers of a mesh on a device.
+/// The buffers of a mesh on a device, or those of a scene. Other versions of a scene may share those of its meshes.
 struct GpuMesh {
-  GpuBuffer nodes, triangles;
+  std::shared_ptr<GpuBuffer> nodes = std::make_shared<GpuBuffer>();
+  std::shared_ptr<GpuBuffer> triangles = std::make_shared<GpuBuffer>();
+  GpuBuffer scene_nodes, instances;  ///< Those of a scene alone.
+
+  /// Returns the buffers that a shader reads. That of a mesh reads the first two.
+  [[nodiscard]] std::array<VkBuffer, 4> buffers() const {
+    const bool is_scene = scene_nodes.get() != VK_NULL_HANDLE;
+    return {nodes->get(), triangles->get(), is_scene ? scene_nodes.get() : nodes->get(),
+            is_scene ? instances.get() : nodes->get()};
+  }
+  [[nodiscard]] std::size_t size() const {
+    return nodes->size() + triangles->size() + scene_nodes.size() + instances.size();
+  }
 };
 
 /// What the shader of a dispatch is.
-enum class GpuTask : std::uint8_t { any_hits, first_hits, roundings };
+enum class GpuTask : std::uint8_t { any_hits, first_hits, roundings, scene_any_hits, scene_first_hits };
+inline constexpr std::size_t gpu_task_count = 5;
 
 /// What a device computes at a time.
 struct GpuDispatch {
@@ -81,8 +94,10 @@ struct GpuDeviceState {
   /// Returns the handles of the device.
   [[nodiscard]] GpuHandles handles() const;
 
-  /// Sets the buffers of a slot. The first two are those of a mesh.
-  void bind(const GpuSlot& slot, VkBuffer nodes, VkBuffer triangles, const GpuRange& paths,
+  /// Makes what batches of scenes need, unless it is there.
+  [[nodiscard]] std::optional<GpuError> prepare_scenes();
+  /// Sets the buffers of a slot. The first ones are those of a mesh or of a scene.
+  void bind(const GpuSlot& slot, const std::array<VkBuffer, 4>& of_mesh, const GpuRange& paths,
             const GpuRange& answers) const;
   /// Begins some work: copies, then a dispatch unless there is none, then more copies. Each waits for what is before
   /// it. With `waits_for_all`, the first one waits for all that the queue was given.
@@ -93,6 +108,8 @@ struct GpuDeviceState {
   [[nodiscard]] std::optional<GpuError> wait(GpuSlot& slot);
   /// Waits until no work is under way, after a failure. A device that cannot be waited for counts as lost.
   void abandon() noexcept;
+  /// Makes a buffer of the device, and fills it. `what` is what it is for.
+  [[nodiscard]] std::optional<GpuError> upload(std::span<const std::byte> bytes, const char* what, GpuBuffer& buffer);
   /// Fills a buffer of the device.
   [[nodiscard]] std::optional<GpuError> upload(std::span<const std::byte> bytes, const GpuBuffer& to);
   /// Computes the cases of `rounding_check.hpp`.
@@ -137,7 +154,7 @@ struct GpuDeviceState {
   VkQueue queue_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  std::array<VkPipeline, 3> pipelines_ = {};
+  std::array<VkPipeline, gpu_task_count> pipelines_ = {};
   VkCommandPool commands_ = VK_NULL_HANDLE;
   VkDescriptorPool sets_ = VK_NULL_HANDLE;
 };

@@ -7,6 +7,8 @@ const real pair_relative = 40.0 * max_gap * max_gap;  // G12
 const real pair_flushes = max_gap * max_gap / 16.0;   // 2^-50 (G12)
 const real min_pair_size = 1.0 / 1048576.0;           // 2^-20 (G12)
 const real slack_of_bounds = 1.125;                   // G13
+const real min_size_of_errors = 1048576.0;            // 2^20 (G19)
+const real share_of_second_order = 1.0 / 32768.0;     // 2^-15 (G19)
 const real max_quotient = 1152921504606846976.0;      // 2^60 (G13)
 const real min_quotient = 1.0 / max_quotient;
 
@@ -190,34 +192,85 @@ struct RoundedHit {
   bool is_rounded;
 };
 
-// Rounds a certain hit. The path has a start and an end, or an origin and a direction.
-RoundedHit round_hit(vec3 start, vec3 toward, bool is_segment, vec3 a, vec3 b, vec3 c) {
-  PairVector d = difference_of(toward, start);
-  if (!is_segment) d = pairs_of(toward);
-  PairVector e = difference_of(b, a);
-  PairVector f = difference_of(c, a);
-  PairVector s = difference_of(start, a);
-  PairVector p = cross_of_pairs(d, f);
-  PairVector q = cross_of_pairs(s, e);
-  FloatPair det = dot_of_pairs(e, p);
-  FloatPair height = dot_of_pairs(f, q);
-  FloatPair side_u = dot_of_pairs(s, p);
-  FloatPair side_v = dot_of_pairs(d, q);
+// A vector in pairs, of which no component is off by more than `error` besides its rounding.
+struct OffVector {
+  PairVector pairs;
+  real error;
+};
+
+OffVector off_by(real error, PairVector pairs) {
+  OffVector result;
+  result.pairs = pairs;
+  result.error = error;
+  return result;
+}
+
+// Returns a vector that has this number on all axes.
+PairVector all_pairs(real x) {
+  PairVector result;
+  result.x = pair_of(x, 0.0);
+  result.y = pair_of(x, 0.0);
+  result.z = pair_of(x, 0.0);
+  return result;
+}
+
+real size_of_off(OffVector p) {
+  precise real of_error = min_size_of_errors * p.error;
+  return max(size_of_pairs(p.pairs), of_error);
+}
+
+// Returns how far off p · (q × r) is at most (G12, G19).
+real off_bound_of(OffVector p, OffVector q, OffVector r) {
+  PairVector of_p = all_pairs(p.error);
+  PairVector of_q = all_pairs(q.error);
+  PairVector of_r = all_pairs(r.error);
+  precise real of_errors = products_of(of_p, q.pairs, r.pairs) + products_of(p.pairs, of_q, r.pairs) +
+                           products_of(p.pairs, q.pairs, of_r);
+  real p_size = size_of_off(p);
+  real q_size = size_of_off(q);
+  real r_size = size_of_off(r);
+  precise real of_sizes = p.error * q_size * r_size + q.error * p_size * r_size + r.error * p_size * q_size;
+  precise real bound = bound_of(p.pairs, q.pairs, r.pairs) + 1.0625 * of_errors + share_of_second_order * of_sizes;
+  return bound;
+}
+
+// Rounds a certain hit, whose vectors these are.
+RoundedHit round_vectors(OffVector d, OffVector e, OffVector f, OffVector s) {
+  PairVector p = cross_of_pairs(d.pairs, f.pairs);
+  PairVector q = cross_of_pairs(s.pairs, e.pairs);
+  FloatPair det = dot_of_pairs(e.pairs, p);
+  FloatPair height = dot_of_pairs(f.pairs, q);
+  FloatPair side_u = dot_of_pairs(s.pairs, p);
+  FloatPair side_v = dot_of_pairs(d.pairs, q);
   RoundedHit result;
   result.is_front = det.high > 0.0;
+  result.t = 0.0;
+  result.u = 0.0;
+  result.v = 0.0;
+  result.is_rounded = false;
   if (!result.is_front) {
     det = negated(det);
     height = negated(height);
     side_u = negated(side_u);
     side_v = negated(side_v);
   }
-  real det_bound = bound_of(e, d, f);
-  RoundedNumber t = quotient_of(height, bound_of(f, s, e), det, det_bound);
-  RoundedNumber u = quotient_of(side_u, bound_of(s, d, f), det, det_bound);
-  RoundedNumber v = quotient_of(side_v, bound_of(d, s, e), det, det_bound);
+  real det_bound = off_bound_of(e, d, f);
+  precise real min_det = 4.0 * det_bound;
+  if (!(det.high > min_det)) return result;  // G20
+  RoundedNumber t = quotient_of(height, off_bound_of(f, s, e), det, det_bound);
+  RoundedNumber u = quotient_of(side_u, off_bound_of(s, d, f), det, det_bound);
+  RoundedNumber v = quotient_of(side_v, off_bound_of(d, s, e), det, det_bound);
   result.t = t.number;
   result.u = u.number;
   result.v = v.number;
   result.is_rounded = t.is_rounded && u.is_rounded && v.is_rounded;
   return result;
+}
+
+// Rounds a certain hit. The path has a start and an end, or an origin and a direction.
+RoundedHit round_hit(vec3 start, vec3 toward, bool is_segment, vec3 a, vec3 b, vec3 c) {
+  PairVector d = difference_of(toward, start);
+  if (!is_segment) d = pairs_of(toward);
+  return round_vectors(off_by(0.0, d), off_by(0.0, difference_of(b, a)), off_by(0.0, difference_of(c, a)),
+                       off_by(0.0, difference_of(start, a)));
 }

@@ -42,12 +42,14 @@ void in_tasks(const std::optional<Executor>& executor, std::size_t count, const 
   return std::span(reinterpret_cast<const Linef*>(first), count);
 }
 
-inline void ask(const Colliderf& collider, const PathSpanf& paths, std::span<Hitf> hits, const BatchOptionsf& options) {
-  collider.first_hits(paths, hits, options);
+/// Asks a collider or a scene.
+template <typename Asked, typename Hit, typename BatchOptions>
+void ask(const Asked& asked, const PathSpanf& paths, std::span<Hit> hits, const BatchOptions& options) {
+  asked.first_hits(paths, hits, options);
 }
-inline void ask(const Colliderf& collider, const PathSpanf& paths, std::span<std::uint8_t> blocked,
-                const BatchOptionsf& options) {
-  collider.any_hits(paths, blocked, options);
+template <typename Asked, typename BatchOptions>
+void ask(const Asked& asked, const PathSpanf& paths, std::span<std::uint8_t> blocked, const BatchOptions& options) {
+  asked.any_hits(paths, blocked, options);
 }
 
 /// Sets the answer of a path that certainly hits this triangle, and certainly first. The weights and t do not depend on
@@ -64,19 +66,19 @@ inline void round_on_host(const Colliderf& collider, const Pathf& path, const Qu
 
 /// Answers some paths by the host's batch, with the options that they have in theirs. Their numbers lie side by side,
 /// and `open` has their indices in the batch of the caller, which a filter takes.
-template <typename Answer>
-void answer_open(const Colliderf& collider, PathKind kind, const std::vector<float>& numbers,
-                 const std::vector<std::size_t>& open, const BatchOptionsf& options, std::vector<Answer>& found) {
-  BatchOptionsf own = options;
-  std::vector<QueryOptionsf> own_options;
+template <typename Asked, typename BatchOptions, typename Answer>
+void answer_open(const Asked& asked, PathKind kind, const std::vector<float>& numbers,
+                 const std::vector<std::size_t>& open, const BatchOptions& options, std::vector<Answer>& found) {
+  BatchOptions own = options;
+  std::vector<decltype(options.options)> own_options;
   if (!options.path_options.empty()) {
     for (const std::size_t path : open) own_options.push_back(options.path_options[path]);
     own.path_options = own_options;
   }
-  const auto of_batch = [&](std::size_t path, const Hitf& hit) { return (*options.filter)(open[path], hit); };
+  const auto of_batch = [&](std::size_t path, const auto& hit) { return (*options.filter)(open[path], hit); };
   if (options.filter) own.filter = of_batch;
   found.resize(open.size());
-  ask(collider, span_of(kind, numbers), std::span<Answer>(found), own);
+  ask(asked, span_of(kind, numbers), std::span<Answer>(found), own);
 }
 
 }  // namespace surehit::detail

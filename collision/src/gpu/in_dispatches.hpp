@@ -9,7 +9,7 @@
 
 #include "gpu/gpu_device_state.hpp"
 #include "gpu/path_limits.hpp"
-#include "surehit/batch_options.hpp"
+#include "surehit/path.hpp"
 
 namespace surehit::detail {
 
@@ -41,29 +41,41 @@ template <typename Begin, typename Finish>
 }
 
 /// Returns the options of a path in a batch.
-[[nodiscard]] inline const QueryOptionsf& options_of(const BatchOptionsf& options, std::size_t path) {
+template <typename BatchOptions>
+[[nodiscard]] const auto& options_of(const BatchOptions& options, std::size_t path) {
   return options.path_options.empty() ? options.options : options.path_options[path];
 }
 
 /// Writes the limits of some paths into a slot. Returns their number, which is 1 if all paths have the same.
-[[nodiscard]] inline std::size_t write_limits(const GpuSlot& slot, PathKind kind, const BatchOptionsf& options,
-                                              std::size_t first, std::size_t count) {
+template <typename State, typename BatchOptions>
+[[nodiscard]] std::size_t write_limits(const State& state, const GpuSlot& slot, PathKind kind,
+                                       const BatchOptions& options, std::size_t first, std::size_t count) {
   auto* const limits = reinterpret_cast<PathLimits*>(slot.host_limits.data());
   const std::size_t limit_count = options.path_options.empty() ? 1 : count;
-  for (std::size_t i = 0; i < limit_count; ++i) limits[i] = path_limits(kind, options_of(options, first + i));
+  for (std::size_t i = 0; i < limit_count; ++i) limits[i] = state.limits(kind, options_of(options, first + i));
   return limit_count;
 }
 
 /// Returns what the shader is told of a dispatch.
-[[nodiscard]] inline PushedWords pushed_words(PathKind kind, const BatchOptionsf& options, std::size_t count,
-                                              bool lists) {
-  return {static_cast<std::uint32_t>(count), kind == PathKind::segment ? 1U : 0U,
-          options.path_options.empty() ? 0U : 1U, max_path_steps, lists ? 1U : 0U};
+[[nodiscard]] inline PushedWords pushed_words(PathKind kind, bool has_own_options, std::size_t count, bool lists) {
+  return {static_cast<std::uint32_t>(count), kind == PathKind::segment ? 1U : 0U, has_own_options ? 1U : 0U,
+          max_path_steps, lists ? 1U : 0U};
 }
 
 /// Returns a copy of the first bytes of a buffer to the beginning of another one.
 [[nodiscard]] inline GpuCopy copy_of(const GpuBuffer& from, const GpuBuffer& to, std::size_t bytes) {
   return {from.get(), to.get(), {0, 0, bytes}};
+}
+
+/// Adds what a batch did.
+inline void add(const GpuStatistics& of_batch, GpuStatistics& all) {
+  all.paths += of_batch.paths;
+  all.misses += of_batch.misses;
+  all.hits += of_batch.hits;
+  all.rounded += of_batch.rounded;
+  all.rounded_by_host += of_batch.rounded_by_host;
+  all.undecided += of_batch.undecided;
+  all.dispatches += of_batch.dispatches;
 }
 
 }  // namespace surehit::detail

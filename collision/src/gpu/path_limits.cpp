@@ -19,12 +19,14 @@ bool may_be_flushed(float limit) {
   return size != 0 && size < std::bit_cast<std::uint32_t>(std::numeric_limits<float>::min());
 }
 
-}  // namespace
-
-PathLimits path_limits(PathKind kind, const QueryOptionsf& options) {
+/// Returns what the options of meshes and scenes have in common.
+template <typename Options>
+PathLimits common_limits(PathKind kind, const Options& options) {
   PathLimits limits = {};
   limits.mask = options.mask;
   limits.ignored = options.ignored_triangle;
+  limits.instance_mask = ~std::uint32_t{0};
+  limits.ignored_instance = no_instance;
   if (options.culling == Culling::back) limits.flags |= PathLimits::keeps_front;
   if (options.culling == Culling::front) limits.flags |= PathLimits::keeps_back;
   const PathRange<float> range(kind, options);
@@ -40,6 +42,17 @@ PathLimits path_limits(PathKind kind, const QueryOptionsf& options) {
   limits.det_last = weights.det_last;
   limits.first = std::max(range.first, -beyond);
   limits.last = std::min(range.last, beyond);
+  return limits;
+}
+
+}  // namespace
+
+PathLimits path_limits(PathKind kind, const QueryOptionsf& options) { return common_limits(kind, options); }
+
+PathLimits path_limits(PathKind kind, const SceneQueryOptionsf& options, const CommittedScene<float>& scene) {
+  PathLimits limits = common_limits(kind, options);
+  limits.instance_mask = options.instance_mask;
+  if (scene.find(options.ignored_instance) != nullptr) limits.ignored_instance = options.ignored_instance.index;
   return limits;
 }
 

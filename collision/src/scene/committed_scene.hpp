@@ -61,6 +61,10 @@ struct CommittedScene {
   const SceneSearches<Scalar>* searches = best_scene_searches<Scalar>();
   std::atomic<std::size_t> shares = 1;
 
+  /// Returns what a scene or a snapshot has committed.
+  [[nodiscard]] static const CommittedScene& of(const SceneQueries<Scalar>& queries) noexcept {
+    return queries.committed();
+  }
   /// Returns true if anyone else has a share. What others have read before they gave theirs up comes before this.
   [[nodiscard]] bool is_shared() const noexcept { return shares.load(std::memory_order_acquire) > 1; }
   /// Returns the instance of an id, or null if the id is stale.

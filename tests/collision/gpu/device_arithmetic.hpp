@@ -105,7 +105,7 @@ void on_every_device(const Work& work) {
   DeviceFloat::flushes = false;
 }
 
-/// The arithmetic of `hit_rounding.glsl`, on a device that rounds as `DeviceFloat` says.
+/// The arithmetic of the shaders, as far as it is C++ too, on a device that rounds as `DeviceFloat` says.
 struct DeviceArithmetic {
   using real = DeviceFloat;
   using uint = std::uint32_t;
@@ -119,6 +119,8 @@ struct DeviceArithmetic {
 
 #define precise
 #include "gpu/hit_rounding.glsl"
+#include "gpu/placed_path.glsl"
+#include "gpu/placed_rounding.glsl"
 #undef precise
 };
 

@@ -10,6 +10,7 @@
 #include "support/pair_text.hpp"
 #include "support/same_bits.hpp"
 #include "surehit/gpu.hpp"
+#include "surehit/gpu_scene.hpp"
 
 namespace surehit::test {
 
@@ -25,19 +26,36 @@ inline GpuDevice any_gpu() {
 #define SUREHIT_SKIP_WITHOUT(device) \
   if (!(device).is_open()) GTEST_SKIP() << "no Vulkan device here"
 
+/// What batches of a collider or of a scene have.
+template <typename Host>
+struct BatchesOf {
+  using Hit = SceneHitf;
+  using Options = SceneBatchOptionsf;
+};
+template <>
+struct BatchesOf<Colliderf> {
+  using Hit = Hitf;
+  using Options = BatchOptionsf;
+};
+
 /// Asks the device and the host in batches, and expects the same bits. Returns the number of hits.
-inline std::size_t expect_same_as_host(const GpuCollider& on_gpu, const Colliderf& collider, const PathSpanf& paths,
-                                       const BatchOptionsf& options = {}, GpuStatistics* statistics = nullptr) {
-  const Hitf unset{.t = 7, .triangle = 7};
-  std::vector<Hitf> hits(paths.size(), unset);
-  std::vector<Hitf> expected(paths.size(), unset);
+template <typename OnGpu, typename Host>
+std::size_t expect_same_as_host(const OnGpu& on_gpu, const Host& host, const PathSpanf& paths,
+                                const typename BatchesOf<Host>::Options& options = {},
+                                GpuStatistics* statistics = nullptr) {
+  using HitOfHost = typename BatchesOf<Host>::Hit;
+  HitOfHost unset;
+  unset.t = 7;
+  unset.triangle = 7;
+  std::vector<HitOfHost> hits(paths.size(), unset);
+  std::vector<HitOfHost> expected(paths.size(), unset);
   std::vector<std::uint8_t> blocked(paths.size(), 7);
   std::vector<std::uint8_t> expected_blocked(paths.size(), 7);
   const GpuBatchOptions gpu = {.statistics = statistics};
   EXPECT_TRUE(on_gpu.first_hits(paths, hits, options, gpu));
   EXPECT_TRUE(on_gpu.any_hits(paths, blocked, options, gpu));
-  collider.first_hits(paths, expected, options);
-  collider.any_hits(paths, expected_blocked, options);
+  host.first_hits(paths, expected, options);
+  host.any_hits(paths, expected_blocked, options);
   std::size_t hit_count = 0;
   std::size_t different = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -52,8 +70,9 @@ inline std::size_t expect_same_as_host(const GpuCollider& on_gpu, const Collider
 }
 
 /// Paths of each kind, and options of their own for them.
+template <typename Options = QueryOptionsf>
 struct PathsOfKinds {
-  void add(const Pathf& path, const QueryOptionsf& its_options = {}) {
+  void add(const Pathf& path, const Options& its_options = {}) {
     if (path.kind == PathKind::segment) segments.push_back({path.start, path.toward});
     if (path.kind == PathKind::ray) rays.push_back({path.start, path.toward});
     if (path.kind == PathKind::line) lines.push_back({path.start, path.toward});
@@ -65,12 +84,12 @@ struct PathsOfKinds {
     return lines;
   }
   /// Asks about all of them with their own options. Returns the number of hits.
-  std::size_t expect_same_as_host(const GpuCollider& on_gpu, const Colliderf& collider,
-                                  GpuStatistics* statistics = nullptr) const {
+  template <typename OnGpu, typename Host>
+  std::size_t expect_same_as_host(const OnGpu& on_gpu, const Host& host, GpuStatistics* statistics = nullptr) const {
     std::size_t hits = 0;
     for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
-      hits += test::expect_same_as_host(on_gpu, collider, of(kind),
-                                        {.path_options = options[static_cast<std::size_t>(kind)]}, statistics);
+      const std::vector<Options>& its_options = options[static_cast<std::size_t>(kind)];
+      hits += test::expect_same_as_host(on_gpu, host, of(kind), {.path_options = its_options}, statistics);
     }
     return hits;
   }
@@ -78,7 +97,7 @@ struct PathsOfKinds {
   std::vector<Segmentf> segments;
   std::vector<Rayf> rays;
   std::vector<Linef> lines;
-  std::vector<QueryOptionsf> options[3];
+  std::vector<Options> options[3];
 };
 
 }  // namespace surehit::test

@@ -51,6 +51,13 @@ TEST_F(GpuBatchesTest, surehit_query_writes_the_same) {
     EXPECT_GT(on_host.output.size(), 2000U);
     expect_output(question + gpu, on_host.output);
   }
+  write("scene.txt", "squares.obj 1 0 0 0.1 0 1 0 0.2 0 0 1 0.3\nsquares.obj 0 -1 0 0 1 0 0 0 0 0 2 0\n");
+  const std::string scene = " --scene scene.txt paths.txt --path line --ignore-instance 1 --ignore-triangle 0";
+  for (const std::string& question : {"first" + scene, "any" + scene}) {
+    const Outcome on_host = run(question);
+    EXPECT_GT(on_host.output.size(), 2000U) << on_host.error;
+    expect_output(question + gpu, on_host.output);
+  }
   const Outcome counted = run("any squares.obj paths.txt --statistics" + gpu);
   EXPECT_NE(counted.error.find("\ngpu_paths,1000,,\ngpu_left_to_host,"), std::string::npos) << counted.error;
 }

@@ -97,7 +97,7 @@ TEST_F(GpuBufferBatchTest, pairs_of_each_family) {
     SCOPED_TRACE(name_of(family));
     Random random(41);
     GeneratedMesh<float> mesh;
-    PathsOfKinds paths;
+    PathsOfKinds<> paths;
     for (std::size_t i = 0; i < 100; ++i) {
       const auto [segment, triangle] = draw_pair<float>(family, random);
       mesh.add(triangle);

@@ -39,7 +39,7 @@ class GpuColliderTest : public testing::Test {
     const Colliderf collider(mesh, {.masks = masks});
     const GpuCollider on_gpu(device, collider);
     PathDrawer<float> drawer(mesh, 5);
-    PathsOfKinds drawn;
+    PathsOfKinds<> drawn;
     for (std::size_t i = 0; i < paths; ++i) {
       Pathf path = i % 4 == 3 ? drawer.draw_axis_parallel() : drawer.draw();
       if (i % 7 == 6) path = drawer.draw_from_afar(std::ldexp(1.0F, static_cast<int>(i % 50)));
@@ -70,7 +70,7 @@ TEST_F(GpuColliderTest, one_triangle_and_one_path_of_each_family) {
       mesh.add(triangle);
       const Colliderf collider(mesh.view());
       const GpuCollider on_gpu(device, collider);
-      PathsOfKinds paths;
+      PathsOfKinds<> paths;
       for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
         const Pathf path = path_along(segment, kind);
         const auto hit = intersect(path, triangle);
@@ -89,7 +89,7 @@ TEST_F(GpuColliderTest, many_paths_and_many_triangles_of_each_family) {
     SCOPED_TRACE(name_of(family));
     Random random(12);
     GeneratedMesh<float> mesh;
-    PathsOfKinds paths;
+    PathsOfKinds<> paths;
     for (std::size_t i = 0; i < 400; ++i) {
       const auto [segment, triangle] = draw_pair<float>(family, random);
       mesh.add(triangle);
@@ -203,7 +203,7 @@ TEST_F(GpuColliderTest, answers_are_the_published_ones) {
   const Colliderf collider = hard.collider();
   const GpuCollider on_gpu(device, collider);
   const Questions<float>& questions = hard.questions;
-  PathsOfKinds paths;
+  PathsOfKinds<> paths;
   for (std::size_t id = 0; id < questions.all.size(); ++id) paths.add(questions.all[id].path, questions.options_of(id));
   std::vector<Hitf> first[3];
   std::vector<std::uint8_t> any[3];
@@ -297,7 +297,7 @@ TEST_F(GpuRoomTest, paths_of_any_size) {
   constexpr float largest = std::numeric_limits<float>::max();
   constexpr float least = std::numeric_limits<float>::denorm_min();
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  PathsOfKinds all;
+  PathsOfKinds<> all;
   for (const float x : {0.0F, least, 1e-30F, 1.0F, 1e10F, 1e20F, 1e30F, largest, infinity, std::nanf("")}) {
     for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
       const bool is_segment = kind == PathKind::segment;

@@ -2,206 +2,30 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <limits>
-#include <map>
+#include <memory>
 #include <new>
-#include <set>
 #include <span>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "device_arithmetic.hpp"
+#include "faulty_vulkan.hpp"
 #include "gpu/device_answers.hpp"
 #include "gpu/gpu_device_state.hpp"
 #include "gpu_answers.hpp"
-#include "roundings.spv.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
-#include "tree_walk.spv.hpp"
 
 namespace surehit::test {
 namespace {
 
-using detail::DeviceReport;
 using detail::GpuDeviceState;
-using detail::RoundingCase;
-using detail::RoundingResult;
 using Reason = GpuError::Reason;
-
-/// A device that has all that is needed.
-DeviceReport good_report() {
-  DeviceReport report;
-  report.properties.apiVersion = VK_API_VERSION_1_1;
-  report.properties.limits.maxComputeWorkGroupInvocations = 128;
-  report.properties.limits.maxComputeWorkGroupSize[0] = 128;
-  report.properties.limits.maxComputeWorkGroupCount[0] = 65535;
-  report.properties.limits.maxPerStageDescriptorStorageBuffers = 8;
-  report.memory.memoryTypeCount = 2;
-  report.memory.memoryTypes[0].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-  report.memory.memoryTypes[1].propertyFlags =
-      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-  report.families.resize(2);
-  report.families[0] = {VK_QUEUE_TRANSFER_BIT, 1, 0, {}};
-  report.families[1] = {VK_QUEUE_COMPUTE_BIT, 1, 0, {}};
-  return report;
-}
-
-TEST(GpuNeedsTest, a_device_that_lacks_something_is_refused_with_the_reason) {
-  EXPECT_EQ(detail::missing_of(good_report()), "");
-  EXPECT_EQ(detail::computing_family(good_report()), 1U);
-  const auto missing = [](const auto& change) {
-    DeviceReport report = good_report();
-    change(report);
-    return detail::missing_of(report);
-  };
-  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.apiVersion = VK_API_VERSION_1_0; }), "Vulkan 1.1");
-  EXPECT_EQ(missing([](DeviceReport& report) { report.families.pop_back(); }), "a queue that computes");
-  EXPECT_EQ(missing([](DeviceReport& report) { report.families[1].queueCount = 0; }), "a queue that computes");
-  EXPECT_EQ(missing([](DeviceReport& report) { report.memory.memoryTypeCount = 1; }), "memory that the host sees");
-  EXPECT_EQ(missing([](DeviceReport& report) { report.memory.memoryTypes[0].propertyFlags = 0; }), "memory of its own");
-  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxComputeWorkGroupInvocations = 63; }),
-            "work groups of 64 threads");
-  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxPerStageDescriptorStorageBuffers = 5; }),
-            "six buffers for a shader");
-}
-
-/// What a simulated device computes.
-std::vector<RoundingResult> rounded_on_device(const std::vector<RoundingCase>& cases) {
-  DeviceArithmetic device;
-  std::vector<RoundingResult> results;
-  for (const RoundingCase& numbers : cases) {
-    const DeviceFloat a = numbers[0];
-    const DeviceFloat b = numbers[1];
-    const DeviceFloat c = numbers[2];
-    const auto sum = device.sum_of(a, b);
-    const auto product = device.product_of(a, b);
-    results.push_back({(a + b).value(), (a - b).value(), (a * b).value(), (a / b).value(), (a * b + c).value(),
-                       sum.high.value(), sum.low.value(), product.high.value(), product.low.value()});
-  }
-  return results;
-}
-
-TEST(GpuRoundingTest, any_device_that_rounds_as_vulkan_says_will_do) {
-  const std::vector<RoundingCase> cases = detail::rounding_cases();
-  on_every_device([&] { EXPECT_EQ(detail::rounding_fault(cases, rounded_on_device(cases)).value_or(""), ""); });
-}
-
-TEST(GpuRoundingTest, a_device_that_rounds_otherwise_is_refused) {
-  const std::vector<RoundingCase> cases = detail::rounding_cases();
-  const auto fault = [&](const auto& change) {
-    std::vector<RoundingResult> results = rounded_on_device(cases);
-    for (std::size_t i = 0; i < cases.size(); ++i) change(cases[i], results[i]);
-    return detail::rounding_fault(cases, results).value_or("");
-  };
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(fault([](const RoundingCase&, RoundingResult&) {}), "");
-  // One ulp from the nearest number is not always a neighbour.
-  EXPECT_NE(fault([](const RoundingCase&, RoundingResult& x) { x[0] = std::nextafter(x[0], infinity); }), "");
-  EXPECT_NE(fault([](const RoundingCase&, RoundingResult& x) { x[1] = std::nextafter(x[1], -infinity); }), "");
-  EXPECT_NE(fault([](const RoundingCase&, RoundingResult& x) { x[2] = std::nextafter(x[2], infinity); }), "");
-  // A quotient may be off by 2.5 ulp, but not by more.
-  const auto move = [](float x, int steps) {
-    for (; steps > 0; --steps) x = std::nextafter(x, infinity);
-    return x;
-  };
-  EXPECT_EQ(fault([&](const RoundingCase&, RoundingResult& x) { x[3] = move(x[3], 1); }), "");
-  EXPECT_NE(fault([&](const RoundingCase&, RoundingResult& x) { x[3] = move(x[3], 4); }), "");
-  for (const float lost : {0.0F, infinity, std::nanf("")}) {
-    EXPECT_NE(fault([&](const RoundingCase&, RoundingResult& x) { x[3] = lost; }), "") << lost;
-  }
-  const std::string fused =
-      fault([](const RoundingCase& of, RoundingResult& x) { x[4] = std::fma(of[0], of[1], of[2]); });
-  EXPECT_EQ(fused.find("it computes the product and the sum of "), 0U) << fused;
-  // A device that simplifies (x + y) - x to y finds nothing in the low part of a sum, and NaN is no low part.
-  for (const float lost : {0.0F, std::nanf("")}) {
-    const std::string sum = fault([&](const RoundingCase&, RoundingResult& x) { x[6] = lost; });
-    EXPECT_EQ(sum.find("it computes the low part of the sum of "), 0U) << sum;
-    const std::string product = fault([&](const RoundingCase&, RoundingResult& x) { x[8] = lost; });
-    EXPECT_EQ(product.find("it computes the low part of the product of "), 0U) << product;
-  }
-  EXPECT_NE(fault([&](const RoundingCase&, RoundingResult& x) { x[8] = move(x[8], 1); }), "");
-  // Denormals may be lost.
-  const auto flushed = [](float x) { return std::fabs(x) < std::numeric_limits<float>::min() ? 0 : x; };
-  EXPECT_EQ(fault([&](const RoundingCase& of, RoundingResult& x) {
-              const float a = flushed(of[0]);
-              const float b = flushed(of[1]);
-              x[0] = flushed(a + b);
-              x[1] = flushed(a - b);
-              x[2] = flushed(a * b);
-              x[4] = flushed(flushed(a * b) + flushed(of[2]));
-            }),
-            "");
-  EXPECT_NE(detail::rounding_fault(cases, {}).value_or(""), "");
-}
-
-/// All sums, differences, products and quotients of floats that may be fused with another one (G1).
-std::size_t fusible(std::span<const std::uint32_t> shader, std::size_t& all) {
-  constexpr std::uint32_t decorate = 71;
-  constexpr std::uint32_t no_contraction = 42;
-  const std::set<std::uint32_t> arithmetic = {129, 131, 133, 136, 140, 141, 142, 143, 144, 145, 146, 148};
-  std::set<std::uint32_t> kept;
-  std::vector<std::uint32_t> results;
-  for (std::size_t at = 5; at < shader.size(); at += shader[at] >> 16) {
-    const std::uint32_t operation = shader[at] & 0xffff;
-    if (operation == decorate && shader[at + 2] == no_contraction) kept.insert(shader[at + 1]);
-    if (arithmetic.contains(operation)) results.push_back(shader[at + 2]);
-  }
-  all = results.size();
-  std::size_t count = 0;
-  for (const std::uint32_t result : results) count += kept.contains(result) ? 0 : 1;
-  return count;
-}
-
-TEST(GpuShaderTest, no_operation_may_be_fused) {
-  std::size_t all = 0;
-  EXPECT_EQ(fusible(tree_walk_spirv, all), 0U);
-  EXPECT_GT(all, 60U);
-  EXPECT_EQ(fusible(roundings_spirv, all), 0U);
-  EXPECT_GE(all, 20U);  // Six operations, 3 of a sum in two floats, and 11 of a product.
-}
-
-TEST(GpuLoaderTest, without_a_loader_there_is_an_error) {
-  GpuDeviceState state;
-  const auto error = state.start("libvulkan-that-is-not-there.so.1");
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->reason, Reason::no_loader);
-  EXPECT_NE(std::string(error->what()).find("libvulkan-that-is-not-there.so.1"), std::string::npos);
-  GpuDeviceState strange;
-  const auto no_vulkan = strange.start("libc.so.6");
-  ASSERT_TRUE(no_vulkan);
-  EXPECT_EQ(no_vulkan->reason, Reason::no_loader);
-}
-
-TEST(GpuLoaderTest, without_a_driver_there_is_an_error) {
-  setenv("VK_ICD_FILENAMES", "/no_driver.json", 1);
-  setenv("VK_DRIVER_FILES", "/no_driver.json", 1);
-  GpuDevice device;
-  const GpuResult opened = device.try_open({.takes_software = true});
-  ASSERT_FALSE(opened);
-  const bool has_loader = opened.error().reason != Reason::no_loader;
-  EXPECT_EQ(opened.error().reason, has_loader ? Reason::no_device : Reason::no_loader) << opened.error().what();
-  EXPECT_FALSE(device.is_open());
-  unsetenv("VK_ICD_FILENAMES");
-  unsetenv("VK_DRIVER_FILES");
-}
-
-TEST(GpuLoaderTest, each_failure_has_its_reason) {
-  const auto reason = [](VkResult result) { return detail::error_of(result, "while testing")->reason; };
-  EXPECT_FALSE(detail::error_of(VK_SUCCESS, ""));
-  EXPECT_EQ(reason(VK_ERROR_OUT_OF_HOST_MEMORY), Reason::out_of_memory);
-  EXPECT_EQ(reason(VK_ERROR_INCOMPATIBLE_DRIVER), Reason::no_device);
-  EXPECT_EQ(reason(VK_TIMEOUT), Reason::device_lost);
-  EXPECT_EQ(reason(VK_ERROR_UNKNOWN), Reason::failed);
-  EXPECT_STREQ(detail::error_of(VK_ERROR_DEVICE_LOST, "while testing")->what(),
-               "the device was lost while testing; it must be opened anew");
-}
 
 class GpuDeviceTest : public testing::Test {
  protected:
@@ -248,55 +72,6 @@ TEST_F(GpuDeviceTest, devices_are_listed_and_opened_by_name) {
   const GpuResult uploaded = on_gpu.try_upload(other, collider);
   ASSERT_FALSE(uploaded);
   EXPECT_EQ(uploaded.error().reason, Reason::no_device);
-}
-
-/// Functions of Vulkan that fail after some calls.
-int calls_left = 0;
-PFN_vkAllocateMemory allocate = nullptr;
-VKAPI_ATTR VkResult VKAPI_CALL no_memory(VkDevice device, const VkMemoryAllocateInfo* info,
-                                         const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
-  if (calls_left-- > 0) return allocate(device, info, callbacks, memory);
-  std::memset(memory, 0x55, sizeof *memory);  // Vulkan leaves it undefined.
-  return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-}
-PFN_vkQueueSubmit submit = nullptr;
-VkResult submit_result = VK_SUCCESS;
-VKAPI_ATTR VkResult VKAPI_CALL no_submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* work, VkFence fence) {
-  return calls_left-- > 0 ? submit(queue, count, work, fence) : submit_result;
-}
-
-PFN_vkWaitForFences wait_for = nullptr;
-VkResult wait_result = VK_SUCCESS;
-int failures_left = 0;
-VKAPI_ATTR VkResult VKAPI_CALL no_wait(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
-                                       std::uint64_t timeout) {
-  if (calls_left-- > 0 || failures_left-- <= 0) return wait_for(device, count, fences, all, timeout);
-  if (wait_result == VK_SUCCESS) throw std::bad_alloc();
-  return wait_result;
-}
-PFN_vkResetFences reset = nullptr;
-VKAPI_ATTR VkResult VKAPI_CALL no_reset(VkDevice device, std::uint32_t count, const VkFence* fences) {
-  return calls_left-- > 0 ? reset(device, count, fences) : VK_ERROR_OUT_OF_DEVICE_MEMORY;
-}
-GpuDeviceState* faulty = nullptr;
-detail::DeviceHit faulty_answer = {};
-VKAPI_ATTR VkResult VKAPI_CALL faulty_answers(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
-                                              std::uint64_t timeout) {
-  const VkResult result = wait_for(device, count, fences, all, timeout);
-  for (const detail::GpuSlot& slot : faulty->slots) {
-    if (slot.fence != *fences) continue;
-    for (std::size_t i = 0; i < 1000; ++i) {
-      std::memcpy(slot.host_answers.data() + i * sizeof faulty_answer, &faulty_answer, sizeof faulty_answer);
-    }
-  }
-  return result;
-}
-PFN_vkFreeMemory give_back = nullptr;
-int freed = 0;
-VKAPI_ATTR void VKAPI_CALL counted_free(VkDevice device, VkDeviceMemory memory,
-                                        const VkAllocationCallbacks* callbacks) {
-  ++freed;
-  give_back(device, memory, callbacks);
 }
 
 TEST_F(GpuDeviceTest, an_upload_without_memory_changes_nothing) {
@@ -463,16 +238,17 @@ TEST_F(GpuDeviceTest, faulty_answers_of_a_device_are_left_to_the_host) {
   constexpr std::uint32_t odd = 0xfffffffd;
   for (const auto& [triangle, side] : {std::pair(beyond_the_last, 1U), std::pair(odd, 2U), std::pair(0U, 0U),
                                        std::pair(0U, 3U), std::pair(0U, 4U), std::pair(0U, odd)}) {
-    faulty_answer = {0.5F, 0.5F, 0.5F, triangle, side};
+    set_faulty_answer(detail::DeviceHit{0.5F, 0.5F, 0.5F, triangle, side});
     EXPECT_TRUE(on_gpu.first_hits(paths, hits));
     EXPECT_EQ(hits, expected);
   }
   const auto number = std::bit_cast<float>(odd);
-  faulty_answer = {number, number, number, odd, odd};  // Words that are no answer to `any_hits` either.
+  set_faulty_answer(
+      detail::DeviceHit{number, number, number, odd, odd});  // Words that are no answer to `any_hits` either.
   EXPECT_TRUE(on_gpu.any_hits(paths, blocked));
   EXPECT_EQ(blocked, expected_blocked);
   // Nearly all paths miss the first triangle. The host finds out where it rounds.
-  faulty_answer = {0, 0, 0, 0, 1 + detail::DeviceHit::is_not_rounded};
+  set_faulty_answer(detail::DeviceHit{0, 0, 0, 0, 1 + detail::DeviceHit::is_not_rounded});
   EXPECT_TRUE(on_gpu.first_hits(paths, hits));
   EXPECT_EQ(hits, expected);
   state().vulkan.WaitForFences = wait_for;
@@ -515,6 +291,16 @@ TEST(GpuValidationTest, the_validation_layer_has_nothing_to_say) {
       on_gpu.update();
       const std::vector<Segmentf> paths(150'000, {{0.25F, 0.5F, 1}, {0.25F, 0.5F, -1}});
       expect_same_as_host(on_gpu, collider, paths);
+      Scenef scene;
+      const auto shared = std::make_shared<Colliderf>(std::move(collider));
+      const InstanceId id = scene.add(shared);
+      scene.commit();
+      GpuScene scene_on_gpu(device, scene.snapshot());
+      expect_same_as_host(scene_on_gpu, scene, paths);
+      scene.set_pose(id, Posef::translated({0.125F, 0, 0.25F}));
+      scene.commit();
+      scene_on_gpu.update(scene.snapshot());
+      expect_same_as_host(scene_on_gpu, scene, paths);
     }
   }
   unsetenv("VK_INSTANCE_LAYERS");

@@ -1,0 +1,161 @@
+#include "surehit/gpu_scene.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gpu/gpu_batch.hpp"
+#include "gpu/gpu_scene_state.hpp"
+#include "gpu/scene_tree.hpp"
+#include "gpu/triangle_tree.hpp"
+#include "support/floating_point_environment.hpp"
+
+namespace surehit {
+namespace {
+
+using detail::ColliderState;
+using detail::CommittedScene;
+using detail::DeviceMesh;
+using detail::GpuDeviceState;
+using detail::GpuSceneState;
+
+/// The trees of some meshes, one after the other.
+struct JoinedTrees {
+  /// Adds the tree of a collider. Returns where its root is.
+  std::uint32_t add(const Colliderf& collider) {
+    const detail::TriangleTree tree(collider);
+    if (tree.nodes.empty()) return DeviceMesh::no_root;
+    const auto root = static_cast<std::uint32_t>(nodes.size());
+    const auto first_triangle = static_cast<std::uint32_t>(triangles.size());
+    for (detail::TreeNode node : tree.nodes) {
+      node.first += node.count == 0 ? root : first_triangle;
+      nodes.push_back(node);
+    }
+    triangles.insert(triangles.end(), tree.triangles.begin(), tree.triangles.end());
+    return root;
+  }
+
+  std::vector<detail::TreeNode> nodes;
+  std::vector<detail::TreeTriangle> triangles;
+};
+
+/// Returns the colliders of all instances that have triangles, sorted by their versions and each once.
+std::vector<std::pair<const ColliderState<float>*, const Colliderf*>> colliders_of(const CommittedScene<float>& scene) {
+  std::vector<std::pair<const ColliderState<float>*, const Colliderf*>> colliders;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    if (!scene.instances[i].is_in_tree) continue;
+    colliders.emplace_back(scene.instances[i].mesh.own, static_cast<const Colliderf*>(scene.kept[i].collider.get()));
+  }
+  const auto versions = [](const auto& one) { return std::pair(one.first->version, one.first->mask_version); };
+  std::sort(colliders.begin(), colliders.end(),
+            [&](const auto& x, const auto& y) { return versions(x) < versions(y); });
+  colliders.erase(std::unique(colliders.begin(), colliders.end(),
+                              [&](const auto& x, const auto& y) { return versions(x) == versions(y); }),
+                  colliders.end());
+  return colliders;
+}
+
+/// Uploads a scene. Meshes that `before` has on the same device are not uploaded again.
+GpuResult upload(const std::shared_ptr<GpuDeviceState>& device, const SceneSnapshotf& scene,
+                 const GpuSceneState* before, std::shared_ptr<GpuSceneState>& result) {
+  const FloatingPointEnvironment environment;
+  auto state = std::make_shared<GpuSceneState>();
+  state->device = device;
+  state->scene = scene;
+  const CommittedScene<float>& committed = state->committed();
+  for (const auto& instance : committed.instances) {
+    if (!instance.is_in_tree || instance.mesh.own->version == instance.mesh.version) continue;
+    return GpuError(GpuError::Reason::not_updated, "a collider was rebuilt since the scene was committed");
+  }
+  const auto colliders = colliders_of(committed);
+  for (const auto& [its_state, collider] : colliders) state->colliders.push_back(its_state);
+  const bool keeps_meshes =
+      before != nullptr && std::all_of(state->colliders.begin(), state->colliders.end(), [&](const auto* collider) {
+        return detail::find_mesh(before->meshes, *collider) != nullptr;
+      });
+  JoinedTrees trees;
+  if (keeps_meshes) {
+    state->meshes = before->meshes;
+    state->mesh->nodes = before->mesh->nodes;
+    state->mesh->triangles = before->mesh->triangles;
+  } else {
+    for (const auto& [its_state, collider] : colliders) {
+      state->meshes.push_back({{its_state->version, its_state->mask_version}, trees.add(*collider)});
+    }
+  }
+  const detail::SceneTree tree(committed, state->meshes);
+  state->is_on_device = !tree.nodes.empty();
+  GpuDeviceState& on = *device;
+  const std::lock_guard lock(on.mutex);
+  if (on.is_lost) return GpuError(GpuError::Reason::device_lost, "the device was lost; it must be opened anew");
+  if (auto error = on.prepare_scenes()) return *error;
+  detail::GpuMesh& mesh = *state->mesh;
+  detail::GpuWork work(on, state->mesh);
+  if (!keeps_meshes) {
+    if (auto error = on.upload(std::as_bytes(std::span(trees.nodes)), "the nodes of meshes", *mesh.nodes)) {
+      return *error;
+    }
+    if (auto error = on.upload(std::as_bytes(std::span(trees.triangles)), "the triangles of meshes", *mesh.triangles)) {
+      return *error;
+    }
+  }
+  if (auto error = on.upload(std::as_bytes(std::span(tree.nodes)), "the nodes of a scene", mesh.scene_nodes)) {
+    return *error;
+  }
+  if (auto error = on.upload(std::as_bytes(std::span(tree.instances)), "the instances of a scene", mesh.instances)) {
+    return *error;
+  }
+  work.end();
+  result = std::move(state);
+  return {};
+}
+
+/// Runs a batch, unless a collider has changed since the scene was uploaded.
+template <typename Answer>
+GpuBatchResult run(const GpuSceneState* state, const PathSpanf& paths, std::span<Answer> answers,
+                   const SceneBatchOptionsf& options, const GpuBatchOptions& gpu) {
+  const FloatingPointEnvironment environment;
+  GpuBatchResult refused;
+  if (state == nullptr) {
+    refused.error = GpuError(GpuError::Reason::not_updated, "no scene was uploaded");
+    return refused;
+  }
+  for (const ColliderState<float>* collider : state->colliders) {
+    if (detail::find_mesh(state->meshes, *collider) != nullptr) continue;
+    refused.error = GpuError(GpuError::Reason::not_updated,
+                             "a collider was rebuilt or has other masks since the scene was uploaded; update it first");
+    return refused;
+  }
+  return detail::GpuBatch<GpuSceneState, Answer>(*state, paths, answers, options, gpu).run();
+}
+
+}  // namespace
+
+GpuResult GpuScene::try_upload(const GpuDevice& device, const SceneSnapshotf& scene) {
+  if (!device.is_open()) return GpuError(GpuError::Reason::no_device, "the device is not open");
+  return upload(GpuDeviceState::of(device), scene, nullptr, state_);
+}
+
+GpuResult GpuScene::try_update(const SceneSnapshotf& scene) {
+  if (state_ == nullptr) return GpuError(GpuError::Reason::not_updated, "no scene was uploaded");
+  return upload(state_->device, scene, state_.get(), state_);
+}
+
+GpuBatchResult GpuScene::first_hits(const PathSpanf& paths, std::span<SceneHitf> hits,
+                                    const SceneBatchOptionsf& options, const GpuBatchOptions& gpu) const {
+  return run(state_.get(), paths, hits, options, gpu);
+}
+
+GpuBatchResult GpuScene::any_hits(const PathSpanf& paths, std::span<std::uint8_t> blocked,
+                                  const SceneBatchOptionsf& options, const GpuBatchOptions& gpu) const {
+  return run(state_.get(), paths, blocked, options, gpu);
+}
+
+std::size_t GpuScene::memory_bytes() const noexcept { return state_ == nullptr ? 0 : state_->mesh->size(); }
+
+}  // namespace surehit

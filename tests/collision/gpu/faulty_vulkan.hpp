@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <new>
+#include <span>
+#include <vector>
+
+#include "gpu/gpu_device_state.hpp"
+
+namespace surehit::test {
+
+/// Functions of Vulkan that fail after some calls.
+inline int calls_left = 0;
+inline PFN_vkAllocateMemory allocate = nullptr;
+inline VKAPI_ATTR VkResult VKAPI_CALL no_memory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                                const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+  if (calls_left-- > 0) return allocate(device, info, callbacks, memory);
+  std::memset(memory, 0x55, sizeof *memory);  // Vulkan leaves it undefined.
+  return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
+inline PFN_vkQueueSubmit submit = nullptr;
+inline VkResult submit_result = VK_SUCCESS;
+inline VKAPI_ATTR VkResult VKAPI_CALL no_submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* work,
+                                                VkFence fence) {
+  return calls_left-- > 0 ? submit(queue, count, work, fence) : submit_result;
+}
+
+inline PFN_vkWaitForFences wait_for = nullptr;
+inline VkResult wait_result = VK_SUCCESS;
+inline int failures_left = 0;
+inline VKAPI_ATTR VkResult VKAPI_CALL no_wait(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
+                                              std::uint64_t timeout) {
+  if (calls_left-- > 0 || failures_left-- <= 0) return wait_for(device, count, fences, all, timeout);
+  if (wait_result == VK_SUCCESS) throw std::bad_alloc();
+  return wait_result;
+}
+inline PFN_vkResetFences reset = nullptr;
+inline VKAPI_ATTR VkResult VKAPI_CALL no_reset(VkDevice device, std::uint32_t count, const VkFence* fences) {
+  return calls_left-- > 0 ? reset(device, count, fences) : VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
+inline detail::GpuDeviceState* faulty = nullptr;
+/// It is written over the answers to the first 1000 paths.
+inline std::vector<std::byte> faulty_answer;
+inline VKAPI_ATTR VkResult VKAPI_CALL faulty_answers(VkDevice device, std::uint32_t count, const VkFence* fences,
+                                                     VkBool32 all, std::uint64_t timeout) {
+  const VkResult result = wait_for(device, count, fences, all, timeout);
+  for (const detail::GpuSlot& slot : faulty->slots) {
+    if (slot.fence != *fences) continue;
+    for (std::size_t i = 0; i < 1000; ++i) {
+      std::memcpy(slot.host_answers.data() + i * faulty_answer.size(), faulty_answer.data(), faulty_answer.size());
+    }
+  }
+  return result;
+}
+inline PFN_vkFreeMemory give_back = nullptr;
+inline int freed = 0;
+inline VKAPI_ATTR void VKAPI_CALL counted_free(VkDevice device, VkDeviceMemory memory,
+                                               const VkAllocationCallbacks* callbacks) {
+  ++freed;
+  give_back(device, memory, callbacks);
+}
+
+/// Lets a faulty device answer with this.
+template <typename Answer>
+void set_faulty_answer(const Answer& answer) {
+  const auto bytes = std::as_bytes(std::span(&answer, 1));
+  faulty_answer.assign(bytes.begin(), bytes.end());
+}
+
+}  // namespace surehit::test

@@ -1,0 +1,204 @@
+// What the library asks of a device, of its driver and of its shaders. No device is asked.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "device_arithmetic.hpp"
+#include "gpu/device_needs.hpp"
+#include "gpu/gpu_device_state.hpp"
+#include "gpu/rounding_check.hpp"
+#include "roundings.spv.hpp"
+#include "scene_walk.spv.hpp"
+#include "surehit/gpu.hpp"
+#include "tree_walk.spv.hpp"
+
+namespace surehit::test {
+namespace {
+
+using detail::DeviceReport;
+using detail::GpuDeviceState;
+using detail::RoundingCase;
+using detail::RoundingResult;
+using Reason = GpuError::Reason;
+
+/// A device that has all that is needed.
+DeviceReport good_report() {
+  DeviceReport report;
+  report.properties.apiVersion = VK_API_VERSION_1_1;
+  report.properties.limits.maxComputeWorkGroupInvocations = 128;
+  report.properties.limits.maxComputeWorkGroupSize[0] = 128;
+  report.properties.limits.maxComputeWorkGroupCount[0] = 65535;
+  report.properties.limits.maxPerStageDescriptorStorageBuffers = 8;
+  report.memory.memoryTypeCount = 2;
+  report.memory.memoryTypes[0].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+  report.memory.memoryTypes[1].propertyFlags =
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  report.families.resize(2);
+  report.families[0] = {VK_QUEUE_TRANSFER_BIT, 1, 0, {}};
+  report.families[1] = {VK_QUEUE_COMPUTE_BIT, 1, 0, {}};
+  return report;
+}
+
+TEST(GpuNeedsTest, a_device_that_lacks_something_is_refused_with_the_reason) {
+  EXPECT_EQ(detail::missing_of(good_report()), "");
+  EXPECT_EQ(detail::computing_family(good_report()), 1U);
+  const auto missing = [](const auto& change) {
+    DeviceReport report = good_report();
+    change(report);
+    return detail::missing_of(report);
+  };
+  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.apiVersion = VK_API_VERSION_1_0; }), "Vulkan 1.1");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.families.pop_back(); }), "a queue that computes");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.families[1].queueCount = 0; }), "a queue that computes");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.memory.memoryTypeCount = 1; }), "memory that the host sees");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.memory.memoryTypes[0].propertyFlags = 0; }), "memory of its own");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxComputeWorkGroupInvocations = 63; }),
+            "work groups of 64 threads");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxPerStageDescriptorStorageBuffers = 7; }),
+            "eight buffers for a shader");
+}
+
+/// What a simulated device computes.
+std::vector<RoundingResult> rounded_on_device(const std::vector<RoundingCase>& cases) {
+  DeviceArithmetic device;
+  std::vector<RoundingResult> results;
+  for (const RoundingCase& numbers : cases) {
+    const DeviceFloat a = numbers[0];
+    const DeviceFloat b = numbers[1];
+    const DeviceFloat c = numbers[2];
+    const auto sum = device.sum_of(a, b);
+    const auto product = device.product_of(a, b);
+    results.push_back({(a + b).value(), (a - b).value(), (a * b).value(), (a / b).value(), (a * b + c).value(),
+                       sum.high.value(), sum.low.value(), product.high.value(), product.low.value()});
+  }
+  return results;
+}
+
+TEST(GpuRoundingTest, any_device_that_rounds_as_vulkan_says_will_do) {
+  const std::vector<RoundingCase> cases = detail::rounding_cases();
+  on_every_device([&] { EXPECT_EQ(detail::rounding_fault(cases, rounded_on_device(cases)).value_or(""), ""); });
+}
+
+TEST(GpuRoundingTest, a_device_that_rounds_otherwise_is_refused) {
+  const std::vector<RoundingCase> cases = detail::rounding_cases();
+  const auto fault = [&](const auto& change) {
+    std::vector<RoundingResult> results = rounded_on_device(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) change(cases[i], results[i]);
+    return detail::rounding_fault(cases, results).value_or("");
+  };
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(fault([](const RoundingCase&, RoundingResult&) {}), "");
+  // One ulp from the nearest number is not always a neighbour.
+  EXPECT_NE(fault([](const RoundingCase&, RoundingResult& x) { x[0] = std::nextafter(x[0], infinity); }), "");
+  EXPECT_NE(fault([](const RoundingCase&, RoundingResult& x) { x[1] = std::nextafter(x[1], -infinity); }), "");
+  EXPECT_NE(fault([](const RoundingCase&, RoundingResult& x) { x[2] = std::nextafter(x[2], infinity); }), "");
+  // A quotient may be off by 2.5 ulp, but not by more.
+  const auto move = [](float x, int steps) {
+    for (; steps > 0; --steps) x = std::nextafter(x, infinity);
+    return x;
+  };
+  EXPECT_EQ(fault([&](const RoundingCase&, RoundingResult& x) { x[3] = move(x[3], 1); }), "");
+  EXPECT_NE(fault([&](const RoundingCase&, RoundingResult& x) { x[3] = move(x[3], 4); }), "");
+  for (const float lost : {0.0F, infinity, std::nanf("")}) {
+    EXPECT_NE(fault([&](const RoundingCase&, RoundingResult& x) { x[3] = lost; }), "") << lost;
+  }
+  const std::string fused =
+      fault([](const RoundingCase& of, RoundingResult& x) { x[4] = std::fma(of[0], of[1], of[2]); });
+  EXPECT_EQ(fused.find("it computes the product and the sum of "), 0U) << fused;
+  // A device that simplifies (x + y) - x to y finds nothing in the low part of a sum, and NaN is no low part.
+  for (const float lost : {0.0F, std::nanf("")}) {
+    const std::string sum = fault([&](const RoundingCase&, RoundingResult& x) { x[6] = lost; });
+    EXPECT_EQ(sum.find("it computes the low part of the sum of "), 0U) << sum;
+    const std::string product = fault([&](const RoundingCase&, RoundingResult& x) { x[8] = lost; });
+    EXPECT_EQ(product.find("it computes the low part of the product of "), 0U) << product;
+  }
+  EXPECT_NE(fault([&](const RoundingCase&, RoundingResult& x) { x[8] = move(x[8], 1); }), "");
+  // Denormals may be lost.
+  const auto flushed = [](float x) { return std::fabs(x) < std::numeric_limits<float>::min() ? 0 : x; };
+  EXPECT_EQ(fault([&](const RoundingCase& of, RoundingResult& x) {
+              const float a = flushed(of[0]);
+              const float b = flushed(of[1]);
+              x[0] = flushed(a + b);
+              x[1] = flushed(a - b);
+              x[2] = flushed(a * b);
+              x[4] = flushed(flushed(a * b) + flushed(of[2]));
+            }),
+            "");
+  EXPECT_NE(detail::rounding_fault(cases, {}).value_or(""), "");
+}
+
+/// All sums, differences, products and quotients of floats that may be fused with another one (G1).
+std::size_t fusible(std::span<const std::uint32_t> shader, std::size_t& all) {
+  constexpr std::uint32_t decorate = 71;
+  constexpr std::uint32_t no_contraction = 42;
+  const std::set<std::uint32_t> arithmetic = {129, 131, 133, 136, 140, 141, 142, 143, 144, 145, 146, 148};
+  std::set<std::uint32_t> kept;
+  std::vector<std::uint32_t> results;
+  for (std::size_t at = 5; at < shader.size(); at += shader[at] >> 16) {
+    const std::uint32_t operation = shader[at] & 0xffff;
+    if (operation == decorate && shader[at + 2] == no_contraction) kept.insert(shader[at + 1]);
+    if (arithmetic.contains(operation)) results.push_back(shader[at + 2]);
+  }
+  all = results.size();
+  std::size_t count = 0;
+  for (const std::uint32_t result : results) count += kept.contains(result) ? 0 : 1;
+  return count;
+}
+
+TEST(GpuShaderTest, no_operation_may_be_fused) {
+  std::size_t all = 0;
+  EXPECT_EQ(fusible(tree_walk_spirv, all), 0U);
+  EXPECT_GT(all, 60U);
+  EXPECT_EQ(fusible(scene_walk_spirv, all), 0U);
+  EXPECT_GT(all, 150U);
+  EXPECT_EQ(fusible(roundings_spirv, all), 0U);
+  EXPECT_GE(all, 20U);  // Six operations, 3 of a sum in two floats, and 11 of a product.
+}
+
+TEST(GpuLoaderTest, without_a_loader_there_is_an_error) {
+  GpuDeviceState state;
+  const auto error = state.start("libvulkan-that-is-not-there.so.1");
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->reason, Reason::no_loader);
+  EXPECT_NE(std::string(error->what()).find("libvulkan-that-is-not-there.so.1"), std::string::npos);
+  GpuDeviceState strange;
+  const auto no_vulkan = strange.start("libc.so.6");
+  ASSERT_TRUE(no_vulkan);
+  EXPECT_EQ(no_vulkan->reason, Reason::no_loader);
+}
+
+TEST(GpuLoaderTest, without_a_driver_there_is_an_error) {
+  setenv("VK_ICD_FILENAMES", "/no_driver.json", 1);
+  setenv("VK_DRIVER_FILES", "/no_driver.json", 1);
+  GpuDevice device;
+  const GpuResult opened = device.try_open({.takes_software = true});
+  ASSERT_FALSE(opened);
+  const bool has_loader = opened.error().reason != Reason::no_loader;
+  EXPECT_EQ(opened.error().reason, has_loader ? Reason::no_device : Reason::no_loader) << opened.error().what();
+  EXPECT_FALSE(device.is_open());
+  unsetenv("VK_ICD_FILENAMES");
+  unsetenv("VK_DRIVER_FILES");
+}
+
+TEST(GpuLoaderTest, each_failure_has_its_reason) {
+  const auto reason = [](VkResult result) { return detail::error_of(result, "while testing")->reason; };
+  EXPECT_FALSE(detail::error_of(VK_SUCCESS, ""));
+  EXPECT_EQ(reason(VK_ERROR_OUT_OF_HOST_MEMORY), Reason::out_of_memory);
+  EXPECT_EQ(reason(VK_ERROR_INCOMPATIBLE_DRIVER), Reason::no_device);
+  EXPECT_EQ(reason(VK_TIMEOUT), Reason::device_lost);
+  EXPECT_EQ(reason(VK_ERROR_UNKNOWN), Reason::failed);
+  EXPECT_STREQ(detail::error_of(VK_ERROR_DEVICE_LOST, "while testing")->what(),
+               "the device was lost while testing; it must be opened anew");
+}
+
+}  // namespace
+}  // namespace surehit::test

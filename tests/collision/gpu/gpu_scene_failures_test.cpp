@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "faulty_vulkan.hpp"
+#include "gpu/device_answers.hpp"
+#include "gpu_answers.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/random.hpp"
+#include "surehit/gpu_scene.hpp"
+
+namespace surehit::test {
+namespace {
+
+using detail::GpuDeviceState;
+using Reason = GpuError::Reason;
+
+/// Two instances of a piece of ground on a device that fails.
+class GpuSceneFailuresTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    SUREHIT_SKIP_WITHOUT(device);
+    Random random(1);
+    ground = std::make_shared<Colliderf>(rough_ground<float>(20, 0.1F, random).view());
+    first = scene.add(ground);
+    scene.add(ground, Posef::translated({0.5F, 0.25F, 0.75F}));
+    scene.commit();
+    draw_paths(2000);
+  }
+  void draw_paths(std::size_t count) {
+    Random random(2);
+    while (paths.size() < count) {
+      const auto x = random.symmetric<float>();
+      const auto y = random.symmetric<float>();
+      paths.push_back({{x, y, 1}, {x, y + 0.125F, random.unit<float>() - 0.5F}});
+    }
+    expected.resize(paths.size());
+    scene.first_hits(paths, expected);
+  }
+  [[nodiscard]] GpuDeviceState& state() const { return *GpuDeviceState::of(device); }
+
+  static constexpr std::array<float, 9> corners = {0, 0, 0.5F, 1, 0, 0.5F, 0, 1, 0.5F};
+  static constexpr std::array<unsigned, 3> triangle = {0, 1, 2};
+
+  GpuDevice device = any_gpu();
+  std::shared_ptr<Colliderf> ground;
+  Scenef scene;
+  InstanceId first;
+  std::vector<Segmentf> paths;
+  std::vector<SceneHitf> expected;
+};
+
+TEST_F(GpuSceneFailuresTest, an_upload_without_memory_changes_nothing) {
+  GpuScene on_gpu(device, scene.snapshot());
+  const std::size_t bytes = on_gpu.memory_bytes();
+  allocate = std::exchange(state().vulkan.AllocateMemory, no_memory);
+  const auto expect_failure = [&](int calls, const char* what) {
+    calls_left = calls;
+    const GpuResult updated = on_gpu.try_update(scene.snapshot());
+    ASSERT_FALSE(updated) << what;
+    EXPECT_EQ(updated.error().reason, Reason::out_of_memory);
+    EXPECT_NE(std::string(updated.error().what()).find(what), std::string::npos) << updated.error().what();
+  };
+  // The mesh is there, so that only the instances are uploaded.
+  scene.set_pose(first, Posef::translated({0, 0, 3}));
+  scene.commit();
+  expect_failure(0, "the nodes of a scene");
+  expect_failure(1, "the instances of a scene");
+  scene.add(std::make_shared<Colliderf>(*ground));
+  scene.add(std::make_shared<Colliderf>(TriangleMeshViewf(std::span(corners), std::span(triangle))));
+  scene.commit();
+  expect_failure(0, "the nodes of meshes");
+  expect_failure(1, "the triangles of meshes");
+  state().vulkan.AllocateMemory = allocate;
+  EXPECT_EQ(on_gpu.memory_bytes(), bytes);
+  std::vector<SceneHitf> hits(paths.size());
+  EXPECT_TRUE(on_gpu.first_hits(paths, hits));
+  EXPECT_EQ(hits, expected);
+}
+
+TEST_F(GpuSceneFailuresTest, a_device_that_fails_in_the_middle_leaves_the_rest) {
+  draw_paths(140'000);  // Three dispatches.
+  const GpuScene on_gpu(device, scene.snapshot());
+  SceneHitf unset;
+  unset.t = 7;
+  submit = std::exchange(state().vulkan.QueueSubmit, no_submit);
+  submit_result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  calls_left = 2;
+  std::vector<SceneHitf> hits(paths.size(), unset);
+  const GpuBatchResult result = on_gpu.first_hits(paths, hits);
+  EXPECT_FALSE(result);
+  ASSERT_TRUE(result.error);
+  EXPECT_EQ(result.error->reason, Reason::out_of_memory);
+  EXPECT_EQ(result.finished, std::size_t{1} << 16);
+  for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(hits[i], i < result.finished ? expected[i] : unset) << i;
+
+  submit_result = VK_ERROR_DEVICE_LOST;
+  calls_left = 1;
+  const GpuBatchResult rest = on_gpu.first_hits(paths, hits, {}, {.goes_on_without_device = true});
+  EXPECT_TRUE(rest);
+  EXPECT_EQ(rest.error->reason, Reason::device_lost);
+  EXPECT_EQ(hits, expected);
+  GpuScene later;
+  const GpuResult uploaded = later.try_upload(device, scene.snapshot());
+  ASSERT_FALSE(uploaded);
+  EXPECT_EQ(uploaded.error().reason, Reason::device_lost);
+}
+
+/// The host answers the paths whose answers no sound device gives.
+TEST_F(GpuSceneFailuresTest, faulty_answers_of_a_device_are_left_to_the_host) {
+  const GpuScene on_gpu(device, scene.snapshot());
+  faulty = &state();
+  wait_for = std::exchange(state().vulkan.WaitForFences, faulty_answers);
+  std::vector<SceneHitf> hits(paths.size());
+  const auto beyond_the_last = static_cast<std::uint32_t>(ground->triangle_count());
+  for (const auto& [triangle, side, instance] :
+       {std::array{beyond_the_last, 1U, 0U}, std::array{0U, 1U, 2U}, std::array{0U, 2U, no_instance},
+        std::array{0U, 3U, 0U}, std::array{0U, 1 + detail::DeviceHit::is_not_rounded, 0U}}) {
+    set_faulty_answer(detail::DeviceSceneHit{{0.5F, 0.5F, 0.5F, triangle, side}, instance});
+    EXPECT_TRUE(on_gpu.first_hits(paths, hits));
+    EXPECT_EQ(hits, expected);
+  }
+  state().vulkan.WaitForFences = wait_for;
+}
+
+/// What was uploaded is what is asked, until it is updated.
+TEST_F(GpuSceneFailuresTest, a_scene_answers_as_it_was_uploaded) {
+  GpuScene on_gpu;
+  std::vector<SceneHitf> hits(paths.size());
+  EXPECT_EQ(on_gpu.first_hits(paths, hits).error->reason, Reason::not_updated);
+  EXPECT_EQ(on_gpu.try_update(scene.snapshot()).error().reason, Reason::not_updated);
+  EXPECT_EQ(on_gpu.try_upload(GpuDevice(), scene.snapshot()).error().reason, Reason::no_device);
+  on_gpu = GpuScene(device, scene.snapshot());
+  scene.set_pose(first, Posef::translated({0, 0, 3}));
+  scene.commit();
+  EXPECT_TRUE(on_gpu.first_hits(paths, hits));
+  EXPECT_EQ(hits, expected);
+  on_gpu.update(scene.snapshot());
+  expect_same_as_host(on_gpu, scene, paths);
+
+  const auto expect_refused = [&] {
+    const GpuBatchResult result = on_gpu.first_hits(paths, hits);
+    EXPECT_EQ(result.error->reason, Reason::not_updated);
+    EXPECT_EQ(result.finished, 0U);
+  };
+  ground->set_mask(0, 0);
+  expect_refused();
+  on_gpu.update(scene.snapshot());
+  expect_same_as_host(on_gpu, scene, paths);
+  ground->rebuild(TriangleMeshViewf(std::span(corners), std::span(triangle)));
+  expect_refused();
+  EXPECT_EQ(on_gpu.try_update(scene.snapshot()).error().reason, Reason::not_updated);
+  on_gpu = GpuScene();
+  scene.set_mask(first, 1);
+  scene.commit();
+  on_gpu = GpuScene(device, scene.snapshot());
+  expect_same_as_host(on_gpu, scene, paths);
+}
+
+TEST_F(GpuSceneFailuresTest, meshes_are_uploaded_once) {
+  GpuScene on_gpu(device, scene.snapshot());
+  const std::size_t of_two = on_gpu.memory_bytes();
+  for (int i = 0; i < 1000; ++i) scene.add(ground, Posef::translated({3 * static_cast<float>(i), 0, 0}));
+  scene.commit();
+  submit = std::exchange(state().vulkan.QueueSubmit, no_submit);
+  calls_left = 1000;
+  on_gpu.update(scene.snapshot());
+  EXPECT_EQ(calls_left, 998);  // One for the nodes of the scene, and one for its instances.
+  state().vulkan.QueueSubmit = submit;
+  EXPECT_LT(on_gpu.memory_bytes(), of_two + 1000 * 200);
+  expect_same_as_host(on_gpu, scene, paths);
+}
+
+}  // namespace
+}  // namespace surehit::test
