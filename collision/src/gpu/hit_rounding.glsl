@@ -234,32 +234,56 @@ real off_bound_of(OffVector p, OffVector q, OffVector r) {
   return bound;
 }
 
-// Rounds a certain hit, whose vectors these are.
-RoundedHit round_vectors(OffVector d, OffVector e, OffVector f, OffVector s) {
+// The determinants of a path and a triangle in pairs, with the sign of det taken out, and how far off they are at most.
+struct PairDeterminants {
+  FloatPair det;
+  FloatPair height;
+  FloatPair u;
+  FloatPair v;
+  real det_bound;
+  real height_bound;
+  real u_bound;
+  real v_bound;
+  bool is_front;    // True if det is positive.
+  bool is_certain;  // True if the sign of det is certain (G20).
+};
+
+PairDeterminants determinants_of(OffVector d, OffVector e, OffVector f, OffVector s) {
   PairVector p = cross_of_pairs(d.pairs, f.pairs);
   PairVector q = cross_of_pairs(s.pairs, e.pairs);
-  FloatPair det = dot_of_pairs(e.pairs, p);
-  FloatPair height = dot_of_pairs(f.pairs, q);
-  FloatPair side_u = dot_of_pairs(s.pairs, p);
-  FloatPair side_v = dot_of_pairs(d.pairs, q);
+  PairDeterminants result;
+  result.det = dot_of_pairs(e.pairs, p);
+  result.height = dot_of_pairs(f.pairs, q);
+  result.u = dot_of_pairs(s.pairs, p);
+  result.v = dot_of_pairs(d.pairs, q);
+  result.is_front = result.det.high > 0.0;
+  if (!result.is_front) {
+    result.det = negated(result.det);
+    result.height = negated(result.height);
+    result.u = negated(result.u);
+    result.v = negated(result.v);
+  }
+  result.det_bound = off_bound_of(e, d, f);
+  result.height_bound = off_bound_of(f, s, e);
+  result.u_bound = off_bound_of(s, d, f);
+  result.v_bound = off_bound_of(d, s, e);
+  precise real min_det = 4.0 * result.det_bound;
+  result.is_certain = result.det.high > min_det;
+  return result;
+}
+
+// Rounds a certain hit.
+RoundedHit round_determinants(PairDeterminants of) {
   RoundedHit result;
-  result.is_front = det.high > 0.0;
+  result.is_front = of.is_front;
   result.t = 0.0;
   result.u = 0.0;
   result.v = 0.0;
   result.is_rounded = false;
-  if (!result.is_front) {
-    det = negated(det);
-    height = negated(height);
-    side_u = negated(side_u);
-    side_v = negated(side_v);
-  }
-  real det_bound = off_bound_of(e, d, f);
-  precise real min_det = 4.0 * det_bound;
-  if (!(det.high > min_det)) return result;  // G20
-  RoundedNumber t = quotient_of(height, off_bound_of(f, s, e), det, det_bound);
-  RoundedNumber u = quotient_of(side_u, off_bound_of(s, d, f), det, det_bound);
-  RoundedNumber v = quotient_of(side_v, off_bound_of(d, s, e), det, det_bound);
+  if (!of.is_certain) return result;
+  RoundedNumber t = quotient_of(of.height, of.height_bound, of.det, of.det_bound);
+  RoundedNumber u = quotient_of(of.u, of.u_bound, of.det, of.det_bound);
+  RoundedNumber v = quotient_of(of.v, of.v_bound, of.det, of.det_bound);
   result.t = t.number;
   result.u = u.number;
   result.v = v.number;
@@ -267,10 +291,15 @@ RoundedHit round_vectors(OffVector d, OffVector e, OffVector f, OffVector s) {
   return result;
 }
 
-// Rounds a certain hit. The path has a start and an end, or an origin and a direction.
-RoundedHit round_hit(vec3 start, vec3 toward, bool is_segment, vec3 a, vec3 b, vec3 c) {
+// Returns the determinants of a path, which has a start and an end, or an origin and a direction, and of a triangle.
+PairDeterminants pair_determinants_of(vec3 start, vec3 toward, bool is_segment, vec3 a, vec3 b, vec3 c) {
   PairVector d = difference_of(toward, start);
   if (!is_segment) d = pairs_of(toward);
-  return round_vectors(off_by(0.0, d), off_by(0.0, difference_of(b, a)), off_by(0.0, difference_of(c, a)),
-                       off_by(0.0, difference_of(start, a)));
+  return determinants_of(off_by(0.0, d), off_by(0.0, difference_of(b, a)), off_by(0.0, difference_of(c, a)),
+                         off_by(0.0, difference_of(start, a)));
+}
+
+// Rounds a certain hit of such a path.
+RoundedHit round_hit(vec3 start, vec3 toward, bool is_segment, vec3 a, vec3 b, vec3 c) {
+  return round_determinants(pair_determinants_of(start, toward, is_segment, a, b, c));
 }

@@ -1,5 +1,5 @@
-// The path of a thread, and what is certain of it beside a box or a triangle. GPU.md has the lemmas G2 to G6, and G16 to
-// G18 for placed paths. Only what is `precise` is computed as it is written (G1).
+// The path of a thread, and what is certain of it beside a box or a triangle. GPU.md has the lemmas G2 to G6, and G16
+// and G17 for placed paths. Only what is `precise` is computed as it is written (G1).
 
 struct PathLimits {
   float t_first, det_first, t_last, det_last;  // The weights of the two ends of the range.
@@ -28,9 +28,12 @@ const float min_t = 4.0 * min_rate;                  // G6
 const float beyond = 1.2676506e30;                   // 2^100
 const float growth_of_error = 1048576.0;             // 1 / (8 h) (G16)
 
-// A path as the walk and the kernel need it.
+// A path as it was given.
+vec3 given_start;
+vec3 toward;  // The end or the direction.
+
+// The path as the walk and the kernel need it.
 vec3 start;
-vec3 toward;      // The end or the direction.
 vec3 way;         // D
 float way_size;   // d
 vec3 inverse;     // 1 / D, where the path moves.
@@ -78,7 +81,8 @@ void set_way(vec3 given, bvec3 stays) {
 bool take_path(uvec3 from, uvec3 to, bool is_segment) {
   uvec3 sizes = max(from & 0x7fffffffu, to & 0x7fffffffu);
   if (any(greaterThan(sizes, uvec3(max_bits)))) return false;
-  start = uintBitsToFloat(from);
+  given_start = uintBitsToFloat(from);
+  start = given_start;
   toward = uintBitsToFloat(to);
   precise vec3 step = toward - start;
 #ifdef SCENE
@@ -126,11 +130,6 @@ bool misses_box(vec3 low, vec3 high, out float enters) {
   enters = lower;
   return lower > upper;
 }
-
-// What the kernel says of a triangle.
-const uint is_missed = 0;
-const uint is_hit = 1;
-const uint is_open = 2;
 
 // Classifies a triangle (G4). A hit has its t between `lower` and `upper` (G5).
 uint classify(vec3 a, vec3 b, vec3 c, out float lower, out float upper, out bool is_front) {

@@ -1,6 +1,6 @@
-// Rounds t, u and v of a hit of an instance in pairs of floats: brings the triangle into the frame of the scene, and
-// leaves the path as it is. GPU.md has the lemmas G19 and G20. This text is GLSL and C++ alike, as those that come before
-// it: `hit_rounding.glsl` and `placed_path.glsl`.
+// The determinants of a hit of an instance in pairs of floats: brings the triangle into the frame of the scene, and
+// leaves the path as it is. GPU.md has the lemmas G19 and G20. This text is GLSL and C++ alike, as those that come
+// before it: `hit_rounding.glsl` and `placed_path.glsl`.
 
 const real product_share = 24.0 * max_gap * max_gap;     // G19
 const real difference_share = 32.0 * max_gap * max_gap;  // G19
@@ -83,21 +83,21 @@ OffVector placed_offset(Instance at, vec3 start, vec3 corner) {
   return off_by(error, in_order(pair_difference_of(from, placed_pairs(at, to))));
 }
 
-// Rounds a certain hit of a triangle of an instance.
-RoundedHit round_placed_hit(Instance at, vec3 start, vec3 toward, bool is_segment, vec3 a, vec3 b, vec3 c) {
+// Returns the determinants of a path and the image of a triangle. They are not certain if their sizes are too large.
+PairDeterminants placed_determinants_of(Instance at, vec3 start, vec3 toward, bool is_segment, vec3 a, vec3 b,
+                                        vec3 c) {
   OffVector d = placed_way(at, start, toward, is_segment);
   OffVector e = placed_edge(at, a, b);
   OffVector f = placed_edge(at, a, c);
   OffVector s = placed_offset(at, start, a);
-  real size = max(max(size_of_pairs(d.pairs), size_of_pairs(e.pairs)), max(size_of_pairs(f.pairs), size_of_pairs(s.pairs)));
-  if (size > max_placed_size) {
-    RoundedHit none;
-    none.t = 0.0;
-    none.u = 0.0;
-    none.v = 0.0;
-    none.is_front = false;
-    none.is_rounded = false;
-    return none;
-  }
-  return round_vectors(d, e, f, s);
+  real size = max(max(size_of_pairs(d.pairs), size_of_pairs(e.pairs)),
+                  max(size_of_pairs(f.pairs), size_of_pairs(s.pairs)));
+  PairDeterminants result = determinants_of(d, e, f, s);
+  result.is_certain = result.is_certain && size <= max_placed_size;
+  return result;
+}
+
+// Rounds a certain hit of a triangle of an instance.
+RoundedHit round_placed_hit(Instance at, vec3 start, vec3 toward, bool is_segment, vec3 a, vec3 b, vec3 c) {
+  return round_determinants(placed_determinants_of(at, start, toward, is_segment, a, b, c));
 }

@@ -2,11 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Says of each path of a dispatch what is certain: a miss, a triangle that it hits (first, where this is asked), or
-// nothing. With SCENE defined, the paths go through a scene, and otherwise through one mesh. GPU.md has the lemmas. Only
-// what is `precise` is computed as it is written (G1).
+// nothing. With SCENE defined, the paths go through a scene, and otherwise through one mesh. GPU.md has the lemmas.
+// Only what is `precise` is computed as it is written (G1).
 
 #define real float
 #include "hit_rounding.glsl"
+#include "pair_kernel.glsl"
 #ifdef SCENE
 #include "placed_path.glsl"
 #include "placed_rounding.glsl"
@@ -69,8 +70,8 @@ layout(push_constant) uniform Dispatch {
 const uint miss = 0xffffffffu;
 const uint undecided = 0xfffffffeu;
 
-// The answers to `any_hits` are words. Those to `first_hits` are five words: t, u, v, the triangle's id and the side. In
-// a scene, the index of the instance follows.
+// The answers to `any_hits` are words. Those to `first_hits` are five words: t, u, v, the triangle's id and the side.
+// In a scene, the index of the instance follows.
 const uint any_miss = 0;
 const uint any_hit = 1;
 const uint any_undecided = 2;
@@ -137,6 +138,16 @@ void take_hit(uint triangle, uint instance, float lower, float upper) {
   }
 }
 
+// Decides in pairs what the kernel has left open (G21).
+PairVerdict decide_in_pairs(vec3 a, vec3 b, vec3 c, uint instance) {
+#ifdef SCENE
+  PairDeterminants of = placed_determinants_of(instances[instance], given_start, toward, is_segment != 0, a, b, c);
+#else
+  PairDeterminants of = pair_determinants_of(given_start, toward, is_segment != 0, a, b, c);
+#endif
+  return decide(of, EndWeights(range.t_first, range.det_first, range.t_last, range.det_last));
+}
+
 // Gives the triangles of a leaf to the kernel. Returns true if the walk may end.
 bool meet_leaf(TreeNode leaf, uint ignored, uint instance, bool is_turned) {
   for (uint i = leaf.first; i < leaf.first + leaf.count; ++i) {
@@ -152,10 +163,19 @@ bool meet_leaf(TreeNode leaf, uint ignored, uint instance, bool is_turned) {
     if (verdict == is_missed) continue;
     if (verdict == is_open) {
       float its_enters;
-      if (!misses_box(min(min(a, b), c), max(max(a, b), c), its_enters)) leave_open(its_enters);
-      continue;
+      if (misses_box(min(min(a, b), c), max(max(a, b), c), its_enters)) continue;
+      PairVerdict decided = decide_in_pairs(a, b, c, instance);
+      if (decided.verdict == is_missed) continue;
+      if (decided.verdict == is_open) {
+        leave_open(its_enters);
+        continue;
+      }
+      lower = decided.lower;
+      upper = decided.upper;
+      is_front = decided.is_front;
+    } else {
+      is_front = is_front != is_turned;
     }
-    is_front = is_front != is_turned;
     if ((range.flags & keeps_front) != 0 && !is_front) continue;
     if ((range.flags & keeps_back) != 0 && is_front) continue;
     take_hit(i, instance, lower, upper);
@@ -284,10 +304,9 @@ void main() {
     vec3 b = vec3(triangle.corners[3], triangle.corners[4], triangle.corners[5]);
     vec3 c = vec3(triangle.corners[6], triangle.corners[7], triangle.corners[8]);
 #ifdef SCENE
-    read_path(path);
-    RoundedHit hit = round_placed_hit(instances[best_instance], start, toward, is_segment != 0, a, b, c);
+    RoundedHit hit = round_placed_hit(instances[best_instance], given_start, toward, is_segment != 0, a, b, c);
 #else
-    RoundedHit hit = round_hit(start, toward, is_segment != 0, a, b, c);
+    RoundedHit hit = round_hit(given_start, toward, is_segment != 0, a, b, c);
 #endif
     id = triangle.id;
     side = hit.is_front ? front : back;

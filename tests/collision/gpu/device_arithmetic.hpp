@@ -119,6 +119,7 @@ struct DeviceArithmetic {
 
 #define precise
 #include "gpu/hit_rounding.glsl"
+#include "gpu/pair_kernel.glsl"
 #include "gpu/placed_path.glsl"
 #include "gpu/placed_rounding.glsl"
 #undef precise

@@ -187,6 +187,22 @@ TEST_F(GpuColliderTest, the_level_and_most_of_it_on_the_device) {
   EXPECT_GT(general.rounded, general.hits / 3);  // Half of the batches ask for any hit.
 }
 
+/// Shadow rays begin at the last free point in front of a hit, a few ulps from the surface.
+TEST_F(GpuColliderTest, most_paths_that_begin_at_surfaces_are_decided_on_the_device) {
+  const example::Level level = example::build_level();
+  const Colliderf collider(level.mesh.view());
+  PathDrawer<float> drawer(level.mesh.view(), 10);
+  std::vector<Segmentf> segments;
+  while (segments.size() < 4000) {
+    const Segmentf seen{drawer.point_around_mesh(), drawer.point_around_mesh()};
+    if (const auto hit = collider.first_hit(seen)) {
+      segments.push_back({collider.last_free_point(seen, *hit), drawer.point_around_mesh()});
+    }
+  }
+  expect_same_as_host(GpuCollider(device, collider), collider, segments, {}, &statistics);
+  EXPECT_LT(statistics.undecided, statistics.paths / 8) << statistics.undecided;
+}
+
 TEST_F(GpuColliderTest, meshes_of_others) {
   const std::filesystem::path folder = SUREHIT_MESH_FOLDER;
   if (!std::filesystem::exists(folder / "dungeon.obj")) GTEST_SKIP() << "no meshes in " << folder;
