@@ -52,6 +52,15 @@ struct Case {
     if (placed.placement.moves) placed.placement.motion = point(static_cast<int>(random.between(-10, 10)));
     const auto exponent = static_cast<int>(random.between(-4, 4));
     local = {point(exponent), point(exponent), point(exponent)};
+    // A mesh may be far from its own origin. A start at this origin is nearly exact, so the error comes from the
+    // direction, on a long way to the mesh. A start near the mesh is off by much more than its distance from it says.
+    const std::uint64_t kind = random.below(6);
+    const bool starts_at_origin = kind == 0;
+    const bool starts_near_mesh = kind == 1;
+    if (starts_at_origin || starts_near_mesh) {
+      const Vector3f offset = point(exponent + (starts_at_origin ? 6 : 10));
+      local = {local.a + offset, local.b + offset, local.c + offset};
+    }
     box.low = local.a.cwiseMin(local.b).cwiseMin(local.c);
     box.high = local.a.cwiseMax(local.b).cwiseMax(local.c);
     placed.frame = detail::InstanceFrame::of(placed.placement, {box.low.cast<double>(), box.high.cast<double>()});
@@ -74,8 +83,12 @@ struct Case {
     const auto weight = random.unit<float>();
     const Vector3f target =
         placed.placement.pose.linear * (local.a * weight + local.b * (1 - weight)) + placed.placement.pose.translation;
-    const Vector3f way = point(static_cast<int>(random.between(-4, 12)));
-    const Vector3f start = target - way * random.unit<float>();
+    Vector3f way = point(starts_near_mesh ? exponent : static_cast<int>(random.between(-4, 12)));
+    Vector3f start = target - way * random.unit<float>();
+    if (starts_at_origin) {
+      start = placed.placement.pose.translation + point(-20);
+      way = (target - start) * std::ldexp(1 + random.unit<float>(), static_cast<int>(random.between(-8, 0)));
+    }
     path = is_segment ? Path<float>(Segment<float>{start, start + way}) : Path<float>(PathKind::line, start, way);
     inverse_matrix = inverse(matrix);
     direction = is_segment ? exact(path.toward) - exact(path.start) - exact(motion()) : exact(path.toward);
@@ -150,9 +163,9 @@ TEST(GpuPlacedPath, is_off_by_no_more_than_its_errors) {
   EXPECT_LT(worst_position, 0.89);  // An eighth is for the roundings of boxes.
   if (runs_all_cases()) {
     EXPECT_GT(placed_count, 5000U);
-    EXPECT_GT(worst_start, 0.4) << "room to waste";
-    EXPECT_GT(worst_way, 0.3) << "room to waste";
-    EXPECT_GT(worst_position, 0.2) << "room to waste";
+    EXPECT_GT(worst_start, 0.3) << "room to waste";
+    EXPECT_GT(worst_way, 0.25) << "room to waste";
+    EXPECT_GT(worst_position, 0.15) << "room to waste";
   }
 }
 
