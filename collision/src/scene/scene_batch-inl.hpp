@@ -42,13 +42,13 @@ class SceneBatch {
   /// Answers all paths.
   HWY_INLINE void run() {
     for (std::size_t slot = 0; slot < slots; ++slot) {
-      if (has_lane(slot) && begin_next(slot)) walking_[walking_count_++] = slot;
+      if (has_lane(slot)) idle_[idle_count_++] = slot;
     }
     for (;;) {
-      if (walking_count_ * idle_share >= slots || !are_searching()) {
-        if (walking_count_ == 0) return;
+      if ((walking_count_ + idle_count_) * idle_share >= slots || !are_searching()) {
         find_instances();
         search_instances();
+        if (walking_count_ == 0 && !are_searching() && !has_more()) return;
       }
       if constexpr (has_lanes) {
         if (are_searching()) step();
@@ -102,25 +102,25 @@ class SceneBatch {
   /// Returns the path in a slot.
   Slot& slot_at(std::size_t slot) { return *std::launder(reinterpret_cast<Slot*>(&memory_[slot])); }
 
-  /// Lets the next path begin in a slot. Returns false if there is none.
-  HWY_INLINE bool begin_next(std::size_t slot) {
-    while (next_ < paths_.size()) {
+  /// Returns true if there are paths that have not begun.
+  [[nodiscard]] bool has_more() const { return next_ < paths_.size(); }
+
+  /// Lets the next paths begin in the idle slots. They begin together, so that none of them waits for another one.
+  HWY_INLINE void begin_paths() {
+    while (idle_count_ != 0 && has_more()) {
+      const std::size_t slot = idle_[--idle_count_];
       const std::size_t index = next_++;
       ++batch_.statistics.paths;
       const SceneQueryOptions<Scalar>& options = own_options_.empty() ? batch_.options : own_options_[index];
       Slot& of = *new (&memory_[slot]) Slot(batch_, options, paths_[index], index);
-      if (of.search.is_in_vain()) {
-        finish_(index, of.keep);
-        continue;
-      }
       index_[slot] = index;
-      return true;
+      walking_[walking_count_++] = slot;
+      if (of.search.is_in_vain()) of.walk.end();
     }
-    return false;
   }
 
-  /// Ends the path of a slot, and lets the next one begin. Returns false if there is none.
-  HWY_INLINE bool replace(std::size_t slot) {
+  /// Ends the path of a slot.
+  HWY_INLINE void end(std::size_t slot) {
     Slot& of = slot_at(slot);
     if (of.walk.has_overflown()) {
       --batch_.statistics.paths;  // It is counted again. The work that was in vain counts too.
@@ -128,31 +128,48 @@ class SceneBatch {
     } else {
       finish_(index_[slot], of.keep);
     }
-    return begin_next(slot);
+    idle_[idle_count_++] = slot;
   }
 
-  /// Lets each path go through the tree until it comes to an instance.
+  /// Lets paths go through the tree until enough of them have come to an instance.
   HWY_INLINE void find_instances() {
-    const auto prefetch = [&](std::uint32_t index) { hwy::Prefetch(&batch_.instances[index]); };
     pair_count_ = 0;
+    for (;;) {
+      begin_paths();
+      if (walking_count_ == 0 || pair_count_ >= lanes) return;
+      step_in_tree();
+    }
+  }
+
+  /// Takes a step in the tree with all paths that walk there. Those that come to an instance wait for the others.
+  HWY_INLINE void step_in_tree() {
+    const InstanceTree& tree = batch_.tree;
+    std::size_t count = 0;
     for (std::size_t i = 0; i < walking_count_; ++i) {
       const std::size_t slot = walking_[i];
-      for (bool walks = true; walks;) {
-        Slot& of = slot_at(slot);
-        if (of.walk.at_end()) {
-          walks = replace(slot);
-          continue;
-        }
-        const std::uint32_t instance = of.walk.template advance<Keep::shortens>(batch_.tree, prefetch);
-        if (instance == no_instance) continue;
+      const std::uint32_t child = slot_at(slot).walk.next();
+      if (child == InstanceTree::no_child) {
+        end(slot);
+      } else if ((child & InstanceTree::instance_bit) != 0) {
+        const std::uint32_t instance = child & ~InstanceTree::instance_bit;
         pairs_[pair_count_++] = {slot, instance};
-        const auto* const bytes = reinterpret_cast<const std::byte*>(&batch_.instances[instance]);
-        for (std::size_t line = 0; line < CommittedInstance<Scalar>::hot_lines; ++line)
-          hwy::Prefetch(bytes + line * 64);
-        walks = false;
+        prefetch_lines<CommittedInstance<Scalar>::hot_lines>(&batch_.instances[instance]);
+      } else {
+        walking_[count] = slot;
+        node_[count++] = child;
+        prefetch_lines<(sizeof(InstanceTree::Node) + 63) / 64>(&tree.nodes()[child]);
       }
     }
-    walking_count_ = 0;
+    walking_count_ = count;
+    for (std::size_t i = 0; i < count; ++i) {
+      slot_at(walking_[i]).walk.template visit<Keep::shortens>(tree.nodes()[node_[i]]);
+    }
+  }
+
+  /// Fetches some lines into the cache.
+  template <std::size_t lines>
+  static HWY_INLINE void prefetch_lines(const void* from) {
+    for (std::size_t line = 0; line < lines; ++line) hwy::Prefetch(static_cast<const std::byte*>(from) + line * 64);
   }
 
   /// Lets the paths that have come to an instance search its mesh. All of them walk on then.
@@ -187,7 +204,11 @@ class SceneBatch {
 
   /// Lets a path walk on through the tree, unless it is done.
   HWY_INLINE void walk_on(std::size_t slot) {
-    if (!slot_at(slot).keep.is_done() || replace(slot)) walking_[walking_count_++] = slot;
+    if (slot_at(slot).keep.is_done()) {
+      end(slot);
+    } else {
+      walking_[walking_count_++] = slot;
+    }
   }
 
   /// Returns true if lanes search meshes.
@@ -251,6 +272,9 @@ class SceneBatch {
   std::array<std::size_t, slots> index_;    ///< The index of the path of each slot.
   std::array<std::size_t, slots> walking_;  ///< The slots whose paths go through the tree.
   std::size_t walking_count_ = 0;
+  std::array<std::uint32_t, slots> node_;  ///< The nodes that they have come to.
+  std::array<std::size_t, slots> idle_;    ///< The slots without a path.
+  std::size_t idle_count_ = 0;
   std::array<Pair, slots> pairs_;  ///< The paths that have come to an instance.
   std::size_t pair_count_ = 0;
   PlaceLanes place_;
@@ -341,12 +365,12 @@ template <typename Scalar>
 void search_scene_each_first(const SceneQuery<Scalar>& batch, const PathSpan<Scalar>& paths,
                              std::span<const SceneQueryOptions<Scalar>> own_options,
                              std::span<SceneHit<Scalar>> hits) noexcept {
-  SceneRounding<Scalar> rounding(batch, paths, own_options, hits);
-  const auto finish = [&](std::size_t index, KeepFirst<Scalar>& keep) { rounding.add(index, keep); };
   const auto alone = [&](std::size_t index) {
     hits[index] =
         search_scene_first(query_of_path(batch, own_options, index), paths[index]).value_or(SceneHit<Scalar>{});
   };
+  SceneRounding<Scalar> rounding(batch, paths, own_options, hits);
+  const auto finish = [&](std::size_t index, KeepFirst<Scalar>& keep) { rounding.add(index, keep); };
   search_scene_batch<KeepFirst<Scalar>>(batch, paths, own_options, finish, alone);
   rounding.flush();
 }
@@ -356,10 +380,10 @@ template <typename Scalar>
 void search_scene_each_any(const SceneQuery<Scalar>& batch, const PathSpan<Scalar>& paths,
                            std::span<const SceneQueryOptions<Scalar>> own_options,
                            std::span<std::uint8_t> blocked) noexcept {
-  const auto finish = [&](std::size_t index, const KeepAny<Scalar>& keep) { blocked[index] = keep.is_done() ? 1 : 0; };
   const auto alone = [&](std::size_t index) {
     blocked[index] = search_scene_any(query_of_path(batch, own_options, index), paths[index]) ? 1 : 0;
   };
+  const auto finish = [&](std::size_t index, const KeepAny<Scalar>& keep) { blocked[index] = keep.is_done() ? 1 : 0; };
   search_scene_batch<KeepAny<Scalar>>(batch, paths, own_options, finish, alone);
 }
 

@@ -392,11 +392,16 @@ class SceneSearch {
   HWY_INLINE void run(Keep& keep) const {
     ++query_.statistics.paths;
     if (is_in_vain()) return;
-    const auto prefetch = [&](std::uint32_t index) { hwy::Prefetch(&query_.instances[index]); };
     TreeWalk<max_open_children> walk(query_.tree, path_);
-    while (!walk.at_end()) {
-      const std::uint32_t index = walk.template advance<Keep::shortens>(query_.tree, prefetch);
-      if (index == no_instance || !query_.takes_part(index)) continue;
+    for (;;) {
+      const std::uint32_t child = walk.next();
+      if (child == InstanceTree::no_child) return;
+      if ((child & InstanceTree::instance_bit) == 0) {
+        walk.template visit<Keep::shortens>(query_.tree.nodes()[child]);
+        continue;
+      }
+      const std::uint32_t index = child & ~InstanceTree::instance_bit;
+      if (!query_.takes_part(index)) continue;
       search_instance(
           PlacedPath<Scalar>(path_, query_.instances[index].placed.placement, query_.instances[index].placed.frame),
           index, keep);

@@ -7,7 +7,6 @@
 #define SUREHIT_TREE_WALK_INL
 #endif
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -22,7 +21,6 @@
 #include "scene/placed_path.hpp"
 #include "support/double4.hpp"
 #include "support/float4.hpp"
-#include "support/lane_bits-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
@@ -120,8 +118,6 @@ HWY_INLINE TreePath::TreePath(const InstanceTree& tree, const ScenePath<Scalar>&
 
 /// The maximum number of children that a walk leaves for later. A node leaves at most seven of them.
 inline constexpr std::size_t max_open_children = (InstanceTree::width - 1) * InstanceTree::max_depth + 1;
-/// What a walk returns instead of an instance.
-inline constexpr std::uint32_t no_instance = InstanceTree::no_child;
 
 /// Walks a path through a tree. It goes from node to node, roughly in the order of the path. It has room for `capacity`
 /// children that are left for later. A tree may need up to `max_open_children`.
@@ -130,48 +126,53 @@ class TreeWalk {
  public:
   template <typename Scalar>
   HWY_INLINE TreeWalk(const InstanceTree& tree, const ScenePath<Scalar>& path) : path_(tree, path), last_(path_.last) {
-    open_[count_++] = entry(0, path_.first);
+    open_[0] = {0, std::bit_cast<std::uint32_t>(path_.first)};
+    count_ = 1;
   }
 
-  [[nodiscard]] bool at_end() const { return count_ == 0; }
+  /// Ends the walk.
+  void end() { count_ = 0; }
   /// Returns true if there are more children than the walk can keep. Then the walk is of no use.
   [[nodiscard]] bool has_overflown() const { return has_overflown_; }
   /// Ends the walk at parameter t, because nothing beyond it counts.
   void shorten(double t) { last_ = std::min(last_, path_.beyond(t)); }
 
-  /// Goes to the next node or instance. The walk must not be at its end. Returns the index of the instance, or
-  /// `no_instance` for a node. If `sorts`, the nearest child of a node is the next one. Calls `prefetch(index)` for
-  /// instances that are left for later.
-  template <bool sorts, typename Fetch>
-  HWY_INLINE std::uint32_t advance(const InstanceTree& tree, const Fetch& prefetch) {
-    const std::uint64_t next = open_[--count_];
-    if (enters_of(next) > last_) return no_instance;
-    const std::uint32_t child = child_of(next);
-    if ((child & InstanceTree::instance_bit) != 0) return child & ~InstanceTree::instance_bit;
+  /// Returns the next node or instance, or `InstanceTree::no_child` if there is none.
+  HWY_INLINE std::uint32_t next() {
+    while (count_ != 0) {
+      const Child child = open_[--count_];
+      if (child.enters() <= last_) return child.index;
+    }
+    return InstanceTree::no_child;
+  }
+  /// Goes on to the children of the node that `next` has returned. If `sorts`, the nearest one is the next one.
+  template <bool sorts>
+  HWY_INLINE void visit(const InstanceTree::Node& node) {
     if (capacity < max_open_children && count_ + InstanceTree::width > capacity) [[unlikely]] {
       has_overflown_ = true;
       count_ = 0;
-      return no_instance;
+      return;
     }
-    visit_node<sorts>(tree, tree.nodes()[child], prefetch);
-    return no_instance;
+    visit_node<sorts>(node);
   }
 
  private:
-  // An entry is a child, and the tau at which the path enters its box. Both are stored and loaded together.
-  static std::uint64_t entry(std::uint32_t child, float enters) {
-    return std::uint64_t{std::bit_cast<std::uint32_t>(enters)} << 32 | child;
-  }
-  static std::uint32_t child_of(std::uint64_t entry) { return static_cast<std::uint32_t>(entry); }
-  static float enters_of(std::uint64_t entry) { return std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32)); }
+  /// A child that is left for later.
+  struct Child {
+    std::uint32_t index;        ///< Its index, as nodes have it.
+    std::uint32_t enters_bits;  ///< The bits of the tau at which the path enters its box.
 
-  /// Leaves the children for later whose boxes the path may meet.
-  template <bool sorts, typename Fetch>
-  HWY_INLINE void visit_node(const InstanceTree& tree, const InstanceTree::Node& node, const Fetch& prefetch) {
+    [[nodiscard]] float enters() const { return std::bit_cast<float>(enters_bits); }
+  };
+
+  /// Leaves the children for later whose boxes the path may meet. There is no branch for each child, because a
+  /// processor cannot predict which ones are met.
+  template <bool sorts>
+  HWY_INLINE void visit_node(const InstanceTree::Node& node) {
     const hn::CappedTag<float, InstanceTree::width> d;
-    const std::size_t lanes = hn::Lanes(d);
+    const hn::RebindToUnsigned<decltype(d)> du;
     const std::size_t before = count_;
-    for (std::size_t from = 0; from < InstanceTree::width; from += lanes) {
+    for (std::size_t from = 0; from < InstanceTree::width; from += hn::Lanes(d)) {
       auto enters = hn::Set(d, path_.first);
       auto leaves = hn::Set(d, last_);
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -182,40 +183,53 @@ class TreeWalk {
         enters = hn::Max(enters, near);
         leaves = hn::Min(leaves, far);
       }
-      alignas(sizeof(float) * InstanceTree::width) std::array<float, InstanceTree::width> at;
-      hn::Store(enters, d, at.data());
-      std::uint64_t met = bits_of(d, hn::Le(enters, leaves));
-      for (; met != 0; met &= met - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(met));
-        const std::uint32_t child = node.child[from + lane];
-        if (child == InstanceTree::no_child) continue;
-        fetch(tree, child, prefetch);
-        std::size_t place = count_++;
-        if constexpr (sorts) {  // The nearest child comes last, and is taken first.
-          for (; place > before && enters_of(open_[place - 1]) < at[lane]; --place) open_[place] = open_[place - 1];
-        }
-        open_[place] = entry(child, at[lane]);
-      }
+      const auto child = hn::Load(du, &node.child[from]);
+      const auto is_there = hn::Ne(child, hn::Set(du, InstanceTree::no_child));
+      const auto is_met = hn::And(is_there, hn::RebindMask(du, hn::Le(enters, leaves)));
+      static_assert(sizeof(Child) == 2 * sizeof(std::uint32_t));
+      hn::StoreInterleaved2(hn::Compress(child, is_met), hn::Compress(hn::BitCast(du, enters), is_met), du,
+                            reinterpret_cast<std::uint32_t*>(&open_[count_]));
+      count_ += hn::CountTrue(du, is_met);
     }
+    if constexpr (sorts) sort_from(before);
   }
 
-  /// Fetches a child into the cache.
-  template <typename Fetch>
-  static HWY_INLINE void fetch(const InstanceTree& tree, std::uint32_t child, const Fetch& prefetch) {
-    if ((child & InstanceTree::instance_bit) != 0) {
-      prefetch(child & ~InstanceTree::instance_bit);
-      return;
+  /// Exchanges two children if the first one is nearer.
+  static HWY_INLINE void put_nearer_last(Child& x, Child& y) {
+    const auto x_bits = std::bit_cast<std::uint64_t>(x);
+    const auto y_bits = std::bit_cast<std::uint64_t>(y);
+    const std::uint64_t changes = (x_bits ^ y_bits) & -std::uint64_t{x.enters() < y.enters()};
+    x = std::bit_cast<Child>(x_bits ^ changes);
+    y = std::bit_cast<Child>(y_bits ^ changes);
+  }
+
+  /// Sorts the children from place `first` on. The nearest one comes last, and is taken first. Up to four children are
+  /// sorted without a branch.
+  HWY_INLINE void sort_from(std::size_t first) {
+    Child* const children = &open_[first];
+    const std::size_t count = count_ - first;
+    if (count < 2) return;
+    put_nearer_last(children[0], children[1]);
+    if (count == 2) return;
+    put_nearer_last(children[1], children[2]);
+    put_nearer_last(children[0], children[1]);
+    if (count == 3) return;
+    put_nearer_last(children[2], children[3]);
+    put_nearer_last(children[1], children[2]);
+    put_nearer_last(children[0], children[1]);
+    for (std::size_t next = 4; next < count; ++next) {
+      const Child child = children[next];
+      std::size_t place = next;
+      for (; place > 0 && children[place - 1].enters() < child.enters(); --place) children[place] = children[place - 1];
+      children[place] = child;
     }
-    const InstanceTree::Node& below = tree.nodes()[child];
-    for (std::size_t planes = 0; planes < 6; planes += 2) hwy::Prefetch(below.planes[planes].data());
-    hwy::Prefetch(below.child.data());
   }
 
   TreePath path_;
-  float last_;                  ///< Beyond this tau nothing counts.
-  bool has_overflown_ = false;  ///< True if a child was lost.
-  std::size_t count_ = 0;       ///< The number of entries in `open_`.
-  std::array<std::uint64_t, capacity> open_;
+  float last_;                                              ///< Beyond this tau nothing counts.
+  bool has_overflown_ = false;                              ///< True if a child was lost.
+  std::size_t count_ = 0;                                   ///< The number of children that are left for later.
+  std::array<Child, capacity + InstanceTree::width> open_;  ///< These children. All of a node are stored at once.
 };
 
 }  // namespace surehit::detail::HWY_NAMESPACE
