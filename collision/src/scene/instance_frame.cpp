@@ -167,6 +167,8 @@ InstanceFrame InstanceFrame::of(const Placement<Scalar>& placement, const Box<do
     frame.placed_anchor_rest[row] = sum[1];
     const double error = size * 0x1p-100 + 0x1p-1000;
     frame.anchor_slack += std::fabs(sum[0]) * 0x1p-50 + error;
+    frame.near_rest[row] = std::fabs(sum[1]) < 0x1p100 ? static_cast<float>(sum[1]) : 0;
+    frame.near_slack += (std::fabs(sum[1] - frame.near_rest[row]) + error) * (1 + 0x1p-50);
     frame.largest_placed_anchor_error = std::max(frame.largest_placed_anchor_error, error);
     // I3
     reach = (reach + error) * (1 + 0x1p-48) + std::numeric_limits<double>::min();

@@ -15,13 +15,14 @@ using Doubles = std::array<double, 3>;
 /// them, and the code cites its lemmas.
 struct InstanceFrame {
   // Most paths that come to an instance pass beside it, and they need no more than this.
-  Double4 placed_anchor = {};  ///< Where the anchor is at t = 0.
-  double radius = 0;           ///< No point of the instance is farther than this from the placed anchor.
-  double anchor_slack = 0;     ///< The placed anchor is off by less than this. All axes are added.
-  bool is_usable = false;      ///< If false, each triangle of the instance must be decided exactly.
-  bool is_mirrored = false;    ///< True if the determinant of the pose's matrix is negative.
-  bool moves = false;          ///< True if the instance has a motion.
-  bool is_turned = true;       ///< False if the pose only translates.
+  Double4 placed_anchor = {};           ///< Where the anchor is at t = 0.
+  double radius = 0;                    ///< No point of the instance is farther than this from the placed anchor.
+  double near_slack = 0;                ///< The sum of the anchor and `near_rest` is off by less. All axes are added.
+  std::array<float, 3> near_rest = {};  ///< What `placed_anchor` leaves out, rounded, or 0 if that is large.
+  bool is_usable = false;               ///< If false, each triangle of the instance must be decided exactly.
+  bool is_mirrored = false;             ///< True if the determinant of the pose's matrix is negative.
+  bool moves = false;                   ///< True if the instance has a motion.
+  bool is_turned = true;                ///< False if the pose only translates.
 
   std::array<Double4, 3> inverse = {};  ///< The columns of the inverse of the pose's matrix.
   Double4 anchor = {};                  ///< The middle of the mesh's box.
@@ -34,6 +35,7 @@ struct InstanceFrame {
 
   // These are for paths that need more than double.
   Double4 placed_anchor_rest = {};         ///< What `placed_anchor` leaves out.
+  double anchor_slack = 0;                 ///< The placed anchor alone is off by less. All axes are added.
   double largest_placed_anchor_error = 0;  ///< No component of the sum of both is off by more than this.
 
   Doubles low = {};   ///< The low corner of a box around the instance and its way.

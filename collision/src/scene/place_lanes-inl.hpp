@@ -45,8 +45,9 @@ class PlaceLanes {
     add(double{path.range.first});
     add(double{path.range.last});
     add_vector(frame.placed_anchor);
+    for (const float rest : frame.near_rest) add(double{rest});
     add(frame.radius);
-    add(frame.anchor_slack);
+    add(frame.near_slack);
     for (const Double4& column : frame.inverse) add_vector(column);
     add_vector(frame.anchor);
     add_vector(frame.row_size);
@@ -73,7 +74,7 @@ class PlaceLanes {
  private:
   using Tag = hn::CappedTag<double, max_lanes>;
   using V = hn::Vec<Tag>;
-  static constexpr std::size_t rows = 37;  ///< The number of numbers of a pair.
+  static constexpr std::size_t rows = 40;  ///< The number of numbers of a pair.
 
   static HWY_INLINE V all(double x) { return hn::Set(Tag(), x); }
   static HWY_INLINE V dot(const V (&x)[3], const V (&y)[3]) {
@@ -86,7 +87,7 @@ class PlaceLanes {
     const Tag d;
     std::size_t row = 0;
     const auto next = [&] { return hn::LoadU(d, &numbers_[row++][from]); };
-    V path_start[3], way[3], placed_anchor[3], column[3][3], anchor[3], row_size[3];
+    V path_start[3], way[3], placed_anchor[3], rest[3], column[3][3], anchor[3], row_size[3];
     const auto next_vector = [&](V(&x)[3]) {
       for (V& number : x) number = next();
     };
@@ -97,8 +98,9 @@ class PlaceLanes {
     const V first = next();
     const V last = next();
     next_vector(placed_anchor);
+    next_vector(rest);
     const V radius = next();
-    const V anchor_slack = next();
+    const V near_slack = next();
     for (auto& each : column) next_vector(each);
     next_vector(anchor);
     next_vector(row_size);
@@ -110,7 +112,7 @@ class PlaceLanes {
     next_vector(half_size);
 
     V offset_from[3];
-    for (std::size_t k = 0; k < 3; ++k) offset_from[k] = hn::Sub(path_start[k], placed_anchor[k]);
+    for (std::size_t k = 0; k < 3; ++k) offset_from[k] = hn::Sub(hn::Sub(path_start[k], placed_anchor[k]), rest[k]);
     const V distance = hn::Add(hn::Add(hn::Abs(offset_from[0]), hn::Abs(offset_from[1])), hn::Abs(offset_from[2]));
     const V best_t = hn::Min(hn::Max(hn::Neg(hn::Mul(dot(offset_from, way), inverse_square)), first), last);
     const V t = rounded(best_t, has_end);
@@ -120,13 +122,13 @@ class PlaceLanes {
     // I5
     V middle[3];
     for (std::size_t k = 0; k < 3; ++k) middle[k] = hn::Add(offset_from[k], hn::Mul(t, way[k]));
-    V margin = hn::Add(hn::Add(hn::Mul(radius, all(1 + 0x1p-20)), anchor_slack), all(0x1p-500));
+    V margin = hn::Add(hn::Add(hn::Mul(radius, all(1 + 0x1p-20)), near_slack), all(0x1p-500));
     margin = hn::Add(margin, hn::Mul(distance, all(0x1p-44)));
     margin = hn::Add(margin, hn::Mul(hn::Mul(all(2), hn::Abs(hn::Sub(t, best_t))), path_size));
     auto is_beside = hn::And(is_moderate, hn::Gt(dot(middle, middle), hn::Mul(margin, margin)));
     // I6
     const V middle_size = largest(middle);
-    const V middle_error = hn::Add(anchor_slack, hn::Mul(hn::Add(distance, middle_size), all(0x1p-51)));
+    const V middle_error = hn::Add(near_slack, hn::Mul(hn::Add(distance, middle_size), all(0x1p-51)));
     auto is_near = hn::Le(middle_error, hn::Mul(all(0x1p-36), radius));
     // I7
     V offset[3], direction[3], start[3];

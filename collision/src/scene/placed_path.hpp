@@ -160,7 +160,8 @@ class alignas(32) PlacedPath {
   SUREHIT_ALWAYS_INLINE Status place() {
     if (!frame->is_usable) return Status::rough;
     if (frame->moves && scene_path.path.has_end()) return place_carefully();
-    const Double4 from = scene_path.start - frame->placed_anchor;
+    const auto& rest = frame->near_rest;
+    const Double4 from = scene_path.start - frame->placed_anchor - Double4{rest[0], rest[1], rest[2], 0};
     const Double4& way = scene_path.direction;
     const double distance = sum_of_three(absolute(from));
     const double best_t = clamped(-sum_of_three(from * way) * scene_path.inverse_square);
@@ -168,11 +169,11 @@ class alignas(32) PlacedPath {
     if (!is_moderate(t, distance)) return Status::rough;
     // I5
     const Double4 middle = from + t * way;
-    const double margin = frame->radius * (1 + 0x1p-20) + frame->anchor_slack + 0x1p-500 + distance * 0x1p-44 +
+    const double margin = frame->radius * (1 + 0x1p-20) + frame->near_slack + 0x1p-500 + distance * 0x1p-44 +
                           2 * std::fabs(t - best_t) * scene_path.size;
     if (sum_of_three(middle * middle) > margin * margin) return Status::beside;
     // I6
-    const double middle_error = frame->anchor_slack + (distance + max_lane(absolute(middle))) * 0x1p-51;
+    const double middle_error = frame->near_slack + (distance + max_lane(absolute(middle))) * 0x1p-51;
     if (!(middle_error <= 0x1p-36 * frame->radius)) return place_carefully();
     moved.moved_t = t;
     set_moved(middle, middle_error, way, 0);

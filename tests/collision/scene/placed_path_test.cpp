@@ -132,6 +132,7 @@ TYPED_TEST_SUITE(PlacedPathOf, Scalars);
 
 template <typename Scalar>
 void expect_frame(const Case<Scalar>& drawn, const InstanceFrame& frame, Shares& shares) {
+  mpq_class near_off;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
     for (std::size_t j = 0; j < 3; ++j) {
@@ -142,7 +143,10 @@ void expect_frame(const Case<Scalar>& drawn, const InstanceFrame& frame, Shares&
     for (std::size_t j = 0; j < 3; ++j) anchor += drawn.matrix[i][j] * mpq_class(frame.anchor[j]);
     anchor -= mpq_class(frame.placed_anchor[i]) + mpq_class(frame.placed_anchor_rest[i]);
     shares.anchor = std::max(shares.anchor, share_of(anchor, frame.largest_placed_anchor_error));
+    anchor += mpq_class(frame.placed_anchor_rest[i]) - mpq_class(double{frame.near_rest[i]});
+    near_off += abs(anchor);
   }
+  EXPECT_TRUE(near_off <= mpq_class(frame.near_slack));
   const ExactVector motion = exact(drawn.placement.motion);
   for (unsigned corner = 0; corner < 8; ++corner) {
     ExactVector local;
