@@ -152,6 +152,7 @@ class Batch {
     };
     const auto move_start = [&]([[maybe_unused]] std::size_t lane, const auto&... numbers) {
       if constexpr (is_float) jobs_.move_start(vector * max_lanes + lane, numbers...);
+      if constexpr (Queries::is_placed) queries_.move_start(vector * max_lanes + lane, numbers...);
     };
     walking_ |= slots_of(vector, queue_.template fill<has_levels>(idle, walks_[vector], enter, move_start));
   }

@@ -29,11 +29,19 @@ namespace surehit::detail::HWY_NAMESPACE {
 template <typename Scalar>
 constexpr std::size_t max_slots = std::is_same_v<Scalar, float> ? 48 : 32;
 
+/// Takes the place of what brings paths into the frame of a mesh, where they are in it.
+struct NoPlacer {
+  template <typename Queries>
+  explicit NoPlacer(const Queries&) {}
+};
+
 /// The queries of a batch whose paths all have the same options.
 template <typename Scalar>
 class SharedQuery {
  public:
-  static constexpr bool is_shared = true;  ///< All paths share one query.
+  static constexpr bool is_shared = true;   ///< All paths share one query.
+  static constexpr bool is_placed = false;  ///< No path must be brought into the frame of the mesh.
+  using Placer = NoPlacer;                  ///< Brings paths there.
 
   SharedQuery(const Query<Scalar>& batch, PathKind kind)
       : query_(batch), range_(kind, batch.options), weights_(range_) {}
@@ -68,6 +76,8 @@ template <typename Scalar>
 class OwnQueries {
  public:
   static constexpr bool is_shared = false;  ///< Each path has its own query.
+  static constexpr bool is_placed = false;
+  using Placer = NoPlacer;
 
   /// `options` has one element for each path, or none at all.
   OwnQueries(const Query<Scalar>& batch, std::span<const QueryOptions<Scalar>> options, PathKind kind)

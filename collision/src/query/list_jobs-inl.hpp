@@ -66,6 +66,12 @@ class ListJobs {
     own_reach_[slot] = reach_from_start;
     weights_[slot] = &moved_weights_[is_end ? 1 : 0];
   }
+  /// Notes the same for a placed path. Its query knows the weights of its range.
+  void move_start(std::size_t slot, double moved_t) {
+    moved_ |= std::uint64_t{1} << slot;
+    moved_t_[slot] = moved_t;
+    own_reach_[slot] = 0;
+  }
   /// Returns whether the start of the path of a slot was moved.
   [[nodiscard]] bool is_moved(std::size_t slot) const { return (moved_ >> slot & 1) != 0; }
   /// Forgets which of these slots have paths whose start was moved.

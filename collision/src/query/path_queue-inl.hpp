@@ -44,7 +44,7 @@ class PathQueue {
   /// `enter(lane, index, parameter)`, which returns where its KernelPath goes. The parameter is that of the walk: for
   /// paths of doubles a `WalkParameter`, for paths of floats what `WalkingPaths::enters` leaves out. If the KernelPath
   /// begins at a point to which the start was moved, it also calls `move_start(lane, moved_t, is_end, reach)`. The
-  /// reach is that from the path's own start.
+  /// reach is that from the path's own start. For a placed path, it calls `move_start(lane, moved_t)`.
   template <bool has_levels, typename Enter, typename MoveStart>
   HWY_INLINE std::uint32_t fill(std::uint32_t idle, WalkingPaths& lanes, const Enter& enter,
                                 const MoveStart& move_start) {
@@ -62,7 +62,9 @@ class PathQueue {
         } else {
           enter(to, first_ + from, taus_[from]) = kernel_paths_[from];
         }
-        if constexpr (is_float) {
+        if constexpr (Queries::is_placed) {
+          move_start(to, placer_.moved_t(from));
+        } else if constexpr (is_float) {
           if ((far_.free >> from & 1) != 0) [[unlikely]] {
             move_start(to, far_.moved_t[from], (far_.ends >> from & 1) != 0, kernel_paths_.reach_from_start(from));
           }
@@ -121,6 +123,9 @@ class PathQueue {
 
   /// Clips paths of floats that lie side by side.
   HWY_INLINE LaneClip::Clipped clip_numbers(const float* numbers, std::size_t count) {
+    if constexpr (Queries::is_placed) {
+      return placer_.clip(numbers, count, clip_, clipped_, kernel_paths_, enters_rest_);
+    }
     const auto ends = queries_.ends(first_, count);
     enters_rest_ = {};
     const LaneClip::Clipped clipped =
@@ -244,8 +249,9 @@ class PathQueue {
   /// The parameters of their walks, for paths of doubles.
   [[no_unique_address]] std::conditional_t<is_float, None<1>, std::array<WalkParameter, max_lanes>> taus_;
   const LaneWalk& walk_;
-  const Queries& queries_;  ///< The queries of the paths.
-  const GridFrame& frame_;  ///< The frame that the paths are clipped to.
+  const Queries& queries_;                                           ///< The queries of the paths.
+  [[no_unique_address]] typename Queries::Placer placer_{queries_};  ///< Brings placed paths into the frame of a mesh.
+  const GridFrame& frame_;                                           ///< The frame that the paths are clipped to.
   const LaneClip clip_{frame_};
   const bool is_main_ = &frame_ != &queries_.of_batch().grid.frame();  ///< True if it is that of the main grid.
   /// True if floats hold the numbers of the grid's frame. Else `LaneClip::clip` only sets the paths of the kernel.

@@ -194,6 +194,12 @@ void InstanceTree::refit(std::span<const InstanceBox> boxes) noexcept {
   }
 }
 
+std::uint32_t InstanceTree::only_instance() const noexcept {
+  // The first child of a node is always there.
+  const bool is_one = nodes_.size() == 1 && nodes_[0].child[1] == no_child;
+  return is_one ? nodes_[0].child[0] & ~instance_bit : no_child;
+}
+
 void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<const InstanceBox> boxes) {
   nodes_.clear();
   if (instances.empty()) return;

@@ -46,6 +46,8 @@ class InstanceTree {
 
   [[nodiscard]] bool is_empty() const { return nodes_.empty(); }
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  /// Returns the only instance, or `no_child` if there is none or more than one.
+  [[nodiscard]] std::uint32_t only_instance() const noexcept;
   [[nodiscard]] const Double4& origin() const { return origin_; }
   /// Returns the largest component of the origin.
   [[nodiscard]] double origin_size() const { return max_lane(absolute(origin_)); }

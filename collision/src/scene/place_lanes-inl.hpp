@@ -33,32 +33,58 @@ class PlaceLanes {
   /// Sets the pair of a lane.
   template <typename Scalar>
   HWY_INLINE void set(std::size_t lane, const ScenePath<Scalar>& path, const InstanceFrame& frame) {
-    std::size_t row = 0;
-    const auto add = [&](double x) { numbers_[row++][lane] = x; };
-    const auto add_vector = [&](const Double4& x) {
-      for (std::size_t axis = 0; axis < 3; ++axis) add(x[axis]);
-    };
-    add_vector(path.start);
-    add_vector(path.direction);
-    add(path.size);
-    add(path.inverse_square);
-    add(double{path.range.first});
-    add(double{path.range.last});
-    add_vector(frame.placed_anchor);
-    for (const float rest : frame.near_rest) add(double{rest});
-    add(frame.radius);
-    add(frame.near_slack);
-    for (const Double4& column : frame.inverse) add_vector(column);
-    add_vector(frame.anchor);
-    add_vector(frame.row_size);
-    add(frame.largest_row_size);
-    add(frame.inverse_error);
-    add(frame.anchor_size);
-    add(frame.largest_half_size);
-    add_vector(frame.half_size);
+    Rows to{*this, lane};
+    to.add(path.start);
+    to.add(path.direction);
+    to.add(path.size);
+    to.add(path.inverse_square);
+    to.add(double{path.range.first});
+    to.add(double{path.range.last});
+    set_frame(lane, frame, path.path.has_end());
+  }
+  /// Sets the instance of a lane.
+  HWY_INLINE void set_frame(std::size_t lane, const InstanceFrame& frame, bool has_end) {
+    Rows to{*this, lane, path_rows};
+    to.add(frame.placed_anchor);
+    for (const float rest : frame.near_rest) to.add(double{rest});
+    to.add(frame.radius);
+    to.add(frame.near_slack);
+    for (const Double4& column : frame.inverse) to.add(column);
+    to.add(frame.anchor);
+    to.add(frame.row_size);
+    to.add(frame.largest_row_size);
+    to.add(frame.inverse_error);
+    to.add(frame.anchor_size);
+    to.add(frame.largest_half_size);
+    to.add(frame.half_size);
     // A path that moves against the instance, or that is not usable, is placed alone.
-    const bool is_plain = frame.is_usable && !(frame.moves && path.path.has_end());
+    const bool is_plain = frame.is_usable && !(frame.moves && has_end);
     plain_ = (plain_ & ~(std::uint32_t{1} << lane)) | std::uint32_t{is_plain} << lane;
+  }
+  /// Sets the segments of all lanes, for t from 0 to 1. There are six arrays of floats: the coordinates of the starts,
+  /// and those of the ends. Each has a float for each lane.
+  HWY_INLINE void set_segments(const float* const (&numbers)[6]) {
+    const Tag d;
+    for (std::size_t from = 0; from < max_lanes; from += hn::Lanes(d)) {
+      const auto load = [&](std::size_t i) {
+        return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, Tag>(), numbers[i] + from));
+      };
+      std::size_t row = 0;
+      const auto add = [&](V x) { hn::StoreU(x, d, &numbers_[row++][from]); };
+      V way[3];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const V start = load(k);
+        add(start);
+        way[k] = hn::Sub(load(k + 3), start);
+      }
+      for (const V& component : way) add(component);
+      add(largest(way));
+      const V square = dot(way, way);
+      const auto moves = hn::Gt(square, hn::Zero(d));
+      add(hn::IfThenElseZero(moves, hn::Div(all(1), hn::IfThenElse(moves, square, all(1)))));
+      add(hn::Zero(d));
+      add(all(1));
+    }
   }
 
   /// Places the pairs of the first `count` lanes. `has_end` tells whether all of their paths are segments.
@@ -74,7 +100,20 @@ class PlaceLanes {
  private:
   using Tag = hn::CappedTag<double, max_lanes>;
   using V = hn::Vec<Tag>;
-  static constexpr std::size_t rows = 40;  ///< The number of numbers of a pair.
+  static constexpr std::size_t rows = 40;       ///< The number of numbers of a pair.
+  static constexpr std::size_t path_rows = 10;  ///< The number of those of the path. They come first.
+
+  /// Sets one number of a lane after the other.
+  struct Rows {
+    PlaceLanes& of;
+    std::size_t lane;
+    std::size_t row = 0;
+
+    HWY_INLINE void add(double x) { of.numbers_[row++][lane] = x; }
+    HWY_INLINE void add(const Double4& x) {
+      for (std::size_t axis = 0; axis < 3; ++axis) add(x[axis]);
+    }
+  };
 
   static HWY_INLINE V all(double x) { return hn::Set(Tag(), x); }
   static HWY_INLINE V dot(const V (&x)[3], const V (&y)[3]) {

@@ -20,6 +20,7 @@
 #include "scene/place_lanes-inl.hpp"
 #if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
 #include "scene/mesh_batch-inl.hpp"
+#include "scene/one_instance-inl.hpp"
 #endif
 #include "scene/scene_search-inl.hpp"
 
@@ -328,7 +329,8 @@ class SceneRounding {
       const auto rounded = waiting_.round();
       for (std::size_t i = 0; i < count_; ++i) {
         const std::uint32_t generation = batch_.instances[best_[i].instance].generation;
-        if (!set_rounded(rounded, i, best_[i], generation, hits_[index_[i]])) round_alone(i);
+        if (set_rounded(rounded, i, best_[i], generation, hits_[index_[i]])) continue;
+        round_alone(query_of_path(batch_, own_options_, index_[i]), paths_[index_[i]], best_[i], hits_[index_[i]]);
       }
       count_ = 0;
     }
@@ -339,16 +341,6 @@ class SceneRounding {
   /// No hit waits in double.
   static constexpr std::size_t max_hits = std::is_same_v<Scalar, float> ? PlacedHits<Tag>::max_lanes : 0;
   struct None {};
-
-  /// Lets the narrowphase decide and round a hit.
-  HWY_NOINLINE void round_alone(std::size_t i) {
-    const SceneQuery<Scalar> query = query_of_path(batch_, own_options_, index_[i]);
-    const Path<Scalar> path = paths_[index_[i]];
-    const SceneSearch<Scalar> search(query, path);
-    if (search.narrowphase().find_certain(best_[i])) {
-      hits_[index_[i]] = search.narrowphase().hit(best_[i], batch_.instances[best_[i].instance].generation);
-    }
-  }
 
   const SceneQuery<Scalar>& batch_;
   const PathSpan<Scalar>& paths_;
@@ -369,6 +361,14 @@ void search_scene_each_first(const SceneQuery<Scalar>& batch, const PathSpan<Sca
     hits[index] =
         search_scene_first(query_of_path(batch, own_options, index), paths[index]).value_or(SceneHit<Scalar>{});
   };
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (std::is_same_v<Scalar, float>) {
+    if (OneInstance::takes(batch, paths, own_options)) {
+      OneInstance(batch, paths).find_first(hits, alone);
+      return;
+    }
+  }
+#endif
   SceneRounding<Scalar> rounding(batch, paths, own_options, hits);
   const auto finish = [&](std::size_t index, KeepFirst<Scalar>& keep) { rounding.add(index, keep); };
   search_scene_batch<KeepFirst<Scalar>>(batch, paths, own_options, finish, alone);
@@ -383,6 +383,14 @@ void search_scene_each_any(const SceneQuery<Scalar>& batch, const PathSpan<Scala
   const auto alone = [&](std::size_t index) {
     blocked[index] = search_scene_any(query_of_path(batch, own_options, index), paths[index]) ? 1 : 0;
   };
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (std::is_same_v<Scalar, float>) {
+    if (OneInstance::takes(batch, paths, own_options)) {
+      OneInstance(batch, paths).find_any(blocked, alone);
+      return;
+    }
+  }
+#endif
   const auto finish = [&](std::size_t index, const KeepAny<Scalar>& keep) { blocked[index] = keep.is_done() ? 1 : 0; };
   search_scene_batch<KeepAny<Scalar>>(batch, paths, own_options, finish, alone);
 }

@@ -432,6 +432,15 @@ class SceneSearch {
   const SceneNarrowphase<Scalar> narrowphase_{path_, query_.options, query_.statistics};
 };
 
+/// Lets the narrowphase decide and round a hit of which the kernel is certain.
+template <typename Scalar>
+HWY_NOINLINE void round_alone(const SceneQuery<Scalar>& query, const Path<Scalar>& path, PlacedCandidate<Scalar>& best,
+                              SceneHit<Scalar>& hit) {
+  const SceneSearch<Scalar> search(query, path);
+  if (!search.narrowphase().find_certain(best)) return;
+  hit = search.narrowphase().hit(best, query.instances[best.instance].generation);
+}
+
 /// Returns the first hit of a path.
 template <typename Scalar>
 std::optional<SceneHit<Scalar>> search_scene_first(const SceneQuery<Scalar>& query, const Path<Scalar>& path) noexcept {

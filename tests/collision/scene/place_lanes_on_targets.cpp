@@ -6,6 +6,9 @@
 #include <hwy/foreach_target.h>
 // This header must come after foreach_target.h.
 #include "scene/place_lanes-inl.hpp"
+#if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
+#include "scene/path_placer-inl.hpp"
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
@@ -24,6 +27,28 @@ void place_doubles(std::span<const test::PairToPlace<double>> pairs, bool has_en
   place_pairs(pairs, has_end, placed);
 }
 
+#if HWY_TARGET != HWY_SCALAR
+bool place_four(const InstanceFrame& frame, const GridFrame& grid, const std::array<float, 24>& segments,
+                test::PlacedSegmentLanes& lanes) {
+  std::array<float, 6 * max_lanes> readable = {};
+  std::copy(segments.begin(), segments.end(), readable.begin());
+  SegmentPlacer placer(frame);
+  placer.place(readable.data(), 4);
+  lanes.placed = placer.part(0);
+  PlacedKernelPaths paths;
+  lanes.usable = paths.set(lanes.placed, 0);
+  lanes.precise = lanes_precise_in(grid, lanes.placed);
+  KernelLanes in_lanes;
+  paths.copy_to(in_lanes);
+  for (std::size_t lane = 0; lane < 4; ++lane) in_lanes.copy(lane, lanes.kernel_paths[lane]);
+  return true;
+}
+#else
+bool place_four(const InstanceFrame&, const GridFrame&, const std::array<float, 24>&, test::PlacedSegmentLanes&) {
+  return false;
+}
+#endif
+
 }  // namespace surehit::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -32,12 +57,17 @@ namespace surehit::detail {
 
 HWY_EXPORT(place_floats);
 HWY_EXPORT(place_doubles);
+HWY_EXPORT(place_four);
 
 void chosen_place(std::span<const test::PairToPlace<float>> pairs, bool has_end, PlacedLanes& placed) {
   HWY_DYNAMIC_DISPATCH(place_floats)(pairs, has_end, placed);
 }
 void chosen_place(std::span<const test::PairToPlace<double>> pairs, bool has_end, PlacedLanes& placed) {
   HWY_DYNAMIC_DISPATCH(place_doubles)(pairs, has_end, placed);
+}
+bool chosen_place_four(const InstanceFrame& frame, const GridFrame& grid, const std::array<float, 24>& segments,
+                       test::PlacedSegmentLanes& lanes) {
+  return HWY_DYNAMIC_DISPATCH(place_four)(frame, grid, segments, lanes);
 }
 
 }  // namespace surehit::detail
@@ -51,6 +81,11 @@ void place_side_by_side(std::span<const PairToPlace<Scalar>> pairs, bool has_end
 
 template void place_side_by_side(std::span<const PairToPlace<float>>, bool, detail::PlacedLanes&);
 template void place_side_by_side(std::span<const PairToPlace<double>>, bool, detail::PlacedLanes&);
+
+bool place_segments(const detail::InstanceFrame& frame, const GridFrame& grid, const std::array<float, 24>& segments,
+                    PlacedSegmentLanes& lanes) {
+  return detail::chosen_place_four(frame, grid, segments, lanes);
+}
 
 }  // namespace surehit::test
 #endif

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
@@ -329,6 +330,69 @@ TYPED_TEST(PlacedPathOf, HasTheSameBoundsSideBySide) {
     for (const double share : {shares.start, shares.direction, shares.position, shares.reach}) EXPECT_LE(share, 1);
     EXPECT_GT(near, batches / 16);
     EXPECT_GT(beside, batches / 2);
+  });
+}
+
+/// What places segments of one instance takes the steps that place any pairs, and those of the kernel's paths.
+TEST(PlacedSegments, HaveTheNumbersOfPlacedPaths) {
+  constexpr std::size_t count = 4;
+  on_every_instruction_set([&] {
+    Random random(20261127);
+    std::size_t near = 0;
+    std::size_t usable = 0;
+    std::size_t precise = 0;
+    const std::size_t batches = case_count(1600);
+    for (std::size_t i = 0; i < batches; ++i) {
+      Case<float> drawn = draw_case<float>(random);
+      drawn.placement.moves = false;
+      const InstanceFrame frame = InstanceFrame::of(drawn.placement, drawn.box);
+      // In a grid that is far smaller than the mesh, the errors are too large.
+      const Vector3d middle = (drawn.box.low + drawn.box.high) / 2;
+      const Vector3d half = (drawn.box.high - drawn.box.low) * std::exp2(-real(random, 1, 40));
+      const GridFrame grid = GridFrame::around(Box<double>{middle - half, middle + half}, {16, 9, 25}, 1);
+      const PathRange<float> whole(0, 1);
+      const Vector3f from = drawn.path.start;
+      const Vector3f to = drawn.path.has_end() ? drawn.path.toward : Vector3f(from + drawn.path.toward);
+      const std::vector<Path<float>> segments = {Segmentf{from, to}, Segmentf{to, from}, Segmentf{from, from},
+                                                 Segmentf{from, (from + to) / 2}};
+      std::array<float, 6 * count> numbers;
+      std::vector<detail::ScenePath<float>> paths;
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        Vector3f::Map(&numbers[6 * lane]) = segments[lane].start;
+        Vector3f::Map(&numbers[6 * lane + 3]) = segments[lane].toward;
+        paths.emplace_back(segments[lane], whole);
+      }
+      std::vector<PairToPlace<float>> pairs;
+      for (const auto& path : paths) pairs.push_back({&path, &frame});
+      detail::PlacedLanes expected;
+      place_side_by_side<float>(pairs, true, expected);
+      PlacedSegmentLanes lanes;
+      if (!place_segments(frame, grid, numbers, lanes)) return;
+      ASSERT_EQ(lanes.placed.near, expected.near);
+      ASSERT_EQ(lanes.placed.beside, expected.beside);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        if ((expected.near >> lane & 1) == 0) continue;
+        ++near;
+        const detail::PlacedPath<float> placed(paths[lane], drawn.placement, frame, expected, lane);
+        EXPECT_EQ(lanes.placed.moved_t[lane], placed.moved.moved_t);
+        const bool is_precise = (lanes.precise >> lane & 1) != 0;
+        precise += is_precise ? 1 : 0;
+        MovedPath in_grid = placed.moved;
+        for (Eigen::Index axis = 0; axis < 3; ++axis) in_grid.start[axis] = middle[axis];
+        EXPECT_TRUE(!is_precise || in_grid.is_precise_in(grid));
+        if ((lanes.usable >> lane & 1) == 0) continue;
+        ++usable;
+        const auto kernel = placed.kernel_path<float>();
+        EXPECT_EQ(placed.kernel_scale(), 1);
+        EXPECT_FALSE(std::isinf(kernel.d_size));
+        EXPECT_EQ(std::memcmp(&lanes.kernel_paths[lane], &kernel, sizeof kernel), 0);
+      }
+      if (testing::Test::HasFailure()) FAIL() << "batch " << i;
+    }
+    EXPECT_GT(near, batches / 16);
+    EXPECT_GT(usable, near / 2);
+    EXPECT_GT(precise, near / 4);
+    EXPECT_LT(precise, near);
   });
 }
 

@@ -11,6 +11,7 @@
 
 #include "collision/painted_stack.hpp"
 #include "support/case_count.hpp"
+#include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 #include "support/scalars.hpp"
 #include "support/sphere_families.hpp"
@@ -100,6 +101,18 @@ TYPED_TEST(SceneStack, of_batches) {
   std::vector<std::uint8_t> blocked(segments.size());
   this->expect_within_promise("first_hits", [&] { this->scene_.first_hits(segments, hits); });
   this->expect_within_promise("any_hits", [&] { this->scene_.any_hits(segments, blocked); });
+  // A scene with one instance has batches of its own.
+  Random random(5);
+  const auto ground = rough_ground<TypeParam>(24, TypeParam(0.25), random);
+  Scene<TypeParam> one;
+  one.add(std::make_shared<Collider<TypeParam>>(ground.view()));
+  one.commit();
+  std::vector<Segment<TypeParam>> edges;
+  for (std::size_t i = 0; i < 100; ++i) edges.push_back({{0, 0, 1}, ground.vertices[i]});
+  std::vector<SceneHit<TypeParam>> edge_hits(edges.size());
+  std::vector<std::uint8_t> edges_blocked(edges.size());
+  this->expect_within_promise("first_hits_of_one", [&] { one.first_hits(edges, edge_hits); });
+  this->expect_within_promise("any_hits_of_one", [&] { one.any_hits(edges, edges_blocked); });
   // Each instance has a box in front of all larger ones. So paths leave more boxes for later than a batch has room for.
   GeneratedMesh<TypeParam> crossing;
   crossing.add({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}});

@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "support/case_count.hpp"
+#include "support/grid_breaking_meshes.hpp"
+#include "support/random.hpp"
+#include "support/same_bits.hpp"
+#include "surehit/scene.hpp"
+#include "unit_scenes.hpp"
+
+namespace surehit::test {
+namespace {
+
+/// The meshes are in [-1, 1]³, and their grids have many cells.
+std::vector<GeneratedMesh<float>> draw_meshes(Random& random) {
+  return {rough_ground<float>(24, 0.25F, random), rough_ground<float>(12, 0, random),
+          scattered_triangles<float>(600, 0.25F, random), smooth_bowl<float>(400)};
+}
+
+std::vector<Posef> poses() {
+  Posef turned = with_rows<float>({0.6F, -0.8F, 0}, {0.8F, 0.6F, 0}, {0, 0, 1});
+  turned.translation = {10, -20, 30};
+  Posef far = turned;
+  far.translation = {1e7F, -3e6F, 0.5F};
+  Posef mirrored = with_rows<float>({0, 0.3F, 2}, {1.7F, 0.1F, 0}, {0.1F, 3, 0.2F});
+  mirrored.translation = {-5, 0.1F, 7};
+  const Posef tiny = with_rows<float>({0x1p-40F, 0, 0}, {0, 0x1p-40F, 0}, {0, 0, 0x1p-40F});
+  const Posef huge = with_rows<float>({0, 0x1p40F, 0}, {0x1p40F, 0, 0}, {0, 0, 0x1p40F});
+  // It is nearly singular, so errors are large in the frame of the mesh.
+  const Posef flat = with_rows<float>({1, 1, 0}, {1, 1.000001F, 0}, {0, 0, 1});
+  return {Posef{}, Posef::translated({1000.1F, -20, 3}), turned, far, mirrored, tiny, huge, flat};
+}
+
+/// Draws segments near the instance. Some end exactly at a placed vertex, as well as floats can tell.
+std::vector<Segmentf> draw_segments(const GeneratedMesh<float>& mesh, const Posef& pose, std::size_t count,
+                                    Random& random) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const auto placed = [&](const Vector3f& local) {
+    const Vector3d point = pose.linear.cast<double>() * local.cast<double>() + pose.translation.cast<double>();
+    return Vector3f(point.cast<float>());
+  };
+  const auto draw = [&](float size) {
+    const auto number = [&] { return size * random.symmetric<float>(); };
+    return Vector3f(number(), number(), number());
+  };
+  const auto vertex = [&] { return mesh.vertices[random.below(mesh.vertices.size())]; };
+  std::vector<Segmentf> segments;
+  while (segments.size() < count) {
+    const Vector3f start = draw(1.5F);
+    switch (random.below(7)) {
+      case 0:
+        segments.push_back({placed(start), placed(start + draw(0.125F))});
+        break;
+      case 1:
+        segments.push_back({placed(start), placed(vertex())});
+        break;
+      case 2:
+        segments.push_back({placed(vertex()), placed(start)});
+        break;
+      case 3:
+        segments.push_back({placed(draw(1000)), placed(start)});
+        break;
+      case 4:
+        segments.push_back({placed(2 * vertex() - start), placed(start)});
+        break;
+      default:
+        segments.push_back({placed(start), placed(draw(1.5F))});
+    }
+  }
+  segments[random.below(count)].end = segments[0].start;
+  segments[random.below(count)] = {placed(draw(1)), {0, infinity, 0}};
+  segments[random.below(count)].start.x() = std::numeric_limits<float>::quiet_NaN();
+  segments[random.below(count)].end = {3e38F, -3e38F, 1};
+  return segments;
+}
+
+void expect_answers_of_single_queries(const Scenef& scene, const std::vector<Segmentf>& segments,
+                                      const SceneQueryOptionsf& options, std::size_t& hit_count) {
+  std::vector<SceneHitf> hits(segments.size(), SceneHitf{{.t = 7, .triangle = 3}, {}});
+  std::vector<std::uint8_t> blocked(segments.size(), 7);
+  QueryStatistics statistics;
+  scene.first_hits(segments, hits, {.options = options, .statistics = &statistics});
+  EXPECT_EQ(statistics.paths, segments.size());
+  scene.any_hits(segments, blocked, {.options = options, .statistics = &statistics});
+  EXPECT_EQ(statistics.paths, 2 * segments.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const auto expected = scene.first_hit(segments[i], options);
+    EXPECT_TRUE(same_bits(hits[i], expected.value_or(SceneHitf{}))) << i;
+    EXPECT_EQ(blocked[i], expected ? 1 : 0) << i;
+    hit_count += expected ? 1 : 0;
+  }
+}
+
+/// A scene with one instance has batches of its own. Single queries do without them.
+TEST(OneInstance, HasTheSameAnswersInBatches) {
+  Random random(20261126);
+  for (std::size_t round = case_count(2); round > 0; --round) {
+    for (const GeneratedMesh<float>& mesh : draw_meshes(random)) {
+      const auto collider = std::make_shared<Colliderf>(mesh.view());
+      for (const Posef& pose : poses()) {
+        Scenef scene;
+        const InstanceId id = scene.add(collider, pose);
+        scene.commit();
+        std::size_t hits = 0;
+        const auto segments = draw_segments(mesh, pose, 300, random);
+        expect_answers_of_single_queries(scene, segments, {}, hits);
+        EXPECT_GT(hits, segments.size() / 20);
+        const auto few = draw_segments(mesh, pose, 5 + random.below(60), random);
+        expect_answers_of_single_queries(scene, few, {}, hits);
+        expect_answers_of_single_queries(scene, few, {.max_t = 0.5F}, hits);
+        expect_answers_of_single_queries(scene, few, {.culling = Culling::back}, hits);
+        expect_answers_of_single_queries(scene, few, {.ignored_instance = id, .ignored_triangle = 1}, hits);
+        expect_answers_of_single_queries(scene, few, {.ignored_instance = id}, hits);
+        expect_answers_of_single_queries(scene, few, {.mask = 0}, hits);
+        expect_answers_of_single_queries(scene, few, {.instance_mask = 0}, hits);
+        scene.set_motion(id, pose.linear * Vector3f(0.25F, 0.5F, 0.125F));
+        scene.commit();
+        expect_answers_of_single_queries(scene, few, {}, hits);
+      }
+    }
+  }
+}
+
+/// An empty collider is in no tree. So the scene has one instance that can be hit.
+TEST(OneInstance, MayHaveAnotherIndex) {
+  Random random(3);
+  const auto mesh = rough_ground<float>(24, 0.25F, random);
+  Scenef scene;
+  scene.add(std::make_shared<Colliderf>());
+  scene.add(std::make_shared<Colliderf>(mesh.view()));
+  scene.commit();
+  std::size_t hits = 0;
+  expect_answers_of_single_queries(scene, draw_segments(mesh, {}, 100, random), {}, hits);
+  EXPECT_GT(hits, 10u);
+}
+
+}  // namespace
+}  // namespace surehit::test
