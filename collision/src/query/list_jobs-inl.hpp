@@ -29,12 +29,11 @@ namespace surehit::detail::HWY_NAMESPACE {
 /// The lists that the paths of a batch have come to, cut into jobs. A job is as many triangles of one list as the
 /// kernel takes at once. The kernel runs over many jobs before any verdict is used, because a processor can predict
 /// neither the length of a list nor a verdict.
-template <typename Scalar, typename Visitor>
+template <typename Scalar, typename Visitor, std::size_t slots = max_slots<Scalar>>
 class ListJobs {
   using Kernel = typename Visitor::Kernel;
   /// The number of lanes of the kernel, at most that of the widest vectors of today.
   static constexpr std::size_t kernel_lanes = std::min(hn::MaxLanes(hn::ScalableTag<Scalar>()), 64 / sizeof(Scalar));
-  static constexpr std::size_t slots = max_slots<Scalar>;          ///< The number of slots.
   static constexpr bool may_move = std::is_same_v<Scalar, float>;  ///< Starts of paths of doubles are not moved.
 
  public:

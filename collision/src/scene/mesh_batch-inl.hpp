@@ -87,8 +87,7 @@ class MeshBatch {
 
  private:
   using Visitor = InstanceVisitor<float, float, Keep>;
-  using Jobs = ListJobs<float, Visitor>;
-  static_assert(slots <= max_slots<float>);
+  using Jobs = ListJobs<float, Visitor, slots>;
   static constexpr std::size_t vectors = (slots + max_lanes - 1) / max_lanes;
   /// The placed path has the range that counts.
   inline static const PathRange<float> any_range{-std::numeric_limits<float>::infinity(),
@@ -116,7 +115,7 @@ class MeshBatch {
   }
 
   // What `ListJobs` asks for.
-  using Weights = std::array<RangeWeights<float>, max_slots<float>>;
+  using Weights = std::array<RangeWeights<float>, slots>;
   struct WeightsOfSlots {
     const Weights& weights;
     [[nodiscard]] const RangeWeights<float>& weights_in(std::size_t slot) const { return weights[slot]; }
