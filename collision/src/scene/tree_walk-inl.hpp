@@ -21,6 +21,7 @@
 #include "scene/placed_path.hpp"
 #include "support/double4.hpp"
 #include "support/float4.hpp"
+#include "support/lane_bits-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
@@ -165,8 +166,11 @@ class TreeWalk {
     [[nodiscard]] float enters() const { return std::bit_cast<float>(enters_bits); }
   };
 
-  /// Leaves the children for later whose boxes the path may meet. There is no branch for each child, because a
-  /// processor cannot predict which ones are met.
+  /// True if the instruction set has an instruction that compresses a vector. Highway's tables are slower than a loop.
+  static constexpr bool compresses = HWY_TARGET <= HWY_AVX3;
+
+  /// Leaves the children for later whose boxes the path may meet. Where vectors are compressed, there is no branch for
+  /// each child, because a processor cannot predict which ones are met.
   template <bool sorts>
   HWY_INLINE void visit_node(const InstanceTree::Node& node) {
     const hn::CappedTag<float, InstanceTree::width> d;
@@ -186,10 +190,19 @@ class TreeWalk {
       const auto child = hn::Load(du, &node.child[from]);
       const auto is_there = hn::Ne(child, hn::Set(du, InstanceTree::no_child));
       const auto is_met = hn::And(is_there, hn::RebindMask(du, hn::Le(enters, leaves)));
-      static_assert(sizeof(Child) == 2 * sizeof(std::uint32_t));
-      hn::StoreInterleaved2(hn::Compress(child, is_met), hn::Compress(hn::BitCast(du, enters), is_met), du,
-                            reinterpret_cast<std::uint32_t*>(&open_[count_]));
-      count_ += hn::CountTrue(du, is_met);
+      if constexpr (compresses) {
+        static_assert(sizeof(Child) == 2 * sizeof(std::uint32_t));
+        hn::StoreInterleaved2(hn::Compress(child, is_met), hn::Compress(hn::BitCast(du, enters), is_met), du,
+                              reinterpret_cast<std::uint32_t*>(&open_[count_]));
+        count_ += hn::CountTrue(du, is_met);
+      } else {
+        alignas(sizeof(float) * InstanceTree::width) std::array<std::uint32_t, InstanceTree::width> enters_bits;
+        hn::Store(hn::BitCast(du, enters), du, enters_bits.data());
+        for (std::uint64_t met = bits_of(du, is_met); met != 0; met &= met - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(met));
+          open_[count_++] = {node.child[from + lane], enters_bits[lane]};
+        }
+      }
     }
     if constexpr (sorts) sort_from(before);
   }
