@@ -1,8 +1,10 @@
 #include "shape/bounded_sphere.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "shape/bounded_approach.hpp"
+#include "shape/face_contact.hpp"
 #include "shape/sphere_touch.hpp"
 #include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
@@ -104,6 +106,15 @@ Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& tr
   return find_contact<Bounded>(sphere, triangle, found);
 }
 
+template <typename Scalar>
+Verdict simple_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, double limit,
+                       SphereContact& found) {
+  DoubleRange t;
+  const Verdict verdict = FaceContact(sphere, triangle).find(limit, t);
+  found = {t.lower, t.upper, Feature::face, Feature::face, verdict == Verdict::hit && t.upper == 0};
+  return verdict;
+}
+
 template <typename Scalar, typename AnyTriangle>
 bool try_round(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, const SphereContact& contact,
                ShapeHit<Scalar>& hit) {
@@ -112,10 +123,18 @@ bool try_round(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, c
   hit.u = contact.feature == Feature::corner_b ? Scalar{1} : Scalar{0};
   hit.v = contact.feature == Feature::corner_c ? Scalar{1} : Scalar{0};
   if (is_corner(contact.feature)) return true;
+  if constexpr (std::is_same_v<AnyTriangle, Triangle<float>>) {
+    if (contact.feature == Feature::face) {
+      const auto [u, v] = FaceContact(sphere, triangle).weights({contact.t_lower, contact.t_upper});
+      if (try_round(u, hit.u) && try_round(v, hit.v)) return true;
+    }
+  }
   return (has_usual_images(triangle) && try_round_weights<Sized>(sphere, triangle, contact, hit)) ||
          try_round_weights<Bounded>(sphere, triangle, contact, hit);
 }
 
+template Verdict simple_contact(const SweptSphere<float>&, const Triangle<float>&, double, SphereContact&);
+template Verdict simple_contact(const SweptSphere<double>&, const Triangle<double>&, double, SphereContact&);
 #define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                    \
   template Verdict bounded_contact(const SweptSphere<Scalar>&, const AnyTriangle&, SphereContact&); \
   template bool try_round(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, ShapeHit<Scalar>&);

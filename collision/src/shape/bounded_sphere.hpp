@@ -14,6 +14,12 @@ template <typename Scalar, typename AnyTriangle>
 [[nodiscard]] Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
                                       SphereContact& found);
 
+/// Decides whether a moving ball touches the inside of a triangle before `limit`, if this is certain. If it is
+/// undecided, it sets `found.t_lower` to a lower bound of any contact's t.
+template <typename Scalar>
+[[nodiscard]] Verdict simple_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, double limit,
+                                     SphereContact& found);
+
 /// Rounds t, u and v of a contact. Returns false if its bounds do not decide all of them.
 template <typename Scalar, typename AnyTriangle>
 [[nodiscard]] bool try_round(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,

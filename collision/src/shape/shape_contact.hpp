@@ -16,6 +16,10 @@ using ScalarOf = typename ShapeTypes<Shape>::Scalar;
 template <typename Shape>
 using ContactOf = typename ShapeTypes<Shape>::Contact;
 
+/// True if most contacts of a shape with a triangle can be decided at little cost.
+template <typename Shape>
+inline constexpr bool has_simple_contacts = false;
+
 /// Returns true if the t of a contact follows from a corner or an edge of the triangle. Where it is in the mesh, it
 /// then is the same for all triangles that share this part, wherever the mesh is placed.
 template <typename Contact>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 
 #include "scene/placed_shape_candidate.hpp"
 #include "shape/bounded_box.hpp"
@@ -35,7 +36,12 @@ bool ShapeNarrowphase<Shape, Candidate>::admits(const AnyTriangle& triangle, con
 template <typename Shape, typename Candidate>
 bool ShapeNarrowphase<Shape, Candidate>::find_contact(const AnyTriangle& triangle, double limit,
                                                       ContactOf<Shape>& found) const {
-  switch (bounded_contact(shape_, triangle, found)) {
+  Verdict verdict = Verdict::undecided;
+  if constexpr (has_simple_contacts<Shape> && std::is_same_v<AnyTriangle, Triangle<Scalar>>) {
+    verdict = simple_contact(shape_, triangle, limit, found);
+  }
+  if (verdict == Verdict::undecided) verdict = bounded_contact(shape_, triangle, found);
+  switch (verdict) {
     case Verdict::miss:
       return false;
     case Verdict::hit:

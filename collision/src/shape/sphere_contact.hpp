@@ -28,6 +28,9 @@ struct ShapeTypes<SweptSphere<AnyScalar>> {
   using Contact = SphereContact;
 };
 
+template <typename Scalar>
+inline constexpr bool has_simple_contacts<SweptSphere<Scalar>> = true;
+
 /// Returns true if a ball can touch something: all numbers are finite, and the radius is not negative.
 template <typename Scalar>
 [[nodiscard]] bool is_valid(const SweptSphere<Scalar>& sphere);
