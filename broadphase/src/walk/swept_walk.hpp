@@ -34,6 +34,19 @@ class SweptWalk {
   /// Walks through the outermost grid, and through inner grids where the box comes to their cells. Returns false if the
   /// numbers are too large to be counted in cells. Then nothing was visited.
   bool walk() { return walk_frame(grid_.frame()); }
+  /// Walks through one cell of the outermost grid. `walk` must be able to walk the box.
+  void walk_top_cell(const std::array<std::uint32_t, 3>& cell, CellWord word) {
+    const GridFrame& frame = grid_.frame();
+    std::array<Axis, 3> axes;
+    if (!find_axes(frame, axes)) return;
+    std::array<double, 3> low = {};
+    Times times;
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = static_cast<double>(cell[i]) * frame.division;
+      times = axes[i].during(low[i], low[i] + frame.division).within(times);
+    }
+    if (!is_late(times)) walk_cell(axes, word, low, frame.division, times);
+  }
 
  private:
   static constexpr double too_large = 0x1p300;
@@ -95,6 +108,13 @@ class SweptWalk {
 
   bool walk_frame(const GridFrame& frame) {
     std::array<Axis, 3> axes;
+    if (!find_axes(frame, axes)) return false;
+    walk_top(frame, axes);
+    return true;
+  }
+
+  /// Sets the ways of the box in a frame. Returns false if the numbers are too large.
+  [[nodiscard]] bool find_axes(const GridFrame& frame, std::array<Axis, 3>& axes) const {
     std::uint32_t pitch = 1;
     for (std::size_t i = 0; i < 3; ++i) {
       Axis& axis = axes[i];
@@ -110,7 +130,6 @@ class SweptWalk {
       axis.pitch = pitch;
       pitch *= frame.cells[i];
     }
-    walk_top(frame, axes);
     return true;
   }
 

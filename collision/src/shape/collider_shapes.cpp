@@ -7,6 +7,7 @@
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
 #include "shape/free_centre.hpp"
+#include "shape/shape_batch.hpp"
 #include "shape/shape_query.hpp"
 #include "shape/sphere_contact.hpp"
 #include "support/floating_point_environment.hpp"
@@ -37,21 +38,19 @@ decltype(auto) ask(const detail::ColliderState<Scalar>& state, const SweptShape<
 constexpr auto search_first = [](const auto& query, const auto& shape) { return detail::search_first(query, shape); };
 constexpr auto search_any = [](const auto& query, const auto& shape) { return detail::search_any(query, shape); };
 
-/// Answers a batch. `search(query, shape, index)` answers one shape.
-template <typename Scalar, typename Search>
-void ask_batch(const detail::ColliderState<Scalar>& state, const SweptShapeSpan<Scalar>& shapes, std::size_t answers,
-               const ShapeBatchOptions<Scalar>& options, const Search& search) noexcept {
+/// Answers a batch. `search(part, answers)` answers a part of it.
+template <typename Scalar, typename Answer, typename Search>
+void ask_batch(const detail::ColliderState<Scalar>& state, const SweptShapeSpan<Scalar>& shapes,
+               std::span<Answer> answers, const ShapeBatchOptions<Scalar>& options, const Search& search) noexcept {
   const ShapeHitFilter<Scalar>* const filter = options.filter ? &*options.filter : nullptr;
-  const auto ask_all = [&](const auto& all) {
+  const auto ask_all = [&]<typename Shape>(std::span<const Shape> all) {
     const auto ask_part = [&](std::size_t first, std::size_t last, auto own_options, QueryStatistics& statistics) {
       const FloatingPointEnvironment environment;
-      for (std::size_t i = first; i < last; ++i) {
-        const ShapeQueryOptions<Scalar>& of_shape = own_options.empty() ? options.options : own_options[i - first];
-        search(detail::ShapeQuery<Scalar>{state.grid, state.mesh, state.masks, of_shape, filter, statistics, i}, all[i],
-               i);
-      }
+      search(detail::ShapeBatch<Shape>{state.grid, state.mesh, state.masks, options.options, own_options, filter,
+                                       statistics, first, all.subspan(first, last - first)},
+             answers.subspan(first, last - first));
     };
-    detail::answer_batch(std::min(all.size(), answers), options, shapes_in_a_task, ask_part);
+    detail::answer_batch(std::min(all.size(), answers.size()), options, shapes_in_a_task, ask_part);
   };
   std::visit(ask_all, shapes);
 }
@@ -129,17 +128,15 @@ void Collider<Scalar>::all_hits(const SweptShape<Scalar>& shape, std::vector<Sha
 template <FloatOrDouble Scalar>
 void Collider<Scalar>::first_hits(const SweptShapeSpan<Scalar>& shapes, std::span<ShapeHit<Scalar>> hits,
                                   const ShapeBatchOptions<Scalar>& options) const noexcept {
-  ask_batch<Scalar>(state(), shapes, hits.size(), options, [&](const auto& query, const auto& shape, std::size_t i) {
-    hits[i] = detail::search_first(query, shape).value_or(ShapeHit<Scalar>{});
-  });
+  ask_batch<Scalar>(state(), shapes, hits, options,
+                    [](const auto& part, auto of_part) { detail::search_first(part, of_part); });
 }
 
 template <FloatOrDouble Scalar>
 void Collider<Scalar>::any_hits(const SweptShapeSpan<Scalar>& shapes, std::span<std::uint8_t> blocked,
                                 const ShapeBatchOptions<Scalar>& options) const noexcept {
-  ask_batch<Scalar>(state(), shapes, blocked.size(), options, [&](const auto& query, const auto& shape, std::size_t i) {
-    blocked[i] = detail::search_any(query, shape) ? 1 : 0;
-  });
+  ask_batch<Scalar>(state(), shapes, blocked, options,
+                    [](const auto& part, auto of_part) { detail::search_any(part, of_part); });
 }
 
 template <FloatOrDouble Scalar>

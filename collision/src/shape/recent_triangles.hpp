@@ -19,6 +19,8 @@ class RecentTriangles {
     place = id;
     return is_there;
   }
+  /// Forgets a triangle that is remembered.
+  void forget(std::uint32_t id) { ids_[id % ids_.size()] = no_triangle; }
 
  private:
   std::array<std::uint32_t, 64> ids_;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <type_traits>
 
 #include "support/lane_bits-inl.hpp"
@@ -118,16 +119,39 @@ class FilterLanes {
   static std::uint64_t find(const Numbers& shape, const Scalar* corners, std::size_t count, std::size_t from,
                             double limit, double* enters) {
     const std::size_t last = std::min(count, from + ShapeFilter<Scalar>::max_count);
-    // A limit that is rounded is within the errors of V3 and of the times. The smallest times always count.
-    const V until = set(static_cast<Number>(std::max(limit, 0x1p-100)));
+    const V until = until_limit(limit);
     std::uint64_t found = 0;
     for (std::size_t at = from; at < last; at += hn::Lanes(d)) {
       found |= test(shape, corners + at, count, until, enters + (at - from)) << (at - from);
     }
-    return last - from == 64 ? found : found & ((std::uint64_t{1} << (last - from)) - 1);
+    return found & first_bits(last - from);
+  }
+  /// Tests a list as `ShapeFilter::find_near` does, while `near` has room.
+  static HWY_INLINE void find_near(const Numbers& shape, ShapeList<Scalar>& list, std::size_t index,
+                                   std::span<NearTriangles> near, std::size_t& count) {
+    const V until = until_limit(list.limit);
+    for (; list.from < list.last && count < near.size(); list.from += hn::Lanes(d)) {
+      const Terms terms(shape, list.corners + list.from, list.count);
+      const std::uint64_t found =
+          ~bits_of(d, are_apart(shape, terms, until)) & first_bits(hn::Lanes(d)) & first_bits(list.last - list.from);
+      near[count] = {index, list.from, found};
+      count += found != 0 ? 1 : 0;
+    }
+  }
+  /// Does what `ShapeFilter::find_times` does.
+  static std::uint64_t find_times(const Numbers& shape, const ShapeList<Scalar>& list, const NearTriangles& near,
+                                  double limit, double* enters) {
+    return test_intervals(shape, list.corners + near.from, list.count, mask_of(d, ~near.found), until_limit(limit),
+                          enters);
   }
 
  private:
+  /// Returns so many bits, or all.
+  static std::uint64_t first_bits(std::size_t count) {
+    return count < 64 ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+  }
+  /// A limit that is rounded is within the errors of V3 and of the times. The smallest times always count.
+  static HWY_INLINE V until_limit(double limit) { return set(static_cast<Number>(std::max(limit, 0x1p-100))); }
   static HWY_INLINE V load(const Scalar* from) {
     if constexpr (std::is_same_v<Scalar, Number>) {
       return hn::LoadU(d, from);
@@ -227,10 +251,14 @@ class FilterLanes {
   static HWY_INLINE std::uint64_t test(const Numbers& shape, const Scalar* corners, std::size_t count, V limit,
                                        double* enters) {
     const Terms terms(shape, corners, count);
-    const Mask apart =
-        hn::And(terms.is_usable, hn::Or(are_apart_across(shape, terms), are_apart_until(shape, terms, limit)));
+    const Mask apart = are_apart(shape, terms, limit);
     if (hn::AllTrue(d, apart)) return 0;
-    return test_intervals(shape, terms, apart, limit, enters);
+    return test_intervals(shape, corners, count, apart, limit, enters);
+  }
+
+  /// Returns the lanes that the first tests leave out.
+  static HWY_INLINE Mask are_apart(const Numbers& shape, const Terms& terms, V limit) {
+    return hn::And(terms.is_usable, hn::Or(are_apart_across(shape, terms), are_apart_until(shape, terms, limit)));
   }
 
   /// Returns the lanes where f, g or f - g separates (V2).
@@ -269,9 +297,11 @@ class FilterLanes {
     return hn::And(hn::Gt(x, hn::Zero(d)), hn::Gt(hn::Mul(x, x), square));
   }
 
-  /// Does what `test` does, for lanes that are not apart yet. It also sets when the shape may enter them.
-  static HWY_NOINLINE std::uint64_t test_intervals(const Numbers& shape, const Terms& terms, Mask apart, V limit,
-                                                   double* enters) {
+  /// Does what `test` does, for lanes that are not apart yet. It also sets when the shape may enter them. It computes
+  /// the terms anew, because `test` would have to keep them in memory.
+  static HWY_NOINLINE std::uint64_t test_intervals(const Numbers& shape, const Scalar* corners, std::size_t count,
+                                                   Mask apart, V limit, double* enters) {
+    const Terms terms(shape, corners, count);
     Interval interval{hn::Zero(d), set(1), apart};
     const Point& p = terms.p;
     const Point& q = terms.q;
@@ -328,27 +358,69 @@ class FilterLanes {
   }
 };
 
-template <typename Scalar, typename Number>
-HWY_INLINE std::uint64_t find(Core core, const ShapeNumbers<Number>& shape, const Scalar* corners, std::size_t count,
-                              std::size_t from, double limit, double* enters) {
+/// Calls `use(lanes, numbers)` with a null pointer to the `FilterLanes` of a shape, and with its numbers.
+template <typename Scalar, typename Number, typename Use>
+HWY_INLINE auto with_lanes(Core core, const ShapeNumbers<Number>& numbers, const Use& use) {
   switch (core) {
     case Core::box:
-      return FilterLanes<Scalar, Number, Core::box>::find(shape, corners, count, from, limit, enters);
+      return use(static_cast<FilterLanes<Scalar, Number, Core::box>*>(nullptr), numbers);
     case Core::segment:
-      return FilterLanes<Scalar, Number, Core::segment>::find(shape, corners, count, from, limit, enters);
+      return use(static_cast<FilterLanes<Scalar, Number, Core::segment>*>(nullptr), numbers);
     case Core::point:
       break;
   }
-  return FilterLanes<Scalar, Number, Core::point>::find(shape, corners, count, from, limit, enters);
+  return use(static_cast<FilterLanes<Scalar, Number, Core::point>*>(nullptr), numbers);
 }
+template <typename Scalar, typename Use>
+HWY_INLINE auto with_lanes(const ShapeFilter<Scalar>& shape, const Use& use) {
+  if constexpr (std::is_same_v<Scalar, float>) {
+    if (shape.fits_float) return with_lanes<float>(shape.core, shape.floats, use);
+  }
+  return with_lanes<Scalar>(shape.core, shape.doubles, use);
+}
+
+template <typename Scalar>
+HWY_INLINE std::uint64_t find(const ShapeFilter<Scalar>& shape, const Scalar* corners, std::size_t count,
+                              std::size_t from, double limit, double* enters) {
+  return with_lanes(shape, [&](auto* lanes, const auto& numbers)
+                               HWY_ATTR { return lanes->find(numbers, corners, count, from, limit, enters); });
+}
+template <typename Scalar>
+HWY_INLINE std::size_t find_near(std::span<ShapeList<Scalar>> lists, std::span<NearTriangles> near) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    with_lanes(*lists[i].filter,
+               [&](auto* lanes, const auto& numbers) HWY_ATTR { lanes->find_near(numbers, lists[i], i, near, count); });
+  }
+  return count;
+}
+template <typename Scalar>
+HWY_INLINE std::uint64_t find_times(const ShapeList<Scalar>& list, const NearTriangles& near, double limit,
+                                    double* enters) {
+  return with_lanes(*list.filter, [&](auto* lanes, const auto& numbers)
+                                      HWY_ATTR { return lanes->find_times(numbers, list, near, limit, enters); });
+}
+
 std::uint64_t find_floats(const ShapeFilter<float>& shape, const float* corners, std::size_t count, std::size_t from,
                           double limit, double* enters) {
-  if (shape.fits_float) return find(shape.core, shape.floats, corners, count, from, limit, enters);
-  return find(shape.core, shape.doubles, corners, count, from, limit, enters);
+  return find(shape, corners, count, from, limit, enters);
 }
 std::uint64_t find_doubles(const ShapeFilter<double>& shape, const double* corners, std::size_t count, std::size_t from,
                            double limit, double* enters) {
-  return find(shape.core, shape.doubles, corners, count, from, limit, enters);
+  return find(shape, corners, count, from, limit, enters);
+}
+std::size_t find_near_floats(std::span<ShapeList<float>> lists, std::span<NearTriangles> near) {
+  return find_near(lists, near);
+}
+std::size_t find_near_doubles(std::span<ShapeList<double>> lists, std::span<NearTriangles> near) {
+  return find_near(lists, near);
+}
+std::uint64_t find_times_floats(const ShapeList<float>& list, const NearTriangles& near, double limit, double* enters) {
+  return find_times(list, near, limit, enters);
+}
+std::uint64_t find_times_doubles(const ShapeList<double>& list, const NearTriangles& near, double limit,
+                                 double* enters) {
+  return find_times(list, near, limit, enters);
 }
 
 }  // namespace surehit::detail::HWY_NAMESPACE
@@ -359,6 +431,10 @@ namespace surehit::detail {
 
 HWY_EXPORT(find_floats);
 HWY_EXPORT(find_doubles);
+HWY_EXPORT(find_near_floats);
+HWY_EXPORT(find_near_doubles);
+HWY_EXPORT(find_times_floats);
+HWY_EXPORT(find_times_doubles);
 
 namespace {
 
@@ -444,6 +520,25 @@ template <>
 std::uint64_t ShapeFilter<double>::find(const double* corners, std::size_t count, std::size_t from, double limit,
                                         Times& enters) const {
   return HWY_DYNAMIC_DISPATCH(find_doubles)(*this, corners, count, from, limit, enters.data());
+}
+
+template <>
+std::size_t ShapeFilter<float>::find_near(std::span<ShapeList<float>> lists, std::span<NearTriangles> near) {
+  return HWY_DYNAMIC_DISPATCH(find_near_floats)(lists, near);
+}
+template <>
+std::size_t ShapeFilter<double>::find_near(std::span<ShapeList<double>> lists, std::span<NearTriangles> near) {
+  return HWY_DYNAMIC_DISPATCH(find_near_doubles)(lists, near);
+}
+template <>
+std::uint64_t ShapeFilter<float>::find_times(const ShapeList<float>& list, const NearTriangles& near, double limit,
+                                             double* enters) const {
+  return HWY_DYNAMIC_DISPATCH(find_times_floats)(list, near, limit, enters);
+}
+template <>
+std::uint64_t ShapeFilter<double>::find_times(const ShapeList<double>& list, const NearTriangles& near, double limit,
+                                              double* enters) const {
+  return HWY_DYNAMIC_DISPATCH(find_times_doubles)(list, near, limit, enters);
 }
 
 template ShapeFilter<float>::ShapeFilter(const SweptBox<float>&);

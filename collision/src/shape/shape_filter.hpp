@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "surehit/swept_box.hpp"
 #include "surehit/swept_capsule.hpp"
@@ -40,6 +41,27 @@ struct ShapeNumbers {
   Number smallest;                     ///< What the sizes of triangles must be above. It is infinite for no triangle.
 };
 
+template <typename Scalar>
+class ShapeFilter;
+
+/// The triangles [from, last) of a list that a shape has come to.
+template <typename Scalar>
+struct ShapeList {
+  const ShapeFilter<Scalar>* filter;  ///< The filter of the shape.
+  const Scalar* corners;              ///< As in `MeshBlocks::corners`.
+  std::size_t count;                  ///< The number of triangles in the whole list.
+  std::size_t from;
+  std::size_t last;
+  double limit;  ///< Nothing counts after this t.
+};
+
+/// Some triangles of a list that a shape may touch.
+struct NearTriangles {
+  std::size_t list;     ///< The index of the list.
+  std::size_t from;     ///< The triangle that bit 0 stands for.
+  std::uint64_t found;  ///< A bit for each triangle.
+};
+
 /// Finds out which triangles of a list a moving shape may touch, many of them at once. What it leaves out is certainly
 /// not touched.
 template <typename Scalar>
@@ -57,6 +79,14 @@ class ShapeFilter {
   /// t = `limit`. The list has `count` triangles with the layout of `MeshBlocks::corners`.
   [[nodiscard]] std::uint64_t find(const Scalar* corners, std::size_t count, std::size_t from, double limit,
                                    Times& enters) const;
+
+  /// Tests many lists, before any result is used: a processor can predict neither the length of a list nor a result.
+  /// Sets `near` to triangles that may be touched, and returns how many elements it has set. It moves `from` of the
+  /// lists beyond what it has tested. It has tested all lists if it sets fewer than all elements.
+  [[nodiscard]] static std::size_t find_near(std::span<ShapeList<Scalar>> lists, std::span<NearTriangles> near);
+  /// Does for some triangles what `find` does for all. It may set as many times as a vector has lanes.
+  [[nodiscard]] std::uint64_t find_times(const ShapeList<Scalar>& list, const NearTriangles& near, double limit,
+                                         double* enters) const;
 
   // What the functions for each instruction set need.
   Core core;                     ///< What the core is.

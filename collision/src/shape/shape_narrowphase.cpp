@@ -34,6 +34,16 @@ bool ShapeNarrowphase<Shape, Candidate>::admits(const AnyTriangle& triangle, con
 }
 
 template <typename Shape, typename Candidate>
+Verdict ShapeNarrowphase<Shape, Candidate>::find_simple_contact(const AnyTriangle& triangle, double limit,
+                                                                ContactOf<Shape>& found) const {
+  if constexpr (has_simple_contacts<Shape> && std::is_same_v<AnyTriangle, Triangle<Scalar>>) {
+    const Verdict verdict = simple_contact(shape_, triangle, limit, found);
+    return verdict == Verdict::hit && !admits(triangle, found) ? Verdict::miss : verdict;
+  }
+  return Verdict::undecided;
+}
+
+template <typename Shape, typename Candidate>
 bool ShapeNarrowphase<Shape, Candidate>::find_contact(const AnyTriangle& triangle, double limit,
                                                       ContactOf<Shape>& found) const {
   Verdict verdict = Verdict::undecided;

@@ -8,6 +8,7 @@
 #include "surehit/query_statistics.hpp"
 #include "surehit/shape_options.hpp"
 #include "surehit/triangle.hpp"
+#include "verdict.hpp"
 
 namespace surehit::detail {
 
@@ -46,6 +47,9 @@ class ShapeNarrowphase {
   /// Returns true, with the contact in `found`, if the shape touches the triangle and the options admit it. A contact
   /// after `limit` may count as none. Masks, filters and what is ignored are for the caller.
   [[nodiscard]] bool find_contact(const AnyTriangle& triangle, double limit, ContactOf<Shape>& found) const;
+  /// Decides whether the shape has a simple contact with the triangle before `limit` that the options admit, if this is
+  /// certain.
+  [[nodiscard]] Verdict find_simple_contact(const AnyTriangle& triangle, double limit, ContactOf<Shape>& found) const;
   /// Returns true if x comes before y: by the exact t, then by the ids.
   [[nodiscard]] bool comes_before(const Candidate& x, const Candidate& y) const;
   /// Sorts the candidates by `comes_before`, and keeps each triangle once.

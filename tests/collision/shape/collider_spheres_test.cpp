@@ -378,6 +378,34 @@ TYPED_TEST(ColliderSpheres, AnswerABatchInTasksOfAnExecutor) {
   EXPECT_EQ(few[3], ShapeHit<Scalar>{});
 }
 
+// More of them than there are lanes come near nothing, before one that hits, and in other batches after it.
+TYPED_TEST(ColliderSpheres, AnswerTheLastOfABatchThatMostlyMisses) {
+  using Scalar = TypeParam;
+  GeneratedMesh<Scalar> mesh;
+  mesh.add({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const Collider<Scalar> collider(mesh.view());
+  const Scalar radius = Scalar(0.0625);
+  const SweptSphere<Scalar> passing{{-1, 0, 2}, {1, 1, 2}, radius};
+  const SweptSphere<Scalar> hitting{{Scalar(0.25), Scalar(0.25), 1}, {Scalar(0.25), Scalar(0.25), -1}, radius};
+  const SweptSphere<Scalar> invalid{{0, 0, 0}, {0, 0, 0}, -1};
+  for (const std::size_t index : {0, 1, 15, 16, 17, 40, 99}) {
+    std::vector<SweptSphere<Scalar>> spheres(100, passing);
+    spheres[50] = invalid;
+    spheres[index] = hitting;
+    std::vector<ShapeHit<Scalar>> hits(spheres.size());
+    std::vector<std::uint8_t> blocked(spheres.size(), 2);
+    QueryStatistics statistics;
+    collider.first_hits(spheres, hits, {.statistics = &statistics});
+    collider.any_hits(spheres, blocked);
+    EXPECT_EQ(statistics.paths, spheres.size());
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      ASSERT_EQ(hits[i].triangle, i == index ? 0 : no_triangle) << i;
+      ASSERT_EQ(blocked[i], i == index ? 1 : 0) << i;
+    }
+    EXPECT_EQ(hits[index].t, (1 - radius) / 2);
+  }
+}
+
 TYPED_TEST(ColliderSpheres, VisitFewCells) {
   using Scalar = TypeParam;
   Random random(27);
