@@ -383,6 +383,7 @@ TYPED_TEST(ColliderSpheres, AnswerTheLastOfABatchThatMostlyMisses) {
   using Scalar = TypeParam;
   GeneratedMesh<Scalar> mesh;
   mesh.add({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  mesh.add({{0, 0, -4}, {1, 0, -4}, {0, 1, -4}});  // So cells are wider than the balls.
   const Collider<Scalar> collider(mesh.view());
   const Scalar radius = Scalar(0.0625);
   const SweptSphere<Scalar> passing{{-1, 0, 2}, {1, 1, 2}, radius};
