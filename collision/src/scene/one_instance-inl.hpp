@@ -162,7 +162,7 @@ class OneInstance {
       index_[count_] = index;
       entry_[count_] = first.entry();
       triangle_[count_] = first.triangle();
-      if (++count_ == max_hits) flush();
+      if (++count_ == std::min(max_hits, hn::Lanes(Tag()))) flush();
     }
 
     /// Rounds the hits. The segments are placed again, because few of those that walk have a hit to be rounded.

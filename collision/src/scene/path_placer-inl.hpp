@@ -61,7 +61,7 @@ class SegmentPlacer {
 
  private:
   PlaceLanes place_;
-  std::array<PlacedLanes, max_parts> parts_;
+  std::array<PlacedLanes, max_parts> parts_ = {};  ///< Lanes without a path are read too, and left out.
 };
 
 /// The paths of the kernel for placed paths, one in each lane.

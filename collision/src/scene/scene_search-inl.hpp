@@ -437,7 +437,8 @@ template <typename Scalar>
 HWY_NOINLINE void round_alone(const SceneQuery<Scalar>& query, const Path<Scalar>& path, PlacedCandidate<Scalar>& best,
                               SceneHit<Scalar>& hit) {
   const SceneSearch<Scalar> search(query, path);
-  if (!search.narrowphase().find_certain(best)) return;
+  [[maybe_unused]] const bool is_hit = search.narrowphase().find_certain(best);
+  assert(is_hit);
   hit = search.narrowphase().hit(best, query.instances[best.instance].generation);
 }
 
