@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "support/case_count.hpp"
@@ -123,6 +125,39 @@ TEST(OneInstance, HasTheSameAnswersInBatches) {
         expect_answers_of_single_queries(scene, few, {}, hits);
       }
     }
+  }
+}
+
+/// Options of each path, filters and masks of triangles may leave a hit out, which these batches cannot do.
+TEST(OneInstance, LeavesOutWhatIsAskedFor) {
+  Random random(5);
+  const auto mesh = scattered_triangles<float>(600, 0.25F, random);
+  std::vector<std::uint32_t> masks;
+  while (masks.size() < mesh.triangles.size()) masks.push_back(static_cast<std::uint32_t>(random.below(4)));
+  std::vector<SceneQueryOptionsf> own_options(300);
+  for (SceneQueryOptionsf& own : own_options) own.max_t = random.unit<float>();
+  const auto is_even = [](const SceneHitf& hit) { return hit.triangle % 2 == 0; };
+  for (const bool has_masks : {false, true}) {
+    const std::span<const std::uint32_t> own_masks = std::span(masks).first(has_masks ? masks.size() : 0);
+    const auto collider = std::make_shared<Colliderf>(mesh.view(), BuildOptions{.masks = own_masks});
+    Scenef scene;
+    scene.add(collider, poses()[2]);
+    scene.commit();
+    const auto placed = draw_segments(mesh, poses()[2], own_options.size(), random);
+    std::vector<SceneHitf> own(placed.size());
+    std::vector<SceneHitf> even(placed.size());
+    std::vector<SceneHitf> masked(placed.size());
+    scene.first_hits(placed, own, {.path_options = own_options});
+    scene.first_hits(placed, even, {.filter = is_even});
+    scene.first_hits(placed, masked, {.options = {.mask = 2}});
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      EXPECT_TRUE(same_bits(own[i], scene.first_hit(placed[i], own_options[i]).value_or(SceneHitf{}))) << i;
+      EXPECT_TRUE(same_bits(even[i], scene.first_hit(placed[i], is_even).value_or(SceneHitf{}))) << i;
+      EXPECT_TRUE(same_bits(masked[i], scene.first_hit(placed[i], {.mask = 2}).value_or(SceneHitf{}))) << i;
+    }
+    const auto is_hit = [](const SceneHitf& hit) { return hit.triangle != SceneHitf{}.triangle; };
+    EXPECT_GT(std::count_if(even.begin(), even.end(), is_hit), 20);
+    EXPECT_GT(std::count_if(masked.begin(), masked.end(), is_hit), 20);
   }
 }
 
