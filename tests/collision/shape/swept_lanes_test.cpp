@@ -23,7 +23,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// A moving box, and a triangle that it touches at some point before `end`.
+/// A moving box, and a triangle that it touches at some point before `end`, where one is known.
 struct Touch {
   Point start, end, half;
   std::uint32_t triangle;
@@ -70,6 +70,12 @@ class SweptLanesTest : public testing::Test {
     return touches;
   }
 
+  /// More steps than any walk makes: it crosses the planes of each axis, and few of them again.
+  static std::size_t max_steps(const Grid& grid) {
+    const auto& cells = grid.frame().cells;
+    return 2 * (std::size_t{cells[0]} + cells[1] + cells[2]) + 8;
+  }
+
   static void add(const Grid& grid, CellWord word, Visited& visited) {
     for (const std::uint32_t id : grid.triangles(word)) visited.triangles.insert(id);
   }
@@ -101,7 +107,11 @@ class SweptLanesTest : public testing::Test {
       std::uint32_t apart = 0;
       std::uint32_t walking = lanes.enter(entering, (1U << count) - 1, apart);
       for (std::size_t lane = 0; lane < count; ++lane) all[first + lane].is_apart = (apart >> lane & 1) != 0;
-      while (walking != 0) {
+      for (std::size_t steps = 0; walking != 0; ++steps) {
+        if (steps == max_steps(grid)) {
+          ADD_FAILURE() << "The walk does not end.";
+          return all;
+        }
         lanes.step(walking, arrivals);
         for (std::size_t k = 0; k < SweptLanes::max_cells; ++k) {
           for (std::size_t lane = 0; lane < count; ++lane) {
@@ -150,6 +160,41 @@ class SweptLanesTest : public testing::Test {
     EXPECT_LT(apart, touches.size() * 3 / 4) << what;
   }
 
+  /// Draws small triangles in a cube of cells, and small boxes that go along its diagonals or those of its sides.
+  void check_diagonals(std::uint32_t resolution) {
+    GeneratedMesh<float> mesh;
+    const auto add = [&](const Vector3<float>& at) {
+      const Vector3<float> inward = (at.array() < 0.5F).select(Vector3<float>::Constant(1e-4F), -1e-4F);
+      mesh.add({at, at + inward[0] * Vector3<float>::UnitX(), at + inward[1] * Vector3<float>::UnitY()});
+    };
+    add({0, 0, 0});
+    add({1, 1, 1});
+    for (std::uint64_t count = random_.below(3000); count != 0; --count) {
+      add({random_.unit<float>(), random_.unit<float>(), random_.unit<float>()});
+    }
+    const Grid grid(mesh.view(), box_of(mesh.view()), {.resolution = {resolution, resolution, resolution}});
+    std::vector<Touch> boxes(case_count(2000));
+    for (Touch& box : boxes) {
+      const double start = 1.2 * random_.unit<double>() - 0.1;
+      const double way = random_.unit<double>();
+      const double half = random_.one_in(5) ? 0 : 0.4 * random_.unit<double>() / resolution;
+      const std::uint64_t other_axis = random_.below(6);  // None from 3 on.
+      const double other_start = random_.one_in(2) ? start : random_.unit<double>();
+      const double other_way = random_.symmetric<double>();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const bool is_other = axis == other_axis;
+        box.start[axis] = is_other ? other_start : start;
+        box.end[axis] = box.start[axis] + (is_other ? other_way : way);
+        box.half[axis] = half;
+        if (!random_.one_in(3)) continue;
+        box.start[axis] = 1 - box.start[axis];
+        box.end[axis] = 1 - box.end[axis];
+      }
+      box.last_t = SweptLanes::beyond(1);
+    }
+    walk(grid, boxes);
+  }
+
   Random random_ = Random(101);
 };
 
@@ -164,6 +209,14 @@ TEST_F(SweptLanesTest, come_to_each_cell_with_a_touched_point) {
   ASSERT_NO_FATAL_FAILURE(check(with_small_copy(ground, Vector3<float>(0.3F, 0, 0.1F)), {}, "copy"));
   const auto far = placed(rough_ground<float>(10, 0.2F, random_), 1.0F, Vector3<float>(1000, -3000, 50));
   ASSERT_NO_FATAL_FAILURE(check(far, {}, "far"));
+}
+
+// Positions are rounded down to before planes that two or three axes cross at the same t (W7).
+TEST_F(SweptLanesTest, end_where_axes_cross_planes_together) {
+  for (std::uint32_t resolution = 2; resolution < 62; resolution += 3) {
+    check_diagonals(resolution);
+    ASSERT_FALSE(HasFailure()) << "resolution " << resolution;
+  }
 }
 
 }  // namespace
