@@ -55,7 +55,7 @@ class SweptStep {
     return static_cast<std::uint32_t>(bits_of(d, inside)) & entering;
   }
 
-  /// Makes a step with some lanes.
+  /// Makes a step with all lanes that still walk.
   HWY_INLINE void step(std::uint32_t walking, SweptLanes::Arrivals& arrivals) {
     const Mask begins = mask_of(d, lanes_.begins >> from_);
     const Mask leaped = mask_of(d, lanes_.leaped >> from_);

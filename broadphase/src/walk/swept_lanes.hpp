@@ -56,7 +56,7 @@ class SweptLanes {
   /// Puts boxes into some lanes, whose `end` is set. Returns those of the lanes that have something to walk. `apart`
   /// gets those that `SweptWalk` has to walk, because they are too large or too far away.
   [[nodiscard]] std::uint32_t enter(const Entering& boxes, std::uint32_t entering, std::uint32_t& apart);
-  /// Makes a step with some lanes.
+  /// Makes a step. `walking` must have all lanes that still walk: it spoils the others.
   void step(std::uint32_t walking, Arrivals& arrivals);
   /// Returns a float that is at least t, for `end`.
   [[nodiscard]] static float beyond(double t) { return static_cast<float>(t) * (1 + 0x1p-22F) + 0x1p-100F; }
