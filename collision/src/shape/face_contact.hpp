@@ -60,10 +60,11 @@ class FaceContact {
   }
 
   /// Returns bounds of the weights u and v of the touched point, where the ball touches the inside at a time within
-  /// `t`.
+  /// `t`. Both are {0, 0} where nothing is known.
   [[nodiscard]] std::array<DoubleRange, 2> weights(const DoubleRange& t) const {
     if (!has_usual_sizes()) return {};
     const Weights weights = weights_at(t);
+    if (weights.one <= weights.error) return {};
     const auto quotient = [&](double weight) {
       return DoubleRange{(weight - weights.error) / (weights.one + weights.error),
                          (weight + weights.error) / (weights.one - weights.error)};

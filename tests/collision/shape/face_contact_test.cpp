@@ -91,6 +91,18 @@ TYPED_TEST(FaceContactOf, is_not_certain_beside_an_edge) {
   EXPECT_GT(hits, case_count(400));
 }
 
+// The square of the normal is below its bound, so a quotient of the two says nothing.
+TYPED_TEST(FaceContactOf, has_no_weights_for_a_sliver) {
+  using Scalar = TypeParam;
+  const Scalar height = std::ldexp(Scalar{1}, -40);
+  const Triangle<Scalar> sliver = {{0, 0, 0}, {1, 0, 0}, {1, height, 0}};
+  const SweptSphere<Scalar> ball = {{Scalar(0.75), height / 2, 2}, {Scalar(0.75), height / 2, -2}, 1};
+  for (const DoubleRange& weight : FaceContact(ball, sliver).weights({0.25, 0.25})) {
+    EXPECT_EQ(weight.lower, 0);
+    EXPECT_EQ(weight.upper, 0);
+  }
+}
+
 // Its numbers would underflow or overflow.
 TYPED_TEST(FaceContactOf, leaves_unusual_sizes_open) {
   using Scalar = TypeParam;
