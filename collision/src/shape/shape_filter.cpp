@@ -358,18 +358,18 @@ class FilterLanes {
   }
 };
 
-/// Calls `use(lanes, numbers)` with a null pointer to the `FilterLanes` of a shape, and with its numbers.
+/// Calls `use(lanes, numbers)` with the numbers of a shape. `lanes` only says which type of `FilterLanes` it has.
 template <typename Scalar, typename Number, typename Use>
 HWY_INLINE auto with_lanes(Core core, const ShapeNumbers<Number>& numbers, const Use& use) {
   switch (core) {
     case Core::box:
-      return use(static_cast<FilterLanes<Scalar, Number, Core::box>*>(nullptr), numbers);
+      return use(FilterLanes<Scalar, Number, Core::box>(), numbers);
     case Core::segment:
-      return use(static_cast<FilterLanes<Scalar, Number, Core::segment>*>(nullptr), numbers);
+      return use(FilterLanes<Scalar, Number, Core::segment>(), numbers);
     case Core::point:
       break;
   }
-  return use(static_cast<FilterLanes<Scalar, Number, Core::point>*>(nullptr), numbers);
+  return use(FilterLanes<Scalar, Number, Core::point>(), numbers);
 }
 template <typename Scalar, typename Use>
 HWY_INLINE auto with_lanes(const ShapeFilter<Scalar>& shape, const Use& use) {
@@ -382,23 +382,23 @@ HWY_INLINE auto with_lanes(const ShapeFilter<Scalar>& shape, const Use& use) {
 template <typename Scalar>
 HWY_INLINE std::uint64_t find(const ShapeFilter<Scalar>& shape, const Scalar* corners, std::size_t count,
                               std::size_t from, double limit, double* enters) {
-  return with_lanes(shape, [&](auto* lanes, const auto& numbers)
-                               HWY_ATTR { return lanes->find(numbers, corners, count, from, limit, enters); });
+  return with_lanes(shape, [&]<typename Lanes>(Lanes, const auto& numbers)
+                               HWY_ATTR { return Lanes::find(numbers, corners, count, from, limit, enters); });
 }
 template <typename Scalar>
 HWY_INLINE std::size_t find_near(std::span<ShapeList<Scalar>> lists, std::span<NearTriangles> near) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < lists.size(); ++i) {
-    with_lanes(*lists[i].filter,
-               [&](auto* lanes, const auto& numbers) HWY_ATTR { lanes->find_near(numbers, lists[i], i, near, count); });
+    with_lanes(*lists[i].filter, [&]<typename Lanes>(Lanes, const auto& numbers)
+                                     HWY_ATTR { Lanes::find_near(numbers, lists[i], i, near, count); });
   }
   return count;
 }
 template <typename Scalar>
 HWY_INLINE std::uint64_t find_times(const ShapeList<Scalar>& list, const NearTriangles& near, double limit,
                                     double* enters) {
-  return with_lanes(*list.filter, [&](auto* lanes, const auto& numbers)
-                                      HWY_ATTR { return lanes->find_times(numbers, list, near, limit, enters); });
+  return with_lanes(*list.filter, [&]<typename Lanes>(Lanes, const auto& numbers)
+                                      HWY_ATTR { return Lanes::find_times(numbers, list, near, limit, enters); });
 }
 
 std::uint64_t find_floats(const ShapeFilter<float>& shape, const float* corners, std::size_t count, std::size_t from,
