@@ -9,6 +9,7 @@ const uint is_open = 2;
 const real slack_of_sums = 1.5;          // G21
 const real slack_of_t = 16.0 * max_gap;  // G21
 const real min_t_of_pairs = 4.0 / 1152921504606846976.0;  // 2^-58 (G5)
+const real max_t_of_pairs = 633825300114114700748351602688.0;  // 2^99 (G21)
 
 struct PairVerdict {
   uint verdict;
@@ -60,12 +61,13 @@ PairVerdict decide(PairDeterminants of, EndWeights ends) {
     return result;
   }
   if (of_u != is_hit || of_v != is_hit || of_w != is_hit || of_first != is_hit || of_last != is_hit) return result;
-  result.verdict = is_hit;
   precise real t = of.height.high / of.det.high;
   precise real radius =
       2.0 * (of.height_bound + abs(t) * of.det_bound) / of.det.high + (slack_of_t * abs(t) + min_t_of_pairs);
   precise real lower = t - radius;
   precise real upper = t + radius;
+  if (!(abs(lower) < max_t_of_pairs && abs(upper) < max_t_of_pairs)) return result;
+  result.verdict = is_hit;
   result.lower = lower;
   result.upper = upper;
   return result;

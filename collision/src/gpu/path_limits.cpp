@@ -10,7 +10,7 @@
 namespace surehit::detail {
 namespace {
 
-/// The device takes 2^100 for infinity. No t of a certain hit is as large (G5).
+/// The device takes 2^100 for infinity. No t of a certain hit is as large (G5, G21).
 constexpr float beyond = 0x1p100F;
 
 /// Returns true if a device could take the limit for zero (G2).

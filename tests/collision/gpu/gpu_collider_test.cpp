@@ -203,6 +203,28 @@ TEST_F(GpuColliderTest, most_paths_that_begin_at_surfaces_are_decided_on_the_dev
   EXPECT_LT(statistics.undecided, statistics.paths / 8) << statistics.undecided;
 }
 
+/// These t are certain in pairs, and beyond the 2^100 that the device takes for infinity. The second line hits five
+/// triangles there, and the one with the first id last.
+TEST_F(GpuColliderTest, hits_at_times_that_no_walk_knows) {
+  constexpr float far = 0x1p33F;
+  constexpr float slow = 0x1.222048p-67F;
+  GeneratedMesh<float> mesh;
+  const auto add = [&](float x, float y) { mesh.add({Vector3f(x, x, y), Vector3f(x, y, x), Vector3f(y, x, x)}); };
+  const Vector3f start(-far, -far, -far);
+  const Vector3f way(slow, slow, slow);
+  PathsOfKinds<> paths;
+  paths.add({PathKind::ray, start, way});
+  paths.add({PathKind::line, start, -way});
+  const auto expect_hits = [&] {
+    const Colliderf collider(mesh.view());
+    EXPECT_EQ(paths.expect_same_as_host(GpuCollider(device, collider), collider), 2U);
+  };
+  add(far, -far);
+  expect_hits();
+  for (const float share : {0.5F, 0.48F, 0.46F, 0.44F}) add(far, share * far);
+  expect_hits();
+}
+
 TEST_F(GpuColliderTest, meshes_of_others) {
   const std::filesystem::path folder = SUREHIT_MESH_FOLDER;
   if (!std::filesystem::exists(folder / "dungeon.obj")) GTEST_SKIP() << "no meshes in " << folder;
