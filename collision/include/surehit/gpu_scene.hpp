@@ -56,7 +56,7 @@ class GpuScene {
   /// Sets `hits[i]` to the first hit of path i, as `SceneQueries::first_hits` does. Lengths are as there.
   ///
   /// Filters, executors, statistics and failures are as in `GpuCollider::first_hits`. It fails too if a collider of the
-  /// scene was rebuilt or has other masks since the scene was uploaded.
+  /// scene was rebuilt or assigned, or has other masks, since the scene was uploaded.
   GpuBatchResult first_hits(const PathSpanf& paths, std::span<SceneHitf> hits, const SceneBatchOptionsf& options = {},
                             const GpuBatchOptions& gpu = {}) const;
   /// Sets `blocked[i]` to 1 if path i has a hit, and to 0 otherwise, as `SceneQueries::any_hits` does. All else is as

@@ -23,6 +23,7 @@ using detail::CommittedScene;
 using detail::DeviceMesh;
 using detail::GpuDeviceState;
 using detail::GpuSceneState;
+using detail::UploadedCollider;
 
 /// The trees of some meshes, one after the other.
 struct JoinedTrees {
@@ -44,20 +45,23 @@ struct JoinedTrees {
   std::vector<detail::TreeTriangle> triangles;
 };
 
-/// Returns the colliders of all instances that have triangles, sorted by their versions and each once.
-std::vector<std::pair<const ColliderState<float>*, const Colliderf*>> colliders_of(const CommittedScene<float>& scene) {
-  std::vector<std::pair<const ColliderState<float>*, const Colliderf*>> colliders;
+/// Sets `colliders` to those of all instances that have triangles, sorted by their versions and each once. Returns
+/// false if one has another mesh than the scene has seen.
+bool find_colliders(const CommittedScene<float>& scene, std::vector<UploadedCollider>& colliders) {
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    if (!scene.instances[i].is_in_tree) continue;
-    colliders.emplace_back(scene.instances[i].mesh.own, static_cast<const Colliderf*>(scene.kept[i].collider.get()));
+    const detail::CommittedInstance<float>& instance = scene.instances[i];
+    if (!instance.is_in_tree) continue;
+    const auto* const collider = static_cast<const Colliderf*>(scene.kept[i].collider.get());
+    const ColliderState<float>& now = ColliderState<float>::of(*collider);
+    if (&now != instance.mesh.own || now.version != instance.mesh.version) return false;
+    colliders.push_back({collider, &now, detail::versions_of(now)});
   }
-  const auto versions = [](const auto& one) { return std::pair(one.first->version, one.first->mask_version); };
-  std::sort(colliders.begin(), colliders.end(),
-            [&](const auto& x, const auto& y) { return versions(x) < versions(y); });
+  const auto key = [](const UploadedCollider& one) { return std::pair(one.versions, one.collider); };
+  std::sort(colliders.begin(), colliders.end(), [&](const auto& x, const auto& y) { return key(x) < key(y); });
   colliders.erase(std::unique(colliders.begin(), colliders.end(),
-                              [&](const auto& x, const auto& y) { return versions(x) == versions(y); }),
+                              [](const auto& x, const auto& y) { return x.collider == y.collider; }),
                   colliders.end());
-  return colliders;
+  return true;
 }
 
 /// Uploads a scene. Meshes that `before` has on the same device are not uploaded again.
@@ -68,15 +72,12 @@ GpuResult upload(const std::shared_ptr<GpuDeviceState>& device, const SceneSnaps
   state->device = device;
   state->scene = scene;
   const CommittedScene<float>& committed = state->committed();
-  for (const auto& instance : committed.instances) {
-    if (!instance.is_in_tree || instance.mesh.own->version == instance.mesh.version) continue;
+  if (!find_colliders(committed, state->colliders)) {
     return GpuError(GpuError::Reason::not_updated, "a collider was rebuilt since the scene was committed");
   }
-  const auto colliders = colliders_of(committed);
-  for (const auto& [its_state, collider] : colliders) state->colliders.push_back(its_state);
   const bool keeps_meshes =
-      before != nullptr && std::all_of(state->colliders.begin(), state->colliders.end(), [&](const auto* collider) {
-        return detail::find_mesh(before->meshes, *collider) != nullptr;
+      before != nullptr && std::all_of(state->colliders.begin(), state->colliders.end(), [&](const auto& one) {
+        return detail::find_mesh(before->meshes, one.versions) != nullptr;
       });
   JoinedTrees trees;
   if (keeps_meshes) {
@@ -84,8 +85,9 @@ GpuResult upload(const std::shared_ptr<GpuDeviceState>& device, const SceneSnaps
     state->mesh->nodes = before->mesh->nodes;
     state->mesh->triangles = before->mesh->triangles;
   } else {
-    for (const auto& [its_state, collider] : colliders) {
-      state->meshes.push_back({{its_state->version, its_state->mask_version}, trees.add(*collider)});
+    for (const UploadedCollider& one : state->colliders) {
+      if (!state->meshes.empty() && state->meshes.back().versions == one.versions) continue;  // A copy has the same.
+      state->meshes.push_back({one.versions, trees.add(*one.collider)});
     }
   }
   const detail::SceneTree tree(committed, state->meshes);
@@ -125,8 +127,8 @@ GpuBatchResult run(const GpuSceneState* state, const PathSpanf& paths, std::span
     refused.error = GpuError(GpuError::Reason::not_updated, "no scene was uploaded");
     return refused;
   }
-  for (const ColliderState<float>* collider : state->colliders) {
-    if (detail::find_mesh(state->meshes, *collider) != nullptr) continue;
+  for (const UploadedCollider& one : state->colliders) {
+    if (!one.has_changed()) continue;
     refused.error = GpuError(GpuError::Reason::not_updated,
                              "a collider was rebuilt or has other masks since the scene was uploaded; update it first");
     return refused;

@@ -13,6 +13,18 @@
 
 namespace surehit::detail {
 
+/// A collider of a scene, as it was when the scene was uploaded.
+struct UploadedCollider {
+  const Colliderf* collider;
+  const ColliderState<float>* state;  ///< It may be freed since then, if the collider has changed.
+  MeshVersions versions;
+
+  [[nodiscard]] bool has_changed() const {
+    const ColliderState<float>& now = ColliderState<float>::of(*collider);
+    return &now != state || versions_of(now) != versions;
+  }
+};
+
 /// What an uploaded scene has behind its pointer.
 struct GpuSceneState {
   using FirstHit = SceneHitf;
@@ -23,8 +35,8 @@ struct GpuSceneState {
 
   std::shared_ptr<GpuDeviceState> device;
   SceneSnapshotf scene;
-  std::vector<const ColliderState<float>*> colliders;  ///< The meshes of the scene, each once.
-  std::vector<DeviceMesh> meshes;                      ///< The meshes on the device. Some may have no instance.
+  std::vector<UploadedCollider> colliders;  ///< Those of instances with triangles, each once, by their versions.
+  std::vector<DeviceMesh> meshes;           ///< The meshes on the device. Some may have no instance.
   bool is_on_device = false;  ///< False if the host answers all paths, because the device could decide none.
   std::shared_ptr<GpuMesh> mesh = std::make_shared<GpuMesh>();
 

@@ -27,11 +27,10 @@ bool is_small(const Vector3f& x) { return x.cwiseAbs().maxCoeff() <= BoxTree::la
 
 }  // namespace
 
-const DeviceMesh* find_mesh(const std::vector<DeviceMesh>& meshes, const ColliderState<float>& collider) {
-  const std::pair versions(collider.version, collider.mask_version);
+const DeviceMesh* find_mesh(const std::vector<DeviceMesh>& meshes, const MeshVersions& versions) {
   const auto found =
       std::lower_bound(meshes.begin(), meshes.end(), versions,
-                       [](const DeviceMesh& mesh, const auto& wanted) { return mesh.versions < wanted; });
+                       [](const DeviceMesh& mesh, const MeshVersions& wanted) { return mesh.versions < wanted; });
   return found == meshes.end() || found->versions != versions ? nullptr : &*found;
 }
 
@@ -82,7 +81,7 @@ SceneTree::SceneTree(const CommittedScene<float>& scene, const std::vector<Devic
   for (const std::uint32_t item : tree.items) {
     const CommittedInstance<float>& instance = scene.instances[indices[item]];
     DeviceInstance& added = instances.emplace_back(device_instance(instance.placed, instance.mesh.own->box));
-    added.root = find_mesh(meshes, *instance.mesh.own)->root;
+    added.root = find_mesh(meshes, versions_of(*instance.mesh.own))->root;
     added.mask = instance.mask;
     added.index = indices[item];
     if (added.root == DeviceMesh::no_root) added.flags |= DeviceInstance::is_left_to_host;

@@ -22,10 +22,13 @@ struct DeviceInstance {
 };
 static_assert(sizeof(DeviceInstance) == 120);
 
+/// The version of a collider, and that of its masks. No two meshes have the same ones, but a collider and its copies
+/// do.
+using MeshVersions = std::pair<std::uint64_t, std::uint64_t>;
+
 /// What is on a device of a mesh that instances share.
 struct DeviceMesh {
-  /// The version of the collider, and that of its masks. No two meshes have the same ones.
-  std::pair<std::uint64_t, std::uint64_t> versions;
+  MeshVersions versions;
   /// The root of its tree. It is `no_root` if the device has none, because a coordinate is too large.
   std::uint32_t root;
 
@@ -51,7 +54,11 @@ struct SceneTree {
 /// Returns a placed instance as a device sees it, without its mesh and its mask. It may be left to the host (G15).
 [[nodiscard]] DeviceInstance device_instance(const PlacedInstance<float>& placed, const Box<float>& mesh_box);
 
-/// Returns the mesh of a collider among `meshes`, or null. They are sorted by their versions.
-[[nodiscard]] const DeviceMesh* find_mesh(const std::vector<DeviceMesh>& meshes, const ColliderState<float>& collider);
+[[nodiscard]] inline MeshVersions versions_of(const ColliderState<float>& collider) {
+  return {collider.version, collider.mask_version};
+}
+
+/// Returns the mesh of these versions among `meshes`, or null. They are sorted by their versions.
+[[nodiscard]] const DeviceMesh* find_mesh(const std::vector<DeviceMesh>& meshes, const MeshVersions& versions);
 
 }  // namespace surehit::detail

@@ -44,6 +44,14 @@ class GpuSceneFailuresTest : public testing::Test {
     expected.resize(paths.size());
     scene.first_hits(paths, expected);
   }
+  /// Expects that a scene answers nothing until it is updated.
+  void expect_refused(const GpuScene& on_gpu) const {
+    std::vector<SceneHitf> hits(paths.size());
+    const GpuBatchResult result = on_gpu.first_hits(paths, hits);
+    ASSERT_TRUE(result.error);
+    EXPECT_EQ(result.error->reason, Reason::not_updated);
+    EXPECT_EQ(result.finished, 0U);
+  }
   [[nodiscard]] GpuDeviceState& state() const { return *GpuDeviceState::of(device); }
 
   static constexpr std::array<float, 9> corners = {0, 0, 0.5F, 1, 0, 0.5F, 0, 1, 0.5F};
@@ -145,22 +153,48 @@ TEST_F(GpuSceneFailuresTest, a_scene_answers_as_it_was_uploaded) {
   on_gpu.update(scene.snapshot());
   expect_same_as_host(on_gpu, scene, paths);
 
-  const auto expect_refused = [&] {
-    const GpuBatchResult result = on_gpu.first_hits(paths, hits);
-    EXPECT_EQ(result.error->reason, Reason::not_updated);
-    EXPECT_EQ(result.finished, 0U);
-  };
   ground->set_mask(0, 0);
-  expect_refused();
+  expect_refused(on_gpu);
   on_gpu.update(scene.snapshot());
   expect_same_as_host(on_gpu, scene, paths);
   ground->rebuild(TriangleMeshViewf(std::span(corners), std::span(triangle)));
-  expect_refused();
+  expect_refused(on_gpu);
   EXPECT_EQ(on_gpu.try_update(scene.snapshot()).error().reason, Reason::not_updated);
   on_gpu = GpuScene();
   scene.set_mask(first, 1);
   scene.commit();
   on_gpu = GpuScene(device, scene.snapshot());
+  expect_same_as_host(on_gpu, scene, paths);
+}
+
+/// The two have the same version until one of them changes. The device has the tree of one.
+TEST_F(GpuSceneFailuresTest, a_collider_and_its_copy_are_both_watched) {
+  for (const bool changes_copy : {false, true}) {
+    const auto copy = std::make_shared<Colliderf>(*ground);
+    const InstanceId of_copy = scene.add(copy, Posef::translated({-0.5F, 0.25F, 0.75F}));
+    scene.commit();
+    GpuScene on_gpu(device, scene.snapshot());
+    expect_same_as_host(on_gpu, scene, paths);
+    (changes_copy ? copy : ground)->set_mask(0, 0);
+    expect_refused(on_gpu);
+    on_gpu.update(scene.snapshot());
+    expect_same_as_host(on_gpu, scene, paths);
+    scene.remove(of_copy);
+  }
+}
+
+/// An assignment frees what the scene has of the collider, even if the new mesh has the same version.
+TEST_F(GpuSceneFailuresTest, an_assigned_collider_has_changed) {
+  const Colliderf same = *ground;
+  const Colliderf other{TriangleMeshViewf(std::span(corners), std::span(triangle))};
+  GpuScene on_gpu(device, scene.snapshot());
+  for (const Colliderf* next : {&same, &other}) {
+    *ground = *next;
+    expect_refused(on_gpu);
+    EXPECT_EQ(on_gpu.try_update(scene.snapshot()).error().reason, Reason::not_updated);
+  }
+  scene.commit();
+  on_gpu.update(scene.snapshot());
   expect_same_as_host(on_gpu, scene, paths);
 }
 
