@@ -34,8 +34,8 @@ class GpuScene {
   /// Makes one that has no scene. It must be uploaded before it is asked.
   GpuScene() noexcept = default;
 
-  /// Uploads a scene to an open device. Fails if the device has too little memory. This is then as before. May throw
-  /// std::bad_alloc.
+  /// Uploads a scene to an open device. Fails if the device has too little memory, or fewer than eight buffers for a
+  /// shader. This is then as before. May throw std::bad_alloc.
   GpuResult try_upload(const GpuDevice& device, const SceneSnapshotf& scene);
   /// Uploads another snapshot to the same device, usually after a commit. Fails as `try_upload` does.
   ///

@@ -17,8 +17,12 @@ std::string missing_of(const DeviceReport& report) {
       limits.maxComputeWorkGroupCount[0] < paths_in_dispatch / threads_in_group) {
     return "work groups of 64 threads";
   }
-  if (limits.maxPerStageDescriptorStorageBuffers < 8) return "eight buffers for a shader";
+  if (limits.maxPerStageDescriptorStorageBuffers < buffers_for_meshes) return "six buffers for a shader";
   return {};
+}
+
+bool has_buffers_for_scenes(const DeviceReport& report) {
+  return report.properties.limits.maxPerStageDescriptorStorageBuffers >= buffers_for_scenes;
 }
 
 std::optional<std::uint32_t> computing_family(const DeviceReport& report) {

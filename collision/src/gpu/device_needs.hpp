@@ -22,9 +22,13 @@ inline constexpr std::uint32_t paths_in_dispatch = std::uint32_t{1} << 16;
 inline constexpr std::uint32_t max_path_steps = std::uint32_t{1} << 12;
 /// The number of threads that work together on a device, as in the shaders.
 inline constexpr std::uint32_t threads_in_group = 64;
+/// The number of buffers that the shader of meshes has, and that of the shader of scenes.
+inline constexpr std::uint32_t buffers_for_meshes = 6, buffers_for_scenes = 8;
 
 /// Returns what the device lacks, as a part of a sentence, or nothing.
 [[nodiscard]] std::string missing_of(const DeviceReport& report);
+/// Returns true if the device has enough buffers for the shader of scenes.
+[[nodiscard]] bool has_buffers_for_scenes(const DeviceReport& report);
 /// Returns the first queue family that computes.
 [[nodiscard]] std::optional<std::uint32_t> computing_family(const DeviceReport& report);
 /// Returns a type of memory that has all of these properties and is one of `allowed`, those with `wished` first.

@@ -12,7 +12,6 @@
 namespace surehit::detail {
 namespace {
 
-constexpr std::uint32_t buffer_count = 8;
 constexpr std::uint64_t one_second = 1'000'000'000;
 constexpr std::uint64_t two_minutes = 120 * one_second;
 constexpr const char* while_beginning = "while beginning a batch";
@@ -186,6 +185,9 @@ std::optional<GpuError> GpuDeviceState::prepare() {
 }
 
 std::optional<GpuError> GpuDeviceState::prepare_scenes() {
+  if (!has_buffers_for_scenes(report)) {
+    return GpuError(GpuError::Reason::missing_feature, name + " takes no scenes: it lacks eight buffers for a shader");
+  }
   for (const GpuTask task : {GpuTask::scene_any_hits, GpuTask::scene_first_hits}) {
     if (pipelines_[static_cast<std::size_t>(task)] != VK_NULL_HANDLE) continue;
     if (auto error = make_pipeline(task, scene_walk_spirv)) return error;
@@ -193,13 +195,17 @@ std::optional<GpuError> GpuDeviceState::prepare_scenes() {
   return std::nullopt;
 }
 
+std::uint32_t GpuDeviceState::buffer_count() const {
+  return has_buffers_for_scenes(report) ? buffers_for_scenes : buffers_for_meshes;
+}
+
 std::optional<GpuError> GpuDeviceState::make_layouts() {
-  std::array<VkDescriptorSetLayoutBinding, buffer_count> bindings = {};
-  for (std::uint32_t i = 0; i < buffer_count; ++i) {
+  std::array<VkDescriptorSetLayoutBinding, buffers_for_scenes> bindings = {};
+  for (std::uint32_t i = 0; i < buffer_count(); ++i) {
     bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   }
   auto set = of_type<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
-  set.bindingCount = buffer_count;
+  set.bindingCount = buffer_count();
   set.pBindings = bindings.data();
   const VkResult made = vulkan.CreateDescriptorSetLayout(device, &set, nullptr, &set_layout_);
   if (auto error = error_of(made, "while opening " + name, set_layout_)) return error;
@@ -238,7 +244,7 @@ std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<co
 std::optional<GpuError> GpuDeviceState::make_slots() {
   const std::string what = "while opening " + name;
   const auto slot_count = static_cast<std::uint32_t>(slots.size());
-  const VkDescriptorPoolSize sizes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer_count * slot_count};
+  const VkDescriptorPoolSize sizes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer_count() * slot_count};
   auto pool = of_type<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
   pool.maxSets = slot_count;
   pool.poolSizeCount = 1;
@@ -276,17 +282,17 @@ std::optional<GpuError> GpuDeviceState::make_slots() {
 
 void GpuDeviceState::bind(const GpuSlot& slot, const std::array<VkBuffer, 4>& of_mesh, const GpuRange& paths,
                           const GpuRange& answers) const {
-  std::array<VkDescriptorBufferInfo, buffer_count> infos;
-  std::array<VkWriteDescriptorSet, buffer_count> writes;
-  const std::array<GpuRange, buffer_count> all = {GpuRange{of_mesh[0]},
-                                                  GpuRange{of_mesh[1]},
-                                                  paths,
-                                                  GpuRange{slot.limits.get()},
-                                                  answers,
-                                                  GpuRange{slot.list.get()},
-                                                  GpuRange{of_mesh[2]},
-                                                  GpuRange{of_mesh[3]}};
-  for (std::uint32_t i = 0; i < buffer_count; ++i) {
+  std::array<VkDescriptorBufferInfo, buffers_for_scenes> infos;
+  std::array<VkWriteDescriptorSet, buffers_for_scenes> writes;
+  const std::array<GpuRange, buffers_for_scenes> all = {GpuRange{of_mesh[0]},
+                                                        GpuRange{of_mesh[1]},
+                                                        paths,
+                                                        GpuRange{slot.limits.get()},
+                                                        answers,
+                                                        GpuRange{slot.list.get()},
+                                                        GpuRange{of_mesh[2]},
+                                                        GpuRange{of_mesh[3]}};
+  for (std::uint32_t i = 0; i < buffer_count(); ++i) {
     infos[i] = {all[i].buffer, all[i].offset, all[i].size};
     writes[i] = of_type<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     writes[i].dstSet = slot.buffers;
@@ -295,7 +301,7 @@ void GpuDeviceState::bind(const GpuSlot& slot, const std::array<VkBuffer, 4>& of
     writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     writes[i].pBufferInfo = &infos[i];
   }
-  vulkan.UpdateDescriptorSets(device, buffer_count, writes.data(), 0, nullptr);
+  vulkan.UpdateDescriptorSets(device, buffer_count(), writes.data(), 0, nullptr);
 }
 
 std::optional<GpuError> GpuDeviceState::submit(GpuSlot& slot, std::span<const GpuCopy> before,

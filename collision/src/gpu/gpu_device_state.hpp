@@ -94,7 +94,7 @@ struct GpuDeviceState {
   /// Returns the handles of the device.
   [[nodiscard]] GpuHandles handles() const;
 
-  /// Makes what batches of scenes need, unless it is there.
+  /// Makes what batches of scenes need, unless it is there. Fails if the device has too few buffers for them.
   [[nodiscard]] std::optional<GpuError> prepare_scenes();
   /// Sets the buffers of a slot. The first ones are those of a mesh or of a scene.
   void bind(const GpuSlot& slot, const std::array<VkBuffer, 4>& of_mesh, const GpuRange& paths,
@@ -143,6 +143,8 @@ struct GpuDeviceState {
   void forget() noexcept;
   /// Makes all that batches need on an open device, and checks how it rounds.
   [[nodiscard]] std::optional<GpuError> prepare();
+  /// Returns the number of buffers that the shaders of this device may have.
+  [[nodiscard]] std::uint32_t buffer_count() const;
   [[nodiscard]] std::optional<GpuError> make_layouts();
   [[nodiscard]] std::optional<GpuError> make_pipeline(GpuTask task, std::span<const std::uint32_t> shader);
   [[nodiscard]] std::optional<GpuError> make_slots();

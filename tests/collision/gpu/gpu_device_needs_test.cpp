@@ -37,7 +37,7 @@ DeviceReport good_report() {
   report.properties.limits.maxComputeWorkGroupInvocations = 128;
   report.properties.limits.maxComputeWorkGroupSize[0] = 128;
   report.properties.limits.maxComputeWorkGroupCount[0] = 65535;
-  report.properties.limits.maxPerStageDescriptorStorageBuffers = 8;
+  report.properties.limits.maxPerStageDescriptorStorageBuffers = 6;
   report.memory.memoryTypeCount = 2;
   report.memory.memoryTypes[0].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
   report.memory.memoryTypes[1].propertyFlags =
@@ -63,8 +63,17 @@ TEST(GpuNeedsTest, a_device_that_lacks_something_is_refused_with_the_reason) {
   EXPECT_EQ(missing([](DeviceReport& report) { report.memory.memoryTypes[0].propertyFlags = 0; }), "memory of its own");
   EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxComputeWorkGroupInvocations = 63; }),
             "work groups of 64 threads");
-  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxPerStageDescriptorStorageBuffers = 7; }),
-            "eight buffers for a shader");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxPerStageDescriptorStorageBuffers = 5; }),
+            "six buffers for a shader");
+}
+
+TEST(GpuNeedsTest, scenes_need_eight_buffers) {
+  DeviceReport report = good_report();
+  EXPECT_FALSE(detail::has_buffers_for_scenes(report));
+  report.properties.limits.maxPerStageDescriptorStorageBuffers = 7;
+  EXPECT_FALSE(detail::has_buffers_for_scenes(report));
+  report.properties.limits.maxPerStageDescriptorStorageBuffers = 8;
+  EXPECT_TRUE(detail::has_buffers_for_scenes(report));
 }
 
 /// What a simulated device computes.

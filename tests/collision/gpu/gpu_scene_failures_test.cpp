@@ -93,6 +93,31 @@ TEST_F(GpuSceneFailuresTest, an_upload_without_memory_changes_nothing) {
   EXPECT_EQ(hits, expected);
 }
 
+/// Meshes need six buffers for a shader, and scenes eight.
+TEST_F(GpuSceneFailuresTest, a_device_with_few_buffers_has_meshes_alone) {
+  const auto few = std::make_shared<GpuDeviceState>();
+  std::vector<std::pair<VkPhysicalDevice, detail::DeviceReport>> found;
+  ASSERT_FALSE(few->start());
+  ASSERT_FALSE(few->find(found));
+  VkPhysicalDevice chosen = VK_NULL_HANDLE;
+  detail::DeviceReport report;
+  for (const auto& [one, its_report] : found) {
+    if (its_report.properties.deviceName != device.name()) continue;
+    chosen = one;
+    report = its_report;
+  }
+  ASSERT_NE(chosen, VkPhysicalDevice{VK_NULL_HANDLE});
+  report.properties.limits.maxPerStageDescriptorStorageBuffers = 6;
+  ASSERT_FALSE(few->open(chosen, report));
+  const GpuDevice with_few = GpuDeviceState::device_of(few);
+  expect_same_as_host(GpuCollider(with_few, *ground), *ground, paths);
+  GpuScene on_gpu;
+  const GpuResult uploaded = on_gpu.try_upload(with_few, scene.snapshot());
+  ASSERT_FALSE(uploaded);
+  EXPECT_EQ(uploaded.error().reason, Reason::missing_feature);
+  EXPECT_NE(std::string(uploaded.error().what()).find("eight buffers"), std::string::npos) << uploaded.error().what();
+}
+
 TEST_F(GpuSceneFailuresTest, a_device_that_fails_in_the_middle_leaves_the_rest) {
   draw_paths(140'000);  // Three dispatches.
   const GpuScene on_gpu(device, scene.snapshot());
