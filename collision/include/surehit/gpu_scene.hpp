@@ -39,7 +39,8 @@ class GpuScene {
   GpuResult try_upload(const GpuDevice& device, const SceneSnapshotf& scene);
   /// Uploads another snapshot to the same device, usually after a commit. Fails as `try_upload` does.
   ///
-  /// If all meshes are on the device already, this uploads the instances alone. Otherwise it uploads all meshes.
+  /// If all meshes are on the device already, this uploads the instances alone. Otherwise it uploads all meshes of the
+  /// scene. Meshes that no instance has any more stay on the device until then.
   GpuResult try_update(const SceneSnapshotf& scene);
 
 #if defined(__cpp_exceptions)
