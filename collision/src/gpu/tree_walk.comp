@@ -118,10 +118,12 @@ float limit;         // Some certain hit has its t here or before.
 float others;        // All other hits have their t here or later.
 bool has_open;       // True if something is undecided.
 
-// Notes that something is undecided. Its hits have their t at `enters` or later.
-void leave_open(float enters) {
+// Notes that something is undecided. Its hits have their t at `enters` or later. Returns true if no first hit can be
+// certain any more, because no certain hit is before all others (G8).
+bool leave_open(float enters) {
   has_open = true;
   others = min(others, enters);
+  return wants_first != 0 && others <= range.first;
 }
 
 // Notes a certain hit.
@@ -167,7 +169,7 @@ bool meet_leaf(TreeNode leaf, uint ignored, uint instance, bool is_turned) {
       PairVerdict decided = decide_in_pairs(a, b, c, instance);
       if (decided.verdict == is_missed) continue;
       if (decided.verdict == is_open) {
-        leave_open(its_enters);
+        if (leave_open(its_enters)) return true;
         continue;
       }
       lower = decided.lower;
@@ -241,7 +243,7 @@ uint answer(uint path) {
       if ((placed.mask & range.instance_mask) != 0 && !(is_named && ignored == miss)) {
         misses_node(node, enters);  // The walk came here, so this is only for the time.
         if ((placed.flags & is_left_to_host) != 0 || !enter_frame(placed, is_segment != 0, max_t)) {
-          leave_open(enters);
+          if (leave_open(enters)) return undecided;
         } else {
           is_in_frame = true;
           instance = node.first;
@@ -254,7 +256,7 @@ uint answer(uint path) {
       }
 #endif
     } else if (meet_leaf(node, ignored, instance, is_turned)) {
-      return best;
+      return wants_first != 0 ? undecided : best;
     }
     // On to the next node that waits, unless all that it has comes later than a certain hit (G7).
     bool has_next = false;
