@@ -19,7 +19,7 @@ template <typename Scalar>
 struct InstanceMesh {
   const ColliderState<Scalar>* own = nullptr;    ///< A mesh of the scene's Scalar.
   const ColliderState<float>* floats = nullptr;  ///< A mesh of floats in a scene of doubles.
-  std::uint64_t version = 0;                     ///< The version of the mesh. No two meshes have the same one.
+  std::uint64_t version = 0;                     ///< The version of the mesh, which only copies share.
 };
 
 /// An instance, as queries see it. What most paths need lies in the first `hot_lines` cache lines.

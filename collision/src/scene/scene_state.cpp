@@ -115,7 +115,7 @@ void SceneState<Scalar>::apply(CommittedScene<Scalar>& next, std::uint32_t index
     watched[index] = {};
     return;
   }
-  watched[index] = {instance.collider, instance.float_collider, made.mesh.version};
+  watched[index] = {instance.collider, instance.float_collider, made.mesh};
   if (instance.share) kept.collider = std::move(instance.share);
   kept.user_data = instance.options.user_data;
 }

@@ -46,12 +46,17 @@ template <typename Scalar>
 struct WatchedCollider {
   const Collider<Scalar>* collider = nullptr;       ///< The collider, or null.
   const Collider<float>* float_collider = nullptr;  ///< The collider of floats in a scene of doubles, or null.
-  std::uint64_t version = 0;                        ///< The version of the mesh.
+  InstanceMesh<Scalar> mesh = {};                   ///< Its mesh.
 
-  /// Returns true if the collider was rebuilt since then.
+  /// Returns true if the collider was rebuilt or assigned since then. A copy has the same version in another place.
   [[nodiscard]] bool has_other_mesh() const {
-    if (collider != nullptr) return ColliderState<Scalar>::of(*collider).version != version;
-    return float_collider != nullptr && ColliderState<float>::of(*float_collider).version != version;
+    if (collider != nullptr) {
+      const ColliderState<Scalar>& now = ColliderState<Scalar>::of(*collider);
+      return &now != mesh.own || now.version != mesh.version;
+    }
+    if (float_collider == nullptr) return false;
+    const ColliderState<float>& now = ColliderState<float>::of(*float_collider);
+    return &now != mesh.floats || now.version != mesh.version;
   }
 };
 

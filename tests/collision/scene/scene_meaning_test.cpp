@@ -219,6 +219,18 @@ TYPED_TEST(SceneMeaning, rebuilt_collider_is_seen_after_the_commit) {
   EXPECT_GE(this->scene.box().high[2], 4);
 }
 
+TYPED_TEST(SceneMeaning, assigned_collider_is_seen_after_the_commit) {
+  const auto id = this->add();
+  this->scene.commit();
+  *this->floor = Collider<TypeParam>(*this->floor);  // The same mesh in another place.
+  this->scene.commit();
+  this->floor->set_mask(0, 0);
+  EXPECT_FALSE(this->scene.any_hit(this->across(4, -4)));
+  *this->floor = Collider<TypeParam>(stack_of_triangles<TypeParam>(2).view());
+  this->scene.commit();
+  this->expect_hit(this->scene.first_hit(this->across(4, 0)), TypeParam{0.75}, Side::front, id, 1);
+}
+
 TYPED_TEST(SceneMeaning, path_that_is_not_finite_hits_nothing) {
   this->add();
   this->scene.commit();
