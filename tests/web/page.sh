@@ -9,4 +9,4 @@ cp "$example"/package.json "$example"/package-lock.json page_build/
 (cd page_build && npm ci --no-audit --no-fund) || exit 77
 "$example/build.sh" --module package/surehit.wasm --packages "$PWD/page_build/node_modules" "$PWD/page_build"
 cp "$here/page_test.mjs" "$here/oracle.mjs" page_build/test/
-SUREHIT_CHROMIUM=$2 "$1" --test page_build/test/page_test.mjs
+SUREHIT_CHROMIUM=$2 "$1" page_build/test/page_test.mjs

@@ -4,4 +4,4 @@ set -euo pipefail
 
 cd package
 npm ci --no-audit --no-fund || exit 77
-"$1" --test test/parity_test.mjs
+"$1" test/parity_test.mjs
