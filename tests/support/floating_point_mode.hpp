@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cfenv>
 #include <cstdint>
 #include <ostream>
@@ -20,6 +21,16 @@ struct FloatingPointMode {
 };
 
 inline void PrintTo(const FloatingPointMode& mode, std::ostream* out) { *out << mode.name; }
+
+/// All modes that differ in what an answer could come from.
+inline constexpr std::array floating_point_modes = {
+    FloatingPointMode{"to_nearest"},
+    FloatingPointMode{"upward", FE_UPWARD, false},
+    FloatingPointMode{"downward", FE_DOWNWARD, false},
+    FloatingPointMode{"toward_zero", FE_TOWARDZERO, false},
+    FloatingPointMode{"flush", FE_TONEAREST, true},
+    FloatingPointMode{"upward_and_flush", FE_UPWARD, true},
+};
 
 /// Holds a mode for as long as it lives.
 class FloatingPointModeScope {

@@ -56,6 +56,8 @@ InstanceResult Scene<Scalar>::add_instance(ColliderPointer collider,
     return InvalidInstance(InvalidInstance::Reason::no_collider, 0, "the pointer to the collider is null");
   }
   if (std::optional<InvalidInstance> invalid = detail::find_invalid(pose)) return *std::move(invalid);
+  // The pose may be that of an instance of this scene, which moves when the scene grows.
+  const detail::Placement<Scalar> placement = {pose};
   if (!state_) {
     StatePointer made(new SceneStateOf<Scalar>);
     this->committed_ = detail::CommittedShare<Scalar>(new detail::CommittedScene<Scalar>);
@@ -87,7 +89,7 @@ InstanceResult Scene<Scalar>::add_instance(ColliderPointer collider,
   } else {
     instance.share = std::move(float_collider);
   }
-  instance.placement = {pose};
+  instance.placement = placement;
   instance.options = options;
   instance.is_there = true;
   state_->note_change(index);
@@ -136,6 +138,7 @@ InstanceResult Scene<Scalar>::try_set_pose(InstanceId id, const Pose<Scalar>& po
 
 template <FloatOrDouble Scalar>
 InstanceResult Scene<Scalar>::try_set_motion(InstanceId id, const Vector3<Scalar>& motion) {
+  const FloatingPointEnvironment environment;
   auto* const instance = state_ ? state_->find(id) : nullptr;
   if (instance == nullptr) return stale(id);
   for (std::size_t axis = 0; axis < 3; ++axis) {

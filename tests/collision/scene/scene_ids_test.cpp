@@ -233,5 +233,19 @@ TYPED_TEST(SceneIds, memory_counts_the_scene_without_its_colliders) {
   EXPECT_GT(this->scene.memory_bytes(), one + 1000 * sizeof(Pose<TypeParam>));
 }
 
+TYPED_TEST(SceneIds, pose_of_another_instance_may_be_given) {
+  // The scene grows while it reads the pose.
+  const auto first = this->add();
+  const auto pattern = this->add(at_height<TypeParam>(3));
+  for (int i = 0; i < 3000; ++i) {
+    const auto id = this->scene.add(this->floor, this->scene.pose(pattern));
+    ASSERT_EQ(this->scene.pose(id).linear, Pose<TypeParam>().linear);
+    ASSERT_EQ(this->scene.pose(id).translation, at_height<TypeParam>(3).translation);
+  }
+  this->scene.set_pose(first, this->scene.pose(pattern));
+  this->scene.set_motion(first, this->scene.motion(pattern));
+  EXPECT_EQ(this->scene.pose(first).translation, at_height<TypeParam>(3).translation);
+}
+
 }  // namespace
 }  // namespace surehit::test
