@@ -39,6 +39,12 @@ struct Pose {
   [[nodiscard]] static Pose rigid(const Quaternion& quaternion, const Vector3<Scalar>& translation) {
     return rigid(std::array<Scalar, 4>{quaternion.x(), quaternion.y(), quaternion.z(), quaternion.w()}, translation);
   }
+
+  /// Returns this pose for a mesh that is stretched first, by a factor along each of its axes. A negative factor
+  /// mirrors the mesh. Each entry of the matrix is rounded once.
+  [[nodiscard]] SUREHIT_API Pose scaled(const Vector3<Scalar>& factors) const;
+  /// Does the same with one factor for all axes.
+  [[nodiscard]] Pose scaled(Scalar factor) const { return scaled(Vector3<Scalar>{factor, factor, factor}); }
 };
 
 extern template struct SUREHIT_API Pose<float>;

@@ -18,6 +18,12 @@ Pose<Scalar> Pose<Scalar>::rigid(const std::array<Scalar, 4>& quaternion, const 
   return pose;
 }
 
+template <FloatOrDouble Scalar>
+Pose<Scalar> Pose<Scalar>::scaled(const Vector3<Scalar>& factors) const {
+  const FloatingPointEnvironment environment;
+  return {linear * factors.asDiagonal(), translation};
+}
+
 template struct Pose<float>;
 template struct Pose<double>;
 

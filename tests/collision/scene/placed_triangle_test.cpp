@@ -199,5 +199,14 @@ TYPED_TEST(PoseOf, half_turn_is_exact) {
   EXPECT_EQ(pose.linear, with_rows<TypeParam>({-1, 0, 0}, {0, -1, 0}, {0, 0, 1}).linear);
 }
 
+TYPED_TEST(PoseOf, scaled_one_stretches_the_mesh_before_it_is_turned) {
+  auto pose = with_rows<TypeParam>({0, -1, 0}, {1, 0, 0}, {0, 0, 1});
+  pose.translation = {1, 2, 3};
+  const auto scaled = pose.scaled({2, -3, TypeParam(0.1)});
+  EXPECT_EQ(scaled.linear, with_rows<TypeParam>({0, 3, 0}, {2, 0, 0}, {0, 0, TypeParam(0.1)}).linear);
+  EXPECT_EQ(scaled.translation, pose.translation);
+  EXPECT_EQ(pose.scaled(4).linear, 4 * pose.linear);
+}
+
 }  // namespace
 }  // namespace surehit::test
