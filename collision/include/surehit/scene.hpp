@@ -46,7 +46,8 @@ struct SUREHIT_API DeleteSceneState {
 /// lowest triangle id. A scene of doubles takes colliders of float and of double.
 ///
 /// `add`, `remove` and the setters take effect with the next `commit`. Until then, queries answer as before. A commit
-/// costs what has changed: no triangle is looked at.
+/// costs what has changed: no triangle is looked at. The masks of a collider's triangles are the collider's, and take
+/// effect at once.
 ///
 /// Queries are const and may run in many threads at the same time. No query of the scene may run while it commits, or
 /// while one of its colliders changes. A query of a `snapshot` may run while the scene commits.
@@ -112,8 +113,9 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   /// Lets all changes since the last commit take effect. No query may run at the same time. The executor spreads the
   /// work over threads, and the result is the same. May throw std::bad_alloc. Then the committed state is as before.
   ///
-  /// Takes time linear in the changes, and in the instances with a small constant. After many changes it sorts the
-  /// instances anew. If a snapshot has the committed state, the next one takes its place elsewhere, see `snapshot`.
+  /// Takes time linear in the changes, and in the instances with a small constant. It sorts all instances anew after
+  /// half of them have come or gone, or once moved ones have made queries slow. If a snapshot has the committed state,
+  /// the next one takes its place elsewhere, see `snapshot`.
   void commit(const std::optional<Executor>& executor = {});
 
   /// Returns the committed state as it is now. It stays the same while the scene changes and commits.
@@ -153,9 +155,10 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   [[nodiscard]] bool contains(InstanceId id) const noexcept;
   /// Returns the ids of all instances, in order. May throw std::bad_alloc.
   [[nodiscard]] std::vector<InstanceId> instances() const;
-  /// Returns the pose that was set last. The id must be that of an instance, here and below.
+  /// Returns the pose that was set last. The id must be that of an instance, here and below. The reference is valid
+  /// until an instance is added.
   [[nodiscard]] const Pose<Scalar>& pose(InstanceId id) const noexcept;
-  /// Returns the motion that was set last. It is zero if none was set.
+  /// Returns the motion that was set last. It is zero if none was set. The reference is valid as that of the pose.
   [[nodiscard]] const Vector3<Scalar>& motion(InstanceId id) const noexcept;
   /// Returns the mask that was set last.
   [[nodiscard]] std::uint32_t mask(InstanceId id) const noexcept;

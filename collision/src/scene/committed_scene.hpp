@@ -73,6 +73,10 @@ struct CommittedScene {
         id.index < instances.size() && kept[id.index].collider && instances[id.index].generation == id.generation;
     return is_known ? &instances[id.index] : nullptr;
   }
+  /// Returns true if the tree has the instance at an index.
+  [[nodiscard]] bool has_in_tree(std::uint32_t index) const noexcept {
+    return index < instances.size() && instances[index].is_in_tree;
+  }
   /// Makes room for as many instances, or throws std::bad_alloc.
   void reserve(std::size_t room) {
     instances.reserve(room);

@@ -1,6 +1,7 @@
 #include "scene/instance_tree.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -137,6 +138,77 @@ float round_down(double x) {
   return std::isnan(low) ? -std::numeric_limits<float>::infinity() : std::min(low, std::numeric_limits<float>::max());
 }
 
+/// Returns a node without children.
+InstanceTree::Node empty_node() {
+  constexpr float far = std::numeric_limits<float>::infinity();
+  InstanceTree::Node node;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    node.low(axis).fill(far);
+    node.high(axis).fill(-far);
+  }
+  node.child.fill(InstanceTree::no_child);
+  return node;
+}
+
+/// The planes of a box, in the order of a node.
+using Planes = std::array<float, 6>;
+
+/// Returns the number of children of a node. They are in its first places.
+std::size_t child_count(const InstanceTree::Node& node) {
+  std::size_t count = 0;
+  while (count < InstanceTree::width && node.child[count] != InstanceTree::no_child) ++count;
+  return count;
+}
+
+Planes planes_of_child(const InstanceTree::Node& node, std::size_t lane) {
+  Planes planes;
+  for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = node.planes[i][lane];
+  return planes;
+}
+
+void set_child(InstanceTree::Node& node, std::size_t lane, const Planes& planes, std::uint32_t child) {
+  for (std::size_t i = 0; i < planes.size(); ++i) node.planes[i][lane] = planes[i];
+  node.child[lane] = child;
+}
+
+/// Returns the planes around two boxes.
+Planes joined(const Planes& x, const Planes& y) {
+  Planes planes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    planes[axis] = std::min(x[axis], y[axis]);
+    planes[3 + axis] = std::max(x[3 + axis], y[3 + axis]);
+  }
+  return planes;
+}
+
+/// Returns half of the surface of a box.
+float surface(const Planes& planes) {
+  const float x = planes[3] - planes[0];
+  const float y = planes[4] - planes[1];
+  const float z = planes[5] - planes[2];
+  return x * y + y * z + z * x;
+}
+
+/// Returns the child whose box grows least if another box joins it. Among those that grow alike, the smallest one is
+/// taken, and then the first one from `first` on.
+std::size_t lane_that_grows_least(const InstanceTree::Node& node, const Planes& planes, std::size_t first) {
+  std::size_t best = first;
+  float best_growth = std::numeric_limits<float>::infinity();
+  float best_surface = best_growth;
+  for (std::size_t i = 0; i < InstanceTree::width; ++i) {
+    const std::size_t lane = (first + i) % InstanceTree::width;
+    const Planes before = planes_of_child(node, lane);
+    const float before_surface = surface(before);
+    const float growth = surface(joined(before, planes)) - before_surface;
+    if (growth < best_growth || (growth == best_growth && before_surface < best_surface)) {
+      best = lane;
+      best_growth = growth;
+      best_surface = before_surface;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 void InstanceTree::set_frame(std::span<const InstanceBox> boxes) noexcept {
@@ -211,18 +283,14 @@ void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<con
     std::uint32_t depth;
   };
   std::vector<Task> tasks;
-  constexpr float far = std::numeric_limits<float>::infinity();
-  Node empty;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    empty.low(axis).fill(far);
-    empty.high(axis).fill(-far);
-  }
-  empty.child.fill(no_child);
-  nodes_.push_back(empty);
+  nodes_.push_back(empty_node());
   tasks.push_back({splitter.group(0, static_cast<std::uint32_t>(order.size())), 0, 0});
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
+    // Halves of n instances have at most (n + 1) / 2, so bit_width(n - 1) more nodes hold all of them.
+    const std::uint32_t size = task.group.last - task.group.first;
+    const bool evenly = task.depth + static_cast<std::uint32_t>(std::bit_width(size - 1)) >= max_depth;
     std::array<Group, width> groups = {task.group};
     std::size_t count = 1;
     while (count < width) {
@@ -239,7 +307,7 @@ void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<con
         }
       }
       if (largest == width) break;
-      const auto [left, right] = splitter.split(groups[largest], task.depth >= max_depth / 2);
+      const auto [left, right] = splitter.split(groups[largest], evenly);
       groups[largest] = left;
       groups[count++] = right;
     }
@@ -251,12 +319,79 @@ void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<con
       }
       const auto child = static_cast<std::uint32_t>(nodes_.size());
       nodes_[task.node].child[lane] = child;
-      nodes_.push_back(empty);
+      nodes_.push_back(empty_node());
       tasks.push_back({group, child, task.depth + 1});
     }
   }
   refit(boxes);
   built_cost_ = cost_;
+  built_count_ = instances.size();
+  exchanged_ = 0;
+}
+
+bool InstanceTree::exchange(std::span<const std::uint8_t> is_there, std::span<const std::uint32_t> added,
+                            std::span<const InstanceBox> boxes) {
+  exchanged_ += take_out(is_there) + added.size();
+  for (const std::uint32_t instance : added) {
+    if (!put_in(instance, boxes[instance])) return false;
+  }
+  refit(boxes);
+  return true;
+}
+
+std::size_t InstanceTree::take_out(std::span<const std::uint8_t> is_there) noexcept {
+  std::size_t taken = 0;
+  const auto is_gone = [&](std::uint32_t child) {
+    if ((child & instance_bit) == 0) return nodes_[child].child[0] == no_child;
+    const bool leaves = is_there[child & ~instance_bit] == 0;
+    taken += leaves ? 1 : 0;
+    return leaves;
+  };
+  const Planes no_planes = planes_of_child(empty_node(), 0);
+  for (std::size_t i = nodes_.size(); i-- > 0;) {  // A node without children is known before its parent.
+    Node& node = nodes_[i];
+    std::size_t count = child_count(node);
+    for (std::size_t lane = count; lane-- > 0;) {
+      if (!is_gone(node.child[lane])) continue;
+      --count;
+      set_child(node, lane, planes_of_child(node, count), node.child[count]);
+      set_child(node, count, no_planes, no_child);
+    }
+  }
+  return taken;
+}
+
+bool InstanceTree::put_in(std::uint32_t instance, const InstanceBox& box) {
+  Planes planes;  // `refit` rounds them outward.
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    planes[axis] = static_cast<float>((box.low[axis] - origin_[axis]) * scale_);
+    planes[3 + axis] = static_cast<float>((box.high[axis] - origin_[axis]) * scale_);
+  }
+  std::uint32_t at = 0;
+  std::uint32_t turn = instance;  // Where nothing tells children apart, each gets as many instances.
+  for (std::size_t depth = 0; depth + 1 < max_depth; ++depth, turn /= width) {
+    Node& node = nodes_[at];
+    const std::size_t count = child_count(node);
+    if (count < width) {
+      set_child(node, count, planes, instance | instance_bit);
+      return true;
+    }
+    const std::size_t lane = lane_that_grows_least(node, planes, turn % width);
+    const std::uint32_t child = node.child[lane];
+    const Planes grown = joined(planes_of_child(node, lane), planes);
+    if ((child & instance_bit) != 0) {
+      // Both instances get a node of their own.
+      Node pair = empty_node();
+      set_child(pair, 0, planes_of_child(node, lane), child);
+      set_child(pair, 1, planes, instance | instance_bit);
+      set_child(node, lane, grown, static_cast<std::uint32_t>(nodes_.size()));
+      nodes_.push_back(pair);
+      return true;
+    }
+    set_child(node, lane, grown, child);
+    at = child;
+  }
+  return false;
 }
 
 }  // namespace surehit::detail

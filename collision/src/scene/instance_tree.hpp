@@ -21,7 +21,7 @@ struct InstanceBox {
 class InstanceTree {
  public:
   static constexpr std::size_t width = 8;  ///< The maximum number of children of a node.
-  /// The maximum number of nodes on a way down. Beyond it, instances are split in halves by number.
+  /// The maximum number of nodes on a way down.
   static constexpr std::size_t max_depth = 48;
 
   /// A child is a node, or an instance if this bit is set.
@@ -38,9 +38,16 @@ class InstanceTree {
     [[nodiscard]] std::array<float, width>& high(std::size_t axis) { return planes[3 + axis]; }
   };
 
-  /// Sorts these instances into a tree. `boxes` has the box of each index. May throw
-  /// std::bad_alloc.
+  /// Sorts these instances into a tree. `boxes` has the box of each index, here and below. May throw std::bad_alloc.
   void build(std::span<const std::uint32_t> instances, std::span<const InstanceBox> boxes);
+  /// Returns true if as many more instances may come and go before a new tree would be faster.
+  [[nodiscard]] bool has_room_for(std::size_t exchanged) const {
+    return !is_worn() && 2 * (exchanged_ + exchanged) <= built_count_;
+  }
+  /// Takes out the instances whose `is_there` is 0, and puts others in. Returns false if a way down becomes too long.
+  /// Then the tree is of no use. May throw std::bad_alloc.
+  [[nodiscard]] bool exchange(std::span<const std::uint8_t> is_there, std::span<const std::uint32_t> added,
+                              std::span<const InstanceBox> boxes);
   /// Fits the boxes of the tree to new boxes of the same instances.
   void refit(std::span<const InstanceBox> boxes) noexcept;
 
@@ -59,6 +66,10 @@ class InstanceTree {
   [[nodiscard]] std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node); }
 
  private:
+  /// Takes out the instances whose `is_there` is 0, and the nodes that have no child then. Returns how many it took.
+  std::size_t take_out(std::span<const std::uint8_t> is_there) noexcept;
+  /// Puts an instance where the boxes grow least. Returns false if the way down would become too long.
+  [[nodiscard]] bool put_in(std::uint32_t instance, const InstanceBox& box);
   /// Sets the frame from the box of all instances.
   void set_frame(std::span<const InstanceBox> boxes) noexcept;
 
@@ -66,8 +77,10 @@ class InstanceTree {
   Double4 origin_ = {};
   double scale_ = 1;
   InstanceBox box_ = {};
-  double cost_ = 0;        ///< The sum of the surfaces of all boxes, over that of the first one.
-  double built_cost_ = 0;  ///< The same when the tree was built.
+  double cost_ = 0;              ///< The sum of the surfaces of all boxes, over that of the first one.
+  double built_cost_ = 0;        ///< The same when the tree was built.
+  std::size_t built_count_ = 0;  ///< The number of instances when the tree was built.
+  std::size_t exchanged_ = 0;    ///< The number of instances that came or went since then.
 };
 
 }  // namespace surehit::detail

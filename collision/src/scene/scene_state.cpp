@@ -50,26 +50,33 @@ void SceneState<Scalar>::note_rebuilt_colliders() {
 }
 
 template <FloatOrDouble Scalar>
-bool SceneState<Scalar>::keeps_tree(const CommittedScene<Scalar>& before,
-                                    const std::vector<CommittedInstance<Scalar>>& made) const {
-  if (before.tree.is_worn()) return false;
+std::size_t SceneState<Scalar>::count_exchanged(const CommittedScene<Scalar>& before,
+                                                const std::vector<CommittedInstance<Scalar>>& made) const {
+  std::size_t exchanged = 0;
   for (std::size_t i = 0; i < changed.size(); ++i) {
-    const bool was_in_tree = changed[i] < before.instances.size() && before.instances[changed[i]].is_in_tree;
-    if (was_in_tree != made[i].is_in_tree) return false;
+    if (before.has_in_tree(changed[i]) != made[i].is_in_tree) ++exchanged;
   }
-  return true;
+  return exchanged;
 }
 
 template <FloatOrDouble Scalar>
-InstanceTree SceneState<Scalar>::new_tree(const CommittedScene<Scalar>& before,
-                                          const std::vector<CommittedInstance<Scalar>>& made) const {
+InstanceTree SceneState<Scalar>::next_tree(const CommittedScene<Scalar>& before,
+                                           const std::vector<CommittedInstance<Scalar>>& made,
+                                           std::size_t exchanged) const {
   std::vector<InstanceBox> all_boxes = boxes;
   all_boxes.resize(pending.size());
   std::vector<std::uint8_t> is_in_tree(pending.size(), 0);
   for (std::size_t i = 0; i < before.instances.size(); ++i) is_in_tree[i] = before.instances[i].is_in_tree ? 1 : 0;
+  std::vector<std::uint32_t> added;
   for (std::size_t i = 0; i < changed.size(); ++i) {
-    all_boxes[changed[i]] = made[i].box();
-    is_in_tree[changed[i]] = made[i].is_in_tree ? 1 : 0;
+    const std::uint32_t index = changed[i];
+    if (made[i].is_in_tree && is_in_tree[index] == 0) added.push_back(index);
+    all_boxes[index] = made[i].box();
+    is_in_tree[index] = made[i].is_in_tree ? 1 : 0;
+  }
+  if (before.tree.has_room_for(exchanged)) {
+    InstanceTree tree = before.tree;
+    if (tree.exchange(is_in_tree, added, all_boxes)) return tree;
   }
   std::vector<std::uint32_t> indices;
   for (std::uint32_t i = 0; i < is_in_tree.size(); ++i) {
@@ -155,9 +162,10 @@ void SceneState<Scalar>::commit(CommittedShare<Scalar>& current, const Executor*
   });
   const CommittedShare<Scalar> share = unshared(current);
   CommittedScene<Scalar>& next = *share.get();
-  const bool keeps = keeps_tree(before, made);
-  const bool has_this_tree = built <= next.commit;
-  InstanceTree other_tree = !keeps ? new_tree(before, made) : has_this_tree ? InstanceTree() : before.tree;
+  const std::size_t exchanged = count_exchanged(before, made);
+  const bool keeps = exchanged == 0 && !before.tree.is_worn();
+  const bool has_this_tree = set_up <= next.commit;
+  InstanceTree other_tree = !keeps ? next_tree(before, made, exchanged) : has_this_tree ? InstanceTree() : before.tree;
   next.reserve(pending.capacity());
   boxes.reserve(pending.capacity());
   changed_in.reserve(pending.capacity());
@@ -175,7 +183,7 @@ void SceneState<Scalar>::commit(CommittedShare<Scalar>& current, const Executor*
   if (keeps) {
     next.tree.refit(boxes);
   } else {
-    built = commits;
+    set_up = commits;
   }
   next.count = count;
   next.commit = commits;

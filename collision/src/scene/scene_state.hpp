@@ -71,7 +71,7 @@ struct SceneState {
 
   // What a commit needs.
   std::uint64_t commits = 0;                     ///< The number of commits.
-  std::uint64_t built = 0;                       ///< The number of the commit that built the tree.
+  std::uint64_t set_up = 0;                      ///< The number of the commit that set up the nodes of the tree.
   std::vector<std::uint64_t> changed_in;         ///< The number of the commit that changed the instance last, by index.
   std::vector<InstanceBox> boxes;                ///< The boxes of the instances by index.
   std::vector<WatchedCollider<Scalar>> watched;  ///< The colliders of the instances by index.
@@ -100,12 +100,12 @@ struct SceneState {
  private:
   /// Notes the instances whose colliders were rebuilt since the last commit. There is room for all indices.
   void note_rebuilt_colliders();
-  /// Returns true if the same instances are in the tree, and it is not worn. `made` has an instance for each change.
-  [[nodiscard]] bool keeps_tree(const CommittedScene<Scalar>& before,
-                                const std::vector<CommittedInstance<Scalar>>& made) const;
-  /// Returns a tree of all instances, as they are after the changes.
-  [[nodiscard]] InstanceTree new_tree(const CommittedScene<Scalar>& before,
-                                      const std::vector<CommittedInstance<Scalar>>& made) const;
+  /// Returns the number of instances that come into the tree or leave it. `made` has an instance for each change.
+  [[nodiscard]] std::size_t count_exchanged(const CommittedScene<Scalar>& before,
+                                            const std::vector<CommittedInstance<Scalar>>& made) const;
+  /// Returns the tree of all instances, as they are after the changes. If few come and go, they are exchanged.
+  [[nodiscard]] InstanceTree next_tree(const CommittedScene<Scalar>& before,
+                                       const std::vector<CommittedInstance<Scalar>>& made, std::size_t exchanged) const;
   /// Returns a committed scene that no one else shares: the current one, a former one, or else a new one.
   [[nodiscard]] CommittedShare<Scalar> unshared(const CommittedShare<Scalar>& current) const;
   /// Sets all that has changed since a committed scene was the current one. There is room for all instances.

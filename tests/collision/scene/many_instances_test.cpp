@@ -154,5 +154,42 @@ TYPED_TEST(ManyInstances, removed_ones_are_gone_and_new_ones_are_found) {
   }
 }
 
+TYPED_TEST(ManyInstances, some_come_and_go_in_each_tick) {
+  constexpr int side = 40;
+  auto ids = this->add_square(side);
+  this->scene.commit();
+  std::vector<Segment<TypeParam>> segments;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) segments.push_back(this->onto(this->place(x, y)));
+  }
+  const auto expect_found = [&](const SceneQueries<TypeParam>& scene, const std::vector<InstanceId>& expected) {
+    std::vector<SceneHit<TypeParam>> hits(segments.size());
+    scene.first_hits(segments, hits);
+    for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(hits[i].instance, expected[i]) << i;
+    const bool has_last = expected.back() != InstanceId{};
+    ASSERT_EQ(scene.any_hit(this->onto(this->place(side - 1, side - 1))), has_last);
+  };
+  Random random(7);
+  for (int tick = 0; tick < 60; ++tick) {
+    const auto snapshot = this->scene.snapshot();
+    const auto before = ids;
+    for (int i = 0; i < 50; ++i) {
+      const std::size_t at = random.below(ids.size());
+      if (ids[at] == InstanceId{}) {
+        const int place = static_cast<int>(at);
+        ids[at] = this->scene.add(this->floor, Pose<TypeParam>::translated(this->place(place % side, place / side)));
+      } else {
+        this->scene.remove(ids[at]);
+        ids[at] = {};
+      }
+    }
+    this->scene.commit();
+    expect_found(this->scene, ids);
+    // Every other tick, the next commit finds no one else that has this state.
+    if (tick % 2 == 0) expect_found(snapshot, before);
+    if (this->HasFatalFailure()) return;
+  }
+}
+
 }  // namespace
 }  // namespace surehit::test
