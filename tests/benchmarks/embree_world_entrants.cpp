@@ -24,22 +24,24 @@ class EmbreeWorld : public WorldContender {
     release_scenes();
     for (const auto& mesh : world.meshes) meshes_.push_back(scene_of(mesh.view()));
     scene_ = new_scene(mode_.quality);
-    for (const auto& [mesh, pose] : world.instances) {
-      const RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-      rtcSetGeometryInstancedScene(instance, meshes_[mesh]);
-      rtcSetGeometryTimeStepCount(instance, 1);
-      place(instance, pose);
-      rtcAttachGeometry(scene_, instance);
-      rtcReleaseGeometry(instance);
-      instances_.push_back(instance);
-    }
+    world_ = &world;
+    for (const PlacedMesh& placed : world.instances) instances_.push_back(attach(placed));
     rtcCommitScene(scene_);
     throw_on_error();
   }
 
   void move(std::span<const Posef> poses) override {
     const FlushedDenormals flushed;
-    for (std::size_t i = 0; i < poses.size(); ++i) place(instances_[i], poses[i]);
+    for (std::size_t i = 0; i < poses.size(); ++i) place(instances_[i].geometry, poses[i]);
+    rtcCommitScene(scene_);
+    throw_on_error();
+  }
+
+  void exchange_one() override {
+    const FlushedDenormals flushed;
+    rtcDetachGeometry(scene_, instances_[next_].id);
+    instances_[next_] = attach(world_->instances[next_]);
+    next_ = (next_ + 1) % instances_.size();
     rtcCommitScene(scene_);
     throw_on_error();
   }
@@ -77,6 +79,22 @@ class EmbreeWorld : public WorldContender {
     return scene;
   }
 
+  /// An instance, which the scene owns.
+  struct Attached {
+    RTCGeometry geometry;
+    unsigned id;
+  };
+
+  [[nodiscard]] Attached attach(const PlacedMesh& placed) const {
+    const RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, meshes_[placed.mesh]);
+    rtcSetGeometryTimeStepCount(instance, 1);
+    place(instance, placed.pose);
+    const unsigned id = rtcAttachGeometry(scene_, instance);
+    rtcReleaseGeometry(instance);
+    return {instance, id};
+  }
+
   static void place(RTCGeometry instance, const Posef& pose) {
     std::array<float, 12> columns;
     Eigen::Map<Posef::Matrix3>(columns.data()) = pose.linear;
@@ -102,7 +120,9 @@ class EmbreeWorld : public WorldContender {
   RTCDevice device_ = nullptr;
   std::vector<RTCScene> meshes_;
   RTCScene scene_ = nullptr;
-  std::vector<RTCGeometry> instances_;  ///< owned by the scene
+  const World* world_ = nullptr;
+  std::vector<Attached> instances_;
+  std::size_t next_ = 0;  ///< the instance that is exchanged next
 };
 
 }  // namespace

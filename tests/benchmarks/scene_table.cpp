@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +29,7 @@ class WithoutScene : public WorldContender {
 
   void build(const World& world) override { contender_->build(world.meshes.front().view()); }
   void move(std::span<const Posef>) override {}
+  void exchange_one() override {}
   void first(const PathBatch& paths, std::span<Hitf> hits) override { contender_->first(paths, hits); }
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) override { contender_->any(paths, blocked); }
 
@@ -171,10 +175,27 @@ class WorldContest {
   std::vector<WorldRow> rows_;
 };
 
-/// What it takes to move all instances, set by set of poses in turn.
+/// What changes before a commit.
+struct Change {
+  std::string name;
+  std::function<void(WorldContender&, std::span<const Posef>)> make;  ///< makes the change, and commits
+};
+
+/// The first one is the published one.
+const std::vector<Change>& all_changes() {
+  static const std::vector<Change> changes = {
+      {"commit", [](WorldContender& contender, std::span<const Posef> poses) { contender.move(poses); }},
+      {"commit of a tenth",
+       [](WorldContender& contender, std::span<const Posef> poses) { contender.move(poses.first(poses.size() / 10)); }},
+      {"exchange", [](WorldContender& contender, std::span<const Posef>) { contender.exchange_one(); }},
+  };
+  return changes;
+}
+
+/// What a contender takes for each change.
 struct CommitResult {
   std::string name;
-  RoundSeries nanoseconds;
+  std::vector<RoundSeries> nanoseconds;  ///< in the order of the changes
 };
 
 struct CommitRow {
@@ -189,14 +210,17 @@ CommitRow race_commits(const World& world, const Request& request) {
   std::vector<std::unique_ptr<WorldContender>> contenders;
   for (const WorldEntrant& entrant : request.world_entrants) {
     if (entrant.name() != "surehit batch" && entrant.name() != moving_peer) continue;
-    row.results.push_back({entrant.is_ours() ? "surehit" : entrant.library, {}});
+    row.results.push_back(
+        {entrant.is_ours() ? "surehit" : entrant.library, std::vector<RoundSeries>(all_changes().size())});
     contenders.push_back(entrant.make());
     contenders.back()->build(world);
   }
-  for (std::size_t round = 0; round <= commit_rounds * request.rounds; ++round) {
-    for (std::size_t i = 0; i < contenders.size(); ++i) {
-      const double time = nanoseconds_of([&] { contenders[i]->move(poses[round % 2]); });
-      if (round > 0) row.results[i].nanoseconds.push_back(time);
+  for (std::size_t change = 0; change < all_changes().size(); ++change) {
+    for (std::size_t round = 0; round <= commit_rounds * request.rounds; ++round) {
+      for (std::size_t i = 0; i < contenders.size(); ++i) {
+        const double time = nanoseconds_of([&] { all_changes()[change].make(*contenders[i], poses[round % 2]); });
+        if (round > 0) row.results[i].nanoseconds[change].push_back(time);
+      }
     }
   }
   return row;
@@ -281,25 +305,31 @@ void show_instances_over_colliders(const std::vector<WorldRow>& rows, const Repo
 }
 
 void show_commits(const std::vector<CommitRow>& rows, Report& report) {
-  std::vector<std::string> header = {"scene", "instances", "surehit ms"};
-  for (const CommitResult& result : rows.front().results) {
-    if (&result != &rows.front().results.front()) header.push_back(result.name);
+  std::vector<std::string> header = {"scene", "instances"};
+  for (const char* change : {"all move", "a tenth moves", "one goes and one comes"}) {
+    header.push_back(std::string(change) + ": surehit ms");
+    for (const CommitResult& result : rows.front().results) {
+      if (&result != &rows.front().results.front()) header.push_back(result.name);
+    }
   }
   MarkdownTable table(header, 1);
   for (const CommitRow& row : rows) {
     const CommitResult& ours = row.results.front();
-    std::vector<std::string> cells = {row.place.mesh, std::to_string(row.instances),
-                                      short_number(summary_of(ours.nanoseconds).median / 1e6)};
-    for (const CommitResult& result : row.results) {
-      report.keep(row.place, result.name, "commit ns", summary_of(result.nanoseconds));
-      if (&result == &ours) continue;
-      const Summary over_ours = summary_of(ratio(result.nanoseconds, ours.nanoseconds));
-      report.keep(row.place, result.name, "commit over surehit", over_ours);
-      cells.push_back(short_number(over_ours.median));
+    std::vector<std::string> cells = {row.place.mesh, std::to_string(row.instances)};
+    for (std::size_t change = 0; change < all_changes().size(); ++change) {
+      const std::string& name = all_changes()[change].name;
+      cells.push_back(short_number(summary_of(ours.nanoseconds[change]).median / 1e6));
+      for (const CommitResult& result : row.results) {
+        report.keep(row.place, result.name, name + " ns", summary_of(result.nanoseconds[change]));
+        if (&result == &ours) continue;
+        const Summary over_ours = summary_of(ratio(result.nanoseconds[change], ours.nanoseconds[change]));
+        report.keep(row.place, result.name, name + " over surehit", over_ours);
+        cells.push_back(short_number(over_ours.median));
+      }
     }
     table.add_row(std::move(cells));
   }
-  report.show("scene: commit with all poses changed, and how many times as long the others take", table);
+  report.show("scene: commits after changes, and how many times as long the others take", table);
 }
 
 }  // namespace

@@ -8,11 +8,12 @@ namespace {
 class SurehitWorld : public WorldContender {
  public:
   void build(const World& world) override {
-    std::vector<std::shared_ptr<const Colliderf>> colliders;
-    for (const auto& mesh : world.meshes) colliders.push_back(std::make_shared<Colliderf>(mesh.view()));
+    world_ = &world;
+    colliders_.clear();
+    for (const auto& mesh : world.meshes) colliders_.push_back(std::make_shared<Colliderf>(mesh.view()));
     scene_ = {};
     ids_.clear();
-    for (const auto& [mesh, pose] : world.instances) ids_.push_back(scene_.add(colliders[mesh], pose));
+    for (const auto& [mesh, pose] : world.instances) ids_.push_back(scene_.add(colliders_[mesh], pose));
     scene_.commit();
   }
 
@@ -21,11 +22,22 @@ class SurehitWorld : public WorldContender {
     scene_.commit();
   }
 
+  void exchange_one() override {
+    const auto& [mesh, pose] = world_->instances[next_];
+    scene_.remove(ids_[next_]);
+    ids_[next_] = scene_.add(colliders_[mesh], pose);
+    next_ = (next_ + 1) % ids_.size();
+    scene_.commit();
+  }
+
  protected:
   Scenef scene_;
 
  private:
+  const World* world_ = nullptr;
+  std::vector<std::shared_ptr<const Colliderf>> colliders_;
   std::vector<InstanceId> ids_;
+  std::size_t next_ = 0;  ///< the instance that is exchanged next
 };
 
 class SurehitWorldBatch : public SurehitWorld {

@@ -25,8 +25,10 @@ class WorldContender {
 
   /// From nothing. The world must outlive the contender.
   virtual void build(const World& world) = 0;
-  /// Gives each instance another pose, and makes the world ready to be asked.
+  /// Gives the first instances other poses, and makes the world ready to be asked.
   virtual void move(std::span<const Posef> poses) = 0;
+  /// Takes one instance out of the world, puts the like of it in, and makes the world ready to be asked.
+  virtual void exchange_one() = 0;
 
   /// Of the hits t and triangle are set, the latter to `no_triangle` for a miss.
   virtual void first(const PathBatch& paths, std::span<Hitf> hits) = 0;
