@@ -291,30 +291,5 @@ TYPED_TEST(InnerGridComparison, of_a_prop_that_moves_through_the_level) {
   }
 }
 
-/// Neither a stray triangle nor a large level around it makes a path ask more triangles.
-TYPED_TEST(InnerGridComparison, costs_little_more_than_the_prop_alone) {
-  const auto ground = rough_ground<TypeParam>(60, TypeParam{0.3F}, this->random_);
-  const Collider<TypeParam> alone(ground.view());
-  for (const double distance : {10., 1e3, 1e5, 1e9, 1e30}) {
-    SCOPED_TRACE(distance);
-    const auto far = static_cast<TypeParam>(distance);
-    auto mesh = ground;
-    mesh.add({{far, far, far}, {far * TypeParam{1.5F}, far, far}, {far, far * TypeParam{1.5F}, far}});
-    const Collider<TypeParam> collider(mesh.view());
-    PathDrawer<TypeParam> drawer(ground.view(), 1);
-    QueryStatistics with_stray;
-    QueryStatistics without;
-    for (std::size_t i = 0; i < case_count(2000); ++i) {
-      const Path<TypeParam> path = drawer.draw();
-      static_cast<void>(collider.first_hit(path, {}, &with_stray));
-      static_cast<void>(alone.first_hit(path, {}, &without));
-    }
-    EXPECT_LE(static_cast<double>(with_stray.candidates), 1.5 * static_cast<double>(without.candidates));
-    // The cells of the outermost grid are those that the stray triangle alone costs.
-    EXPECT_LE(static_cast<double>(with_stray.cells),
-              1.5 * static_cast<double>(without.cells) + 8 * static_cast<double>(without.paths));
-  }
-}
-
 }  // namespace
 }  // namespace surehit::test
