@@ -168,14 +168,28 @@ void draw_masks(DrawnMesh& mesh, Random& random) {
   }
 }
 
+/// Returns options for a few cells. Most of them are divided. A small mesh would have one cell by itself.
+GridOptions draw_grid(Random& random) {
+  GridOptions grid;
+  for (std::uint32_t& cells : grid.resolution) cells = static_cast<std::uint32_t>(random.between(1, 4));
+  grid.crowded = static_cast<std::uint32_t>(random.below(6));
+  return grid;
+}
+
 DrawnMesh draw_mesh(SceneFamily family, bool is_float, Random& random) {
   std::size_t kind = random.below(small_mesh_kind_count);
   if (kind == mixed_magnitudes_kind && family != SceneFamily::all_magnitudes) ++kind;
   if (family == SceneFamily::integer_matrices) kind = lattice_mesh_kinds[random.below(3)];
-  // Now and then a mesh has so many triangles that its grid has cells.
+  // Now and then a mesh has so many triangles that its grid has cells anyway, or an inner grid.
   const bool is_large = random.one_in(8);
+  const bool has_prop = is_large && family != SceneFamily::pieces && random.one_in(2);
   DrawnMesh mesh;
-  if (family == SceneFamily::pieces || is_large) {
+  if (has_prop) {
+    mesh = ground_with_prop(is_float, random);
+    // The other families have meshes of about this size.
+    const double size = family == SceneFamily::integer_matrices ? 1 : 0x1p-10;
+    for (Vector3<double>& vertex : mesh.vertices) vertex *= size;
+  } else if (family == SceneFamily::pieces || is_large) {
     mesh = ground_piece(is_large ? 12 : static_cast<std::uint32_t>(random.between(1, 2)), is_float, random);
   } else {
     mesh = is_float ? small_mesh<float>(kind, random) : small_mesh<double>(kind, random);
@@ -183,6 +197,7 @@ DrawnMesh draw_mesh(SceneFamily family, bool is_float, Random& random) {
   if (is_large && family == SceneFamily::integer_matrices) {
     for (Vector3<double>& vertex : mesh.vertices) vertex[2] = std::round(vertex[2]);
   }
+  if (!has_prop && random.one_in(2)) mesh.grid = draw_grid(random);
   if (random.one_in(2)) draw_masks(mesh, random);
   return mesh;
 }
@@ -265,6 +280,24 @@ DrawnMesh ground_piece(std::uint32_t side, bool is_float, Random& random) {
   return mesh;
 }
 
+DrawnMesh ground_with_prop(bool is_float, Random& random) {
+  constexpr double square = 1024;
+  DrawnMesh mesh = ground_piece(2, is_float, random);
+  for (Vector3<double>& vertex : mesh.vertices) {
+    for (double& x : vertex) x = std::round(square * x);
+  }
+  // Not where planes between cells are, so that one cell has all of it.
+  const Vector3<double> place(307, 276, std::round(square / 8 * random.symmetric<double>()));
+  for (int i = 0; i < 72; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int corner = 0; corner < 3; ++corner) mesh.vertices.push_back(place + whole_vector(random, 4));
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  mesh.grid.resolution = {static_cast<std::uint32_t>(random.between(1, 2)), 2, 1};
+  mesh.grid.crowded = random.one_in(2) ? 2 : 30;
+  return mesh;
+}
+
 template <typename Scalar>
 Eigen::Matrix<Scalar, 3, 3> matrix_of_eighths(Random& random) {
   Pose<Scalar> pose;
@@ -278,9 +311,8 @@ template <typename MeshScalar>
 std::shared_ptr<Collider<MeshScalar>> collider_of(const DrawnMesh& mesh) {
   std::vector<Vector3<MeshScalar>> vertices;
   for (const auto& vertex : mesh.vertices) vertices.push_back(vertex.template cast<MeshScalar>());
-  BuildOptions options;
-  options.masks = mesh.masks;
-  return std::make_shared<Collider<MeshScalar>>(TriangleMeshView<MeshScalar>(vertices, mesh.triangles), options);
+  return std::make_shared<Collider<MeshScalar>>(TriangleMeshView<MeshScalar>(vertices, mesh.triangles),
+                                                BuildOptions{mesh.grid, mesh.masks});
 }
 
 template <typename Scalar>

@@ -13,6 +13,7 @@
 #include "support/random.hpp"
 #include "support/scene_oracle.hpp"
 #include "surehit/collider.hpp"
+#include "surehit/grid_options.hpp"
 #include "surehit/instance.hpp"
 #include "surehit/path.hpp"
 #include "surehit/scene.hpp"
@@ -50,6 +51,7 @@ struct DrawnMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> masks;  ///< One for each triangle, or none.
   std::vector<Path<double>> paths;   ///< Paths that are hard for the mesh where it is.
+  GridOptions grid = {};             ///< How a collider of the mesh divides its box.
 
   [[nodiscard]] TriangleMeshView<double> view() const { return {vertices, triangles}; }
 };
@@ -57,6 +59,10 @@ struct DrawnMesh {
 /// Returns a piece of ground over the square [0, side]², with random heights in [-1, 1). Opposite rims have the same
 /// heights, so copies side by side touch exactly.
 [[nodiscard]] DrawnMesh ground_piece(std::uint32_t side, bool is_float, Random& random);
+
+/// Returns such a piece with two squares a side, and a prop of 72 triangles that is 256 times smaller. All vertices are
+/// whole numbers. The prop has an inner grid, in the piece's own cells or in their bricks.
+[[nodiscard]] DrawnMesh ground_with_prop(bool is_float, Random& random);
 
 /// Returns a collider of the mesh.
 template <typename MeshScalar>
