@@ -148,6 +148,23 @@ TYPED_TEST(InstructionSets, answer_alike_on_flat_meshes) {
       flattened<TypeParam>(scattered_triangles<TypeParam>(200, 0.3F, this->random_), 1, TypeParam{3}), 100);
 }
 
+TYPED_TEST(InstructionSets, answer_alike_on_a_prop_in_a_level) {
+  const auto level = rough_ground<TypeParam>(6, 0.3F, this->random_);
+  const auto prop = scattered_triangles<TypeParam>(400, 0.2F, this->random_);
+  const auto mesh = joined(level, placed<TypeParam>(prop, 1e-3F, {0.31F, 0.27F, 0.1F}));
+  const Collider<TypeParam> collider(mesh.view());
+  EXPECT_FALSE(detail::ColliderState<TypeParam>::of(collider).grid.inner_frames().empty());
+  this->expect_same_answers(mesh, 200);
+}
+
+TYPED_TEST(InstructionSets, answer_alike_on_a_main_part_and_a_stray_triangle) {
+  auto mesh = rough_ground<TypeParam>(20, 0.3F, this->random_);
+  mesh.add({{1000, 1000, 1000}, {1500, 1000, 1000}, {1000, 1500, 1000}});
+  const Collider<TypeParam> collider(mesh.view());
+  EXPECT_EQ(detail::ColliderState<TypeParam>::of(collider).grid.inner_frames().size(), 1U);
+  this->expect_same_answers(mesh, 200);
+}
+
 TYPED_TEST(InstructionSets, answer_alike_far_from_the_origin) {
   const auto ground = rough_ground<TypeParam>(12, 0.3F, this->random_);
   this->expect_same_answers(placed<TypeParam>(ground, 100, {1e7F, -1e7F, 1e7F}), 100);
