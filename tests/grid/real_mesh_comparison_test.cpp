@@ -54,6 +54,10 @@ TYPED_TEST(RealMeshComparison, ogre) { this->compare_file("ogre.obj"); }
 TYPED_TEST(RealMeshComparison, dungeon) { this->compare_file("dungeon.obj"); }
 TYPED_TEST(RealMeshComparison, navigation_test) { this->compare_file("nav_test.obj"); }
 
+TYPED_TEST(RealMeshComparison, pul1ctf) { this->compare_file("pul1ctf.obj"); }
+TYPED_TEST(RealMeshComparison, czest2ctf) { this->compare_file("czest2ctf.obj"); }
+TYPED_TEST(RealMeshComparison, am_galmevish2) { this->compare_file("am_galmevish2.obj"); }
+
 TYPED_TEST(RealMeshComparison, built_in_level) {
   const auto level = example::build_level();
   example::Mesh<TypeParam> mesh;
