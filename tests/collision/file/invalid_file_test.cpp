@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -444,6 +445,44 @@ TYPED_TEST(InvalidFileOf, inner_grids_that_lie_too_deep) {
     EXPECT_FALSE(Collider<TypeParam>().try_load(not_finite, {.is_trusted = true}));
     EXPECT_FALSE(Collider<TypeParam>().try_load(forged));  // The triangle is not small.
   }
+}
+
+/// Empty cells in turn get an inner grid of one cell, which is empty too. No build makes one, but it changes no answer.
+TYPED_TEST(InvalidFileOf, inner_grids_without_triangles) {
+  const Bytes bytes = this->saved_mesh("prop in a prop");
+  const ColliderParts parts(bytes);
+  std::size_t cell = parts.lists - 1;
+  while (bytes[cell] != std::byte{3}) --cell;  // Behind it, a new inner grid is the last one.
+  std::size_t count = 0;
+  for (; cell < parts.lists; ++cell) {
+    if (bytes[cell] != std::byte{0} || ++count % 16 != 1) continue;
+    const auto lists_before = std::count_if(
+        &bytes[parts.cells], &bytes[cell], [](std::byte kind) { return kind == std::byte{1} || kind == std::byte{3}; });
+    Bytes forged = bytes;
+    const auto insert = [&](std::size_t at, std::size_t first, std::size_t last) {
+      forged.insert(forged.begin() + static_cast<std::ptrdiff_t>(at), &bytes[first], &bytes[last]);
+    };
+    // From the last part to the first, so that all places are those of `parts`.
+    const std::size_t new_list = parts.lists + 8 * static_cast<std::size_t>(lists_before);
+    insert(new_list, parts.lists, parts.lists + 8);
+    set_number(forged, new_list + 4, 0U);
+    insert(parts.lists, cell, cell + 1);
+    forged[cell] = std::byte{3};
+    insert(parts.cells, parts.frames, parts.frames + parts.frame_width);  // The new frame is the last one.
+    for (std::size_t axis = 1; axis <= 3; ++axis) set_number(forged, parts.cells + parts.frame_width - 4 * axis, 1U);
+    set_number(forged, 72, static_cast<std::uint32_t>(parts.frame_count + 1));
+    set_number(forged, 76, static_cast<std::uint32_t>(parts.list_count + 1));
+    set_number(forged, 80, std::uint64_t{parts.cell_count + 1});
+    repair(forged);
+    const LoadResult result = Collider<TypeParam>().try_load(forged);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().reason, Reason::invalid_grid) << result.error().what();
+    EXPECT_EQ(result.error().offset, parts.cells) << result.error().what();
+    Collider<TypeParam> trusted;
+    ASSERT_TRUE(trusted.try_load(forged, {.is_trusted = true}));
+    expect_answers_of_its_mesh(trusted, cell);
+  }
+  EXPECT_GT(count, 16U);
 }
 
 TYPED_TEST(InvalidFileOf, masks_of_some_triangles_alone) {
