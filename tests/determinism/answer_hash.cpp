@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "answers.hpp"
+#include "hard_prop.hpp"
 #include "hard_questions.hpp"
 #include "hard_scene.hpp"
 #include "hard_shapes.hpp"
@@ -27,6 +28,16 @@ bool answers_are_published(const char* name) {
 }
 
 template <typename Scalar>
+bool prop_answers_are_published(const char* name) {
+  const surehit::test::HardProp<Scalar> hard;
+  const surehit::Collider<Scalar> collider = hard.collider();
+  const std::uint64_t hash = surehit::test::Answers<Scalar>(collider, hard.questions).hash();
+  const std::uint64_t saved = surehit::test::saved_hash(collider);
+  const bool is_saved = is_published("its bytes", saved, surehit::test::published_saved_prop_hash<Scalar>);
+  return is_published(name, hash, surehit::test::published_prop_hash<Scalar>) && is_saved;
+}
+
+template <typename Scalar>
 bool scene_answers_are_published(const char* name) {
   const surehit::test::HardScene<Scalar> hard;
   const surehit::Scene<Scalar> scene = hard.scene();
@@ -45,14 +56,17 @@ bool shape_answers_are_published(const char* name) {
 
 }  // namespace
 
-/// The answers to the hard questions, about the hard scene and about the hard shapes, and the bytes of the first two,
-/// of a library that somebody else has compiled.
+/// The answers to the hard questions, about the hard prop, about the hard scene and about the hard shapes, and the
+/// bytes of the first three, of a library that somebody else has compiled.
 int main() {
   const bool floats = answers_are_published<float>("float");
   const bool doubles = answers_are_published<double>("double");
+  const bool float_props = prop_answers_are_published<float>("prop of floats");
+  const bool double_props = prop_answers_are_published<double>("prop of doubles");
   const bool float_scenes = scene_answers_are_published<float>("scene of floats");
   const bool double_scenes = scene_answers_are_published<double>("scene of doubles");
   const bool float_shapes = shape_answers_are_published<float>("shapes of floats");
   const bool double_shapes = shape_answers_are_published<double>("shapes of doubles");
-  return floats && doubles && float_scenes && double_scenes && float_shapes && double_shapes ? 0 : 1;
+  const bool props = float_props && double_props;
+  return floats && doubles && props && float_scenes && double_scenes && float_shapes && double_shapes ? 0 : 1;
 }

@@ -2,7 +2,9 @@
 
 #include <cstddef>
 
+#include "collider_state.hpp"
 #include "determinism.hpp"
+#include "hard_prop.hpp"
 #include "hard_questions.hpp"
 #include "support/case_count.hpp"
 #include "support/scalars.hpp"
@@ -48,6 +50,22 @@ TYPED_TEST(HardDeterminism, answers_are_the_same_of_any_number_of_threads) {
 TYPED_TEST(HardDeterminism, answers_are_the_same_of_any_batch_size) { this->of_some().expect_same_of_any_batch_size(); }
 
 TYPED_TEST(HardDeterminism, answers_are_the_same_in_any_order) { this->of_some().expect_same_in_any_order(); }
+
+/// On a mesh whose grid has an inner grid, which has an inner grid too.
+template <typename Scalar>
+class PropDeterminism : public testing::Test {};
+TYPED_TEST_SUITE(PropDeterminism, Scalars, ScalarNames);
+
+TYPED_TEST(PropDeterminism, answers_are_the_published_ones_on_every_instruction_set_and_in_every_grid) {
+  const HardProp<TypeParam> hard;
+  const Collider<TypeParam> collider = hard.collider();
+  EXPECT_GE(detail::ColliderState<TypeParam>::of(collider).grid.inner_frames().size(), 2U);
+  EXPECT_EQ(Answers<TypeParam>(collider, hard.questions).hash(), published_prop_hash<TypeParam>);
+  const Determinism<TypeParam> determinism(hard.view(), hard.masks, hard.questions);
+  determinism.expect_same_of_every_instruction_set();
+  determinism.expect_same_in({.resolution = {1, 1, 1}, .crowded = 0});
+  determinism.expect_same_in({.resolution = {3, 2, 4}, .crowded = 3});
+}
 
 }  // namespace
 }  // namespace surehit::test

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "hard_prop.hpp"
 #include "hard_questions.hpp"
 #include "hard_scene.hpp"
 #include "saved_hash.hpp"
@@ -21,6 +22,7 @@ TYPED_TEST(SavedDeterminism, bytes_are_the_published_ones_on_every_instruction_s
     SCOPED_TRACE(name_of_instruction_set(target));
     const ForcedInstructionSet forced(target);
     EXPECT_EQ(saved_hash(HardQuestions<TypeParam>().collider()), published_saved_hash<TypeParam>);
+    EXPECT_EQ(saved_hash(HardProp<TypeParam>().collider()), published_saved_prop_hash<TypeParam>);
     EXPECT_EQ(saved_hash(HardScene<TypeParam>().scene()), published_saved_scene_hash<TypeParam>);
   }
 }

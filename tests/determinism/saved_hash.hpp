@@ -8,13 +8,19 @@
 
 namespace surehit::test {
 
-/// `saved_hash` of the hard questions' collider, and of the hard scene.
+/// `saved_hash` of the hard questions' collider, of the hard prop's, and of the hard scene.
 template <typename Scalar>
 inline constexpr std::uint64_t published_saved_hash = 0;
 template <>
 inline constexpr std::uint64_t published_saved_hash<float> = 0xd4de9387f56c0db3u;
 template <>
 inline constexpr std::uint64_t published_saved_hash<double> = 0xe17ddca97cd56fa1u;
+template <typename Scalar>
+inline constexpr std::uint64_t published_saved_prop_hash = 0;
+template <>
+inline constexpr std::uint64_t published_saved_prop_hash<float> = 0x14bb0f5070bc7f89u;
+template <>
+inline constexpr std::uint64_t published_saved_prop_hash<double> = 0xad23fb97e539211bu;
 template <typename Scalar>
 inline constexpr std::uint64_t published_saved_scene_hash = 0;
 template <>
