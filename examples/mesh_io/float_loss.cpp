@@ -76,7 +76,7 @@ struct Move {
 }  // namespace
 
 bool may_lose_in_float(const Mesh<float>& mesh) {
-  double greatest = 0;
+  double max_of_mesh = 0;
   for (const auto& triangle : mesh.triangles) {
     double max_of_triangle = 0;
     for (const std::uint32_t corner : triangle) {
@@ -86,9 +86,9 @@ bool may_lose_in_float(const Mesh<float>& mesh) {
     }
     // Sides may be longer before they are rounded, but not by so much.
     if (half_unit_of(max_of_triangle) > little_of_triangle / 2 * longest_side(mesh, triangle)) return true;
-    greatest = std::max(greatest, max_of_triangle);
+    max_of_mesh = std::max(max_of_mesh, max_of_triangle);
   }
-  return !mesh.triangles.empty() && half_unit_of(greatest) > little_of_mesh / 2 * size_of(mesh);
+  return !mesh.triangles.empty() && half_unit_of(max_of_mesh) > little_of_mesh / 2 * size_of(mesh);
 }
 
 std::optional<std::string> describe_float_loss(const Mesh<float>& rounded, const Mesh<double>& mesh) {

@@ -79,8 +79,8 @@ struct BoxLanes {
       misses = hn::Or(misses, hn::And(hn::Eq(way, hn::Zero(d)), is_beside));
       const Floats size = hn::Abs(way);
       const auto is_usual = hn::And(hn::Ge(size, hn::Set(d, min_way)), hn::Le(size, hn::Set(d, max_way)));
-      const Floats farthest = hn::Max(hn::Abs(to_low), hn::Abs(to_high));
-      const auto counts = hn::And(is_usual, hn::Lt(farthest, infinity));
+      const Floats max_distance = hn::Max(hn::Abs(to_low), hn::Abs(to_high));
+      const auto counts = hn::And(is_usual, hn::Lt(max_distance, infinity));
       const Floats inverse = hn::Div(hn::Set(d, 1.0F), way);
       const Floats at_low = hn::Mul(to_low, inverse);
       const Floats at_high = hn::Mul(to_high, inverse);

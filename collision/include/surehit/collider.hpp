@@ -283,7 +283,7 @@ class SUREHIT_API Collider {
   /// Sets `blocked[i]` to 1 if shape i has a hit, and to 0 otherwise.
   void any_hits(const SweptShapeSpan<Scalar>& shapes, std::span<std::uint8_t> blocked,
                 const ShapeBatchOptions<Scalar>& options = {}) const noexcept;
-  /// Returns the greatest t at which the shape has not touched the triangle of a hit: the greatest Scalar below the
+  /// Returns the max t at which the shape has not touched the triangle of a hit: the Scalar next below the
   /// exact t. For the first hit, the shape has touched nothing until then. `hit` must be one of the shape's hits in
   /// this collider. The result is 0 if they touch at the start, or if no Scalar is between 0 and t. Decides one pair of
   /// a shape and a triangle. Allocates nothing.

@@ -23,8 +23,8 @@ namespace surehit {
 /// The test is that of Möller and Trumbore (1997), "Fast, Minimum Storage Ray/Triangle Intersection". Its determinants
 /// are first computed in floating point, with proved error bounds. Exact integers decide what the bounds do not.
 ///
-/// Takes some 20 ns if the bounds decide, and about a microsecond if they do not. Both depend on the machine and the
-/// numbers. Allocates nothing.
+/// Takes tens of nanoseconds if the bounds decide, and about a microsecond if they do not. Both depend on the machine
+/// and the numbers. Allocates nothing.
 template <FloatOrDouble Scalar>
 [[nodiscard]] SUREHIT_API std::optional<Hit<Scalar>> intersect(
     const std::type_identity_t<Path<Scalar>>& path, const Triangle<Scalar>& triangle,
@@ -43,8 +43,8 @@ template <FloatOrDouble Scalar>
 /// `triangle` 0, and `options.mask` and `options.ignored_triangle` are not used.
 ///
 /// They touch if their distance is zero somewhere during the step. Signs of polynomials decide this, and no root is
-/// taken. Doubles with error bounds compute most signs, and exact integers the others. Takes some
-/// hundred nanoseconds, or some ten microseconds. In double, integers round each hit. Allocates nothing.
+/// taken. Doubles with error bounds compute most signs, and exact integers the others. Takes some hundred nanoseconds,
+/// and with integers some ten microseconds. Allocates nothing.
 template <FloatOrDouble Scalar>
 [[nodiscard]] SUREHIT_API std::optional<ShapeHit<Scalar>> intersect(
     const std::type_identity_t<SweptShape<Scalar>>& shape, const Triangle<Scalar>& triangle,

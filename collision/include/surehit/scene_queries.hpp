@@ -154,7 +154,7 @@ class SUREHIT_API SceneQueries {
   /// Sets `blocked[i]` to 1 if shape i has a hit, and to 0 otherwise.
   void any_hits(const SweptShapeSpan<Scalar>& shapes, std::span<std::uint8_t> blocked,
                 const SceneShapeBatchOptions<Scalar>& options = {}) const noexcept;
-  /// Returns the greatest t at which the shape has not touched the triangle of a hit, see `Collider::last_free_t`. If
+  /// Returns the max t at which the shape has not touched the triangle of a hit, see `Collider::last_free_t`. If
   /// the instance moves, it is then at its pose plus t times its motion. `hit` must be one of the shape's hits in this
   /// scene. The result is 0 if its instance is not committed.
   [[nodiscard]] Scalar last_free_t(const SweptShape<Scalar>& shape, const SceneShapeHit<Scalar>& hit) const noexcept;

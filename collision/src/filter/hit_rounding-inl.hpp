@@ -152,8 +152,8 @@ HWY_INLINE HitIntervals<D> intervals_from_hits(D d, PathKind kind, const Vectors
   const V length = hn::Sub(from_start.t.upper, from_start.t.lower);
   const Vectors<D> origin = {zero, zero, zero};
   HitIntervals<D> hits(d, moved, direction, origin, difference<D>(b, a), difference<D>(c, a), length, edge_size);
-  const V farthest = hn::Max(hn::Abs(hits.t.lower), hn::Abs(hits.t.upper));
-  const V rounding = hn::Mul(hn::Add(hn::Abs(t0), farthest), hn::Set(d, 0x1p-51));  // R9
+  const V max_size = hn::Max(hn::Abs(hits.t.lower), hn::Abs(hits.t.upper));
+  const V rounding = hn::Mul(hn::Add(hn::Abs(t0), max_size), hn::Set(d, 0x1p-51));  // R9
   const V infinity = hn::Inf(d);
   hits.t.lower = hn::IfThenElse(are_known, hn::Sub(hn::Add(t0, hits.t.lower), rounding), hn::Neg(infinity));
   hits.t.upper = hn::IfThenElse(are_known, hn::Add(hn::Add(t0, hits.t.upper), rounding), infinity);
