@@ -33,7 +33,7 @@ struct WalkCounts {
   std::size_t stuck = 0;          ///< Characters that did not move for four seconds, with eight goals.
   std::size_t climbed = 0;        ///< Characters that came to the gallery from below.
   double metres = 0;              ///< The length of all ways in the plan.
-  double walk_seconds = 0;        ///< Of all threads together, without the check.
+  double walk_seconds = 0;        ///< The time of all threads together, without the check.
   double check_seconds = 0;
 
   WalkCounts& operator+=(const WalkCounts& other);
@@ -42,8 +42,8 @@ struct WalkCounts {
 /// A walk that was recorded: what went into it, and what the characters were after each step.
 struct WalkRecording {
   std::vector<Vector3f> starts;
-  std::vector<std::vector<Vector3f>> velocities;  ///< Of each step, what each character wanted.
-  std::vector<std::uint64_t> hashes;              ///< Of all bits of all characters, after each step.
+  std::vector<std::vector<Vector3f>> velocities;  ///< What each character wanted, in each step.
+  std::vector<std::uint64_t> hashes;              ///< Each is of all bits of all characters after a step.
   WalkCounts counts;
 };
 

@@ -16,7 +16,7 @@ class Trails {
   [[nodiscard]] const std::vector<std::vector<Vector3f>>& positions() const { return positions_; }
 
  private:
-  std::vector<std::vector<Vector3f>> positions_;  ///< Of each character.
+  std::vector<std::vector<Vector3f>> positions_;  ///< The positions of each character.
 };
 
 /// Draws the great hall of the level, the trails of feet through it, and the bodies at their ends.

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float gravity = 9.81f;
 
-/// Of a unit of mass.
+/// Returns the energy of a unit of mass.
 float energy_of(const MovingPoint& point) { return point.velocity.squaredNorm() / 2 + gravity * point.position.z(); }
 
 /// Steps as long as these would heat the room up, if each bounce within a step did not know how much of its gravity was

@@ -23,10 +23,10 @@ class Contender {
   virtual void build(const TriangleMeshViewf& mesh) = 0;
   /// The triangles of the last build with their vertices moved.
   virtual void rebuild(const TriangleMeshViewf& mesh) { build(mesh); }
-  /// Of what the build left behind, copied geometry included.
+  /// Returns the size of what the build left behind, copied geometry included.
   [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
 
-  /// Of the hits t and triangle are set, the latter to `no_triangle` for a miss.
+  /// Sets t and the triangle of each hit. The triangle is `no_triangle` for a miss.
   virtual void first(const PathBatch& paths, std::span<Hitf> hits) const = 0;
   virtual void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const = 0;
 

@@ -68,7 +68,7 @@ class Figures:
         return list(dict.fromkeys(row[column] for row in self.matching(**where)))
 
     def median(self, **where):
-        """Of the one row that is meant; on the machine's best instruction set unless it is said which."""
+        """The median of the one row that is meant; on the machine's best instruction set unless it is said which."""
         rows = self.matching(**{"run": TABLES, "instruction_set": self.instruction_sets[0], **where})
         if len(rows) != 1:
             fail(f"{len(rows)} figures instead of one for {where}")
@@ -170,7 +170,7 @@ def ranges(figures):
 
 
 def wrong(figures):
-    """Of the same peers the wrong decisions, and the time."""
+    """The wrong decisions of the same peers, and the time."""
     rows = []
     for shown, contender in (
         ("surehit, batches", OURS[0]),
@@ -202,7 +202,7 @@ def summary(figures):
     batch, single = OURS
 
     def over(sets, ours, **where):
-        """Of all meshes: the ratios, each with its mesh and kind of path."""
+        """The ratios of all meshes, each with its mesh and kind of path."""
         return [
             (figures.median(run=CONTENT, table="queries", mesh=mesh, paths=paths, question=question,
                             contender=f"{MEDIUM} x1", measure=f"over {ours}", **where), mesh, paths)

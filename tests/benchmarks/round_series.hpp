@@ -15,9 +15,9 @@ struct Summary {
   double greatest;
 };
 
-/// Of a series that is not empty.
+/// Summarizes a series that is not empty.
 [[nodiscard]] Summary summary_of(RoundSeries series);
-/// Of what is the same in every round.
+/// Summarizes what is the same in every round.
 [[nodiscard]] inline Summary summary_of(double figure) { return {figure, figure, figure}; }
 /// Round by round.
 [[nodiscard]] RoundSeries ratio(const RoundSeries& over, const RoundSeries& under);

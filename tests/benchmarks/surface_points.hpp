@@ -13,7 +13,7 @@ class SurfacePoints {
  public:
   using Choice = std::function<bool(const Trianglef&)>;
 
-  /// Of the triangles that are chosen; of all where those have no area together. The mesh outlives the points.
+  /// Takes the triangles that are chosen, or all if those have no area together. The mesh outlives the points.
   SurfacePoints(const TriangleMeshViewf& mesh, const Choice& chosen);
 
   [[nodiscard]] Vector3d draw(test::Random& random) const;
@@ -29,7 +29,7 @@ class SurfacePoints {
 [[nodiscard]] Vector3d draw_in_unit_cube(test::Random& random);
 /// In the ball of radius 1 around the origin.
 [[nodiscard]] Vector3d draw_in_unit_ball(test::Random& random);
-/// Of length 1, any direction alike.
+/// Returns a vector of length 1. All directions are alike.
 [[nodiscard]] Vector3d draw_direction(test::Random& random);
 
 }  // namespace surehit::benchmark

@@ -30,7 +30,7 @@ class WorldContender {
   /// Takes one instance out of the world, puts the like of it in, and makes the world ready to be asked.
   virtual void exchange_one() = 0;
 
-  /// Of the hits t and triangle are set, the latter to `no_triangle` for a miss.
+  /// Sets t and the triangle of each hit. The triangle is `no_triangle` for a miss.
   virtual void first(const PathBatch& paths, std::span<Hitf> hits) = 0;
   virtual void any(const PathBatch& paths, std::span<std::uint8_t> blocked) = 0;
 };

@@ -32,7 +32,7 @@ struct ExactPath {
   PathKind kind;
   Point start;
   Kernel::Vector_3 direction;
-  Point end;  ///< Of a segment.
+  Point end;  ///< The end of a segment.
 
   [[nodiscard]] bool has_start() const { return kind != PathKind::line; }
   [[nodiscard]] bool has_end() const { return kind == PathKind::segment; }

@@ -75,7 +75,7 @@ struct LeafCell {
 /// All cells of a grid's frame that are not divided: they fill it without overlap.
 class LeafCells {
  public:
-  /// Of the outermost frame.
+  /// Takes those of the outermost frame.
   explicit LeafCells(const Grid& grid) : LeafCells(grid, grid.frame()) {}
   LeafCells(const Grid& grid, const GridFrame& frame);
 

@@ -202,7 +202,8 @@ DrawnMesh draw_mesh(SceneFamily family, bool is_float, Random& random) {
   return mesh;
 }
 
-/// Of whole numbers, so that a scene of whole numbers stays one. The first `count` distances are allowed.
+/// Draws an offset of whole numbers, so that a scene of whole numbers stays one. The first `count` distances are
+/// allowed.
 template <typename Scalar>
 Vector3<Scalar> draw_offset(Random& random, std::size_t count = std::is_same_v<Scalar, float> ? 4 : 5) {
   constexpr double distances[] = {0, 0, 1e5, 1e7, 1e9};

@@ -284,7 +284,7 @@ struct Limit {
 
   /// Returns whether a ratio of compact integers can hold the limit.
   [[nodiscard]] bool is_compact() const {
-    constexpr int bits = Bits<CompactSize>::cross + 3;  // Of the shortest ratio that may hold it.
+    constexpr int bits = Bits<CompactSize>::cross + 3;  // The bits of the shortest ratio that may hold it.
     return static_cast<int>(std::bit_width(parts.significand)) + std::max(parts.exponent, 0) <= bits &&
            -parts.exponent < bits;
   }

@@ -127,7 +127,7 @@ export class Contest {
       const expected = answers.triangle[at];
       if (found[i] === expected) continue;
       const ray = rays.subarray(6 * at, 6 * at + 6);
-      // Of triangles that a ray meets at the same t, any will do.
+      // If a ray meets several triangles at the same t, any of them will do.
       if (found[i] !== noTriangle) {
         const hit = this.#surehit.intersect({ ray }, this.#cornersOf(found[i]), asThreeAsks);
         if (hit !== null && hit.t === answers.t[at]) continue;

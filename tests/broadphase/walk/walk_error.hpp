@@ -115,7 +115,7 @@ class WalkError : public GridWalk<Scalar> {
     return worst.get_d();
   }
 
-  /// Of a walk's bound, what a path needs.
+  /// Returns the share of a walk's bound that a path needs.
   [[nodiscard]] virtual double worst_share(const Path<Scalar>& path) const = 0;
 
   [[nodiscard]] virtual GridOptions draw_options(Random& random) const {
@@ -199,7 +199,7 @@ class WalkError : public GridWalk<Scalar> {
     return worst;
   }
 
-  /// Of what `share_of` says of segments and of numbers that it draws itself.
+  /// Returns the max of what `share_of` says of segments and of numbers that it draws itself.
   template <typename Share>
   double draw_worst(std::size_t grids, std::size_t paths, const Share& share_of) {
     Random random(72);

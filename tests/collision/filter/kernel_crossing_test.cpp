@@ -387,7 +387,7 @@ TEST(KernelCrossingInDouble, knows_t_to_a_float) {
   EXPECT_GT(hits, 0U);
 }
 
-/// Of coordinates too large for the bound nothing is known, and so nothing is left out.
+/// Nothing is known about coordinates that are too large for the bound, so nothing is left out.
 TYPED_TEST(KernelCrossing, leaves_all_open_where_sizes_are_too_large) {
   const TypeParam huge = std::numeric_limits<TypeParam>::max();
   const std::vector<Triangle<TypeParam>> triangles = {{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}},
