@@ -57,9 +57,10 @@ Pair convert(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle) {
 using Row = std::array<mpz_class, 4>;
 
 /// What remains of inequalities for the other unknowns: each row that bounds one unknown from below is added to each
-/// row that bounds it from above, so often that the unknown is gone.
+/// row that bounds it from above, so often that the unknown is gone. Unknowns before this one are gone already.
 std::vector<Row> eliminated(const std::vector<Row>& rows, std::size_t unknown) {
   std::vector<Row> rest;
+  rest.reserve(rows.size() * rows.size() / 4 + rows.size());  // Each sum has a row of both kinds.
   for (const Row& low : rows) {
     const int sign = sgn(low[unknown]);
     if (sign == 0) rest.push_back(low);
@@ -67,12 +68,25 @@ std::vector<Row> eliminated(const std::vector<Row>& rows, std::size_t unknown) {
     for (const Row& high : rows) {
       if (sgn(high[unknown]) >= 0) continue;
       Row sum;
-      for (std::size_t i = 0; i < 4; ++i) sum[i] = high[i] * low[unknown] - low[i] * high[unknown];
+      for (std::size_t i = unknown + 1; i < 4; ++i) {
+        sum[i] = high[i] * low[unknown];
+        mpz_submul(sum[i].get_mpz_t(), low[i].get_mpz_t(), high[unknown].get_mpz_t());
+      }
       rest.push_back(std::move(sum));
     }
   }
   return rest;
 }
+
+/// A quotient with a positive denominator. It need not be in lowest terms, as a common divisor takes long to find.
+struct Quotient {
+  mpz_class numerator;
+  mpz_class denominator;
+
+  friend bool operator<(const Quotient& x, const Quotient& y) {
+    return x.numerator * y.denominator < y.numerator * x.denominator;
+  }
+};
 
 /// The lowest t in [0, 1] at which a point of the triangle is in the box.
 std::optional<mpq_class> first_time(const Pair& pair) {
@@ -87,19 +101,18 @@ std::optional<mpq_class> first_time(const Pair& pair) {
     rows.push_back({-way[0], -way[1], -way[2], reach - way[3]});
   }
   rows = eliminated(eliminated(rows, 0), 1);
-  mpq_class low = 0;
-  mpq_class high = 1;
+  Quotient low = {0, 1};
+  Quotient high = {1, 1};
   for (const Row& row : rows) {
     const int sign = sgn(row[2]);
     if (sign == 0 && row[3] < 0) return std::nullopt;
-    if (sign == 0) continue;
-    mpq_class bound(-row[3], row[2]);
-    bound.canonicalize();
-    if (sign > 0) low = std::max(low, bound);
-    if (sign < 0) high = std::min(high, bound);
+    if (sign > 0) low = std::max(low, Quotient{-row[3], row[2]});
+    if (sign < 0) high = std::min(high, Quotient{row[3], -row[2]});
   }
-  if (low > high) return std::nullopt;
-  return low;
+  if (high < low) return std::nullopt;
+  mpq_class first(low.numerator, low.denominator);
+  first.canonicalize();
+  return first;
 }
 
 /// A point of a triangle with the weights of all corners.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -17,10 +19,21 @@ using Vec = std::array<mpz_class, 3>;
 Vec difference(const Vec& x, const Vec& y) {
   return {mpz_class(x[0] - y[0]), mpz_class(x[1] - y[1]), mpz_class(x[2] - y[2])};
 }
-mpz_class dot(const Vec& x, const Vec& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
+/// GMP adds and subtracts products in place. Expressions allocate memory for each, which takes longer than they do.
+mpz_class dot(const Vec& x, const Vec& y) {
+  mpz_class sum = x[0] * y[0];
+  for (const std::size_t i : {1, 2}) mpz_addmul(sum.get_mpz_t(), x[i].get_mpz_t(), y[i].get_mpz_t());
+  return sum;
+}
 Vec cross(const Vec& x, const Vec& y) {
-  return {mpz_class(x[1] * y[2] - x[2] * y[1]), mpz_class(x[2] * y[0] - x[0] * y[2]),
-          mpz_class(x[0] * y[1] - x[1] * y[0])};
+  Vec result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    result[i] = x[j] * y[k];
+    mpz_submul(result[i].get_mpz_t(), x[k].get_mpz_t(), y[j].get_mpz_t());
+  }
+  return result;
 }
 
 /// A capsule and a triangle in whole numbers of one unit. A ball is a capsule with a half axis of zero.
@@ -76,18 +89,23 @@ struct Linear {
 /// A part of what the centre must come near to: the triangle, moved along the core in both directions. It is a face, an
 /// edge or a corner, with its outline.
 struct Part {
+  /// What the projection of the centre on the part is made of: a corner, an end of the core, or a corner moved to an
+  /// end. Each has a weight, which is not negative where the projection belongs to the part.
+  struct Share {
+    Linear weight;  ///< It is times `scale`.
+    std::optional<std::size_t> corner;
+    int side;  ///< It is the share of the half axis: 1 and -1 are the ends of the core.
+  };
+
   /// The squared distance to the part's plane, line or point is (a t² + 2 b t + c) / scale + r².
   QuadraticRoot equation;
   mpz_class scale;
-  /// The projection of the centre belongs to the part if none of these is negative.
-  std::vector<Linear> bounds;
-  /// The projection is the sum of the corners times their weights, and of the half axis times `along`. Both are times
-  /// `scale` here.
-  std::array<Linear, 3> weights;
-  Linear along;
+  /// Lists the shares. Most parts are too far away for them to matter.
+  std::function<std::vector<Share>()> shares;
 
   [[nodiscard]] bool is_over_it(const OneRootNumber& t) const {
-    return std::all_of(bounds.begin(), bounds.end(), [&](const Linear& bound) { return bound.sign_at(t) >= 0; });
+    const std::vector<Share> all = shares();
+    return std::all_of(all.begin(), all.end(), [&](const Share& share) { return share.weight.sign_at(t) >= 0; });
   }
 };
 
@@ -95,30 +113,45 @@ struct Part {
 struct Vertex {
   std::size_t corner;
   int side;
-  Vec place;
 };
 
+/// Its parts are valid for as long as it is there.
 class PartLister {
  public:
-  explicit PartLister(const WholePair& pair) : pair_(pair), n_(pair.normal()) {}
+  explicit PartLister(const WholePair& pair) : pair_(pair), n_(pair.normal()) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      places_[corner].fill(pair.corners[corner]);
+      for (std::size_t i = 0; i < 3; ++i) {
+        places_[corner].front()[i] -= pair.half_axis[i];
+        places_[corner].back()[i] += pair.half_axis[i];
+      }
+    }
+  }
 
-  std::vector<Part> parts() {
+  [[nodiscard]] std::vector<Part> parts() const {
+    std::vector<Part> all;
+    all.reserve(20);  // Two faces, nine edges, six corners and three parallelograms.
     const std::vector<int> sides = pair_.has_axis() ? std::vector<int>{-1, 1} : std::vector<int>{0};
     for (const int side : sides) {
-      if (n_ != Vec{0, 0, 0}) add_face(side);
-      for (const auto& [from, to] : edges()) add_edge(vertex(from, side), vertex(to, side));
-      for (const std::size_t corner : corners()) add_corner(vertex(corner, side));
+      if (has_area()) all.push_back(face(side));
+      for (const auto& [from, to] : edges()) all.push_back(edge({from, side}, {to, side}));
+      for (const std::size_t corner : corners()) all.push_back(single({corner, side}));
     }
-    if (!pair_.has_axis()) return std::move(parts_);
-    for (const auto& [from, to] : edges()) add_parallelogram(from, to);
-    for (const std::size_t corner : corners()) add_edge(vertex(corner, -1), vertex(corner, 1));
-    return std::move(parts_);
+    if (!pair_.has_axis()) return all;
+    for (const auto& [from, to] : edges()) {
+      if (normal_of_parallelogram(from, to) != Vec{0, 0, 0}) all.push_back(parallelogram(from, to));
+    }
+    for (const std::size_t corner : corners()) all.push_back(edge({corner, -1}, {corner, 1}));
+    return all;
   }
 
  private:
+  using Share = Part::Share;
+
+  [[nodiscard]] bool has_area() const { return n_ != Vec{0, 0, 0}; }
   /// A triangle without area is the edge between its first and its last corner, or a point.
   [[nodiscard]] std::vector<std::size_t> corners() const {
-    if (n_ != Vec{0, 0, 0}) return {0, 1, 2};
+    if (has_area()) return {0, 1, 2};
     const auto& all = pair_.corners;
     const auto low = static_cast<std::size_t>(std::min_element(all.begin(), all.end()) - all.begin());
     const auto high = static_cast<std::size_t>(std::max_element(all.begin(), all.end()) - all.begin());
@@ -131,10 +164,16 @@ class PartLister {
     if (some.size() == 2) return {{some[0], some[1]}};
     return {{0, 1}, {1, 2}, {2, 0}};
   }
-  [[nodiscard]] Vertex vertex(std::size_t corner, int side) const {
-    Vec place = pair_.corners[corner];
-    for (std::size_t i = 0; i < 3; ++i) place[i] += side * pair_.half_axis[i];
-    return {corner, side, place};
+  [[nodiscard]] const Vec& place(const Vertex& at) const {
+    return places_[at.corner][static_cast<std::size_t>(1 + at.side)];
+  }
+  [[nodiscard]] Vec from_corner(std::size_t from, std::size_t to) const {
+    return difference(pair_.corners[to], pair_.corners[from]);
+  }
+  [[nodiscard]] Vec axis() const { return {2 * pair_.half_axis[0], 2 * pair_.half_axis[1], 2 * pair_.half_axis[2]}; }
+  [[nodiscard]] Vec start_from(const Vertex& at) const { return difference(pair_.start, place(at)); }
+  [[nodiscard]] Vec normal_of_parallelogram(std::size_t from, std::size_t to) const {
+    return cross(from_corner(from, to), axis());
   }
   /// What grows from zero where `constant` grows with the start and `rate` with the step.
   template <typename Measure>
@@ -142,73 +181,81 @@ class PartLister {
     return {measure(w), measure(pair_.step)};
   }
 
-  void add_corner(const Vertex& at) {
-    const Vec w = difference(pair_.start, at.place);
-    Part part{{dot(pair_.step, pair_.step), dot(pair_.step, w), dot(w, w) - pair_.rr}, 1, {}, {}, {at.side, 0}};
-    part.weights[at.corner].constant = 1;
-    parts_.push_back(std::move(part));
+  [[nodiscard]] Part single(const Vertex& at) const {
+    const Vec w = start_from(at);
+    const auto shares = [at] { return std::vector<Share>{{{1, 0}, at.corner, at.side}}; };
+    return {{dot(pair_.step, pair_.step), dot(pair_.step, w), dot(w, w) - pair_.rr}, 1, shares};
   }
 
-  void add_edge(const Vertex& from, const Vertex& to) {
-    const Vec e = difference(to.place, from.place);
-    const Vec w = difference(pair_.start, from.place);
+  [[nodiscard]] Part edge(const Vertex& from, const Vertex& to) const {
+    const Vec e = difference(place(to), place(from));
     const mpz_class ee = dot(e, e);
     const Vec rate = cross(pair_.step, e);
-    const Vec across = cross(w, e);
-    const Linear whole = {ee, 0};
-    const Linear share = measured(w, [&](const Vec& x) { return dot(x, e); });
-    Part part{{dot(rate, rate), dot(rate, across), dot(across, across) - pair_.rr * ee},
-              ee,
-              {share, whole - share},
-              {},
-              from.side * (whole - share) + to.side * share};
-    part.weights[from.corner] = whole - share;
-    part.weights[to.corner] = part.weights[to.corner] + share;
-    parts_.push_back(std::move(part));
+    const Vec across = cross(start_from(from), e);
+    const auto shares = [this, from, to] {
+      const Vec along = difference(place(to), place(from));
+      const Linear whole = {dot(along, along), 0};
+      const Linear share = measured(start_from(from), [&](const Vec& x) { return dot(x, along); });
+      return std::vector<Share>{{share, to.corner, to.side}, {whole - share, from.corner, from.side}};
+    };
+    return {{dot(rate, rate), dot(rate, across), dot(across, across) - pair_.rr * ee}, ee, shares};
   }
 
-  void add_face(int side) {
-    const Vec to_b = difference(pair_.corners[1], pair_.corners[0]);
-    const Vec to_c = difference(pair_.corners[2], pair_.corners[0]);
-    const Vec w = difference(pair_.start, vertex(0, side).place);
-    Part part = plane_part(n_, w);
-    const Linear u = measured(w, [&](const Vec& x) { return dot(n_, cross(x, to_c)); });
-    const Linear v = measured(w, [&](const Vec& x) { return dot(n_, cross(to_b, x)); });
-    const Linear whole = {part.scale, 0};
-    part.weights = {whole - u - v, u, v};
-    part.bounds = {u, v, whole - u - v};
-    part.along = side * whole;
-    parts_.push_back(std::move(part));
+  [[nodiscard]] Part face(int side) const {
+    const auto shares = [this, side] {
+      const Vec to_b = from_corner(0, 1);
+      const Vec to_c = from_corner(0, 2);
+      const Vec w = start_from({0, side});
+      const Linear whole = {dot(n_, n_), 0};
+      const Linear u = measured(w, [&](const Vec& x) { return dot(n_, cross(x, to_c)); });
+      const Linear v = measured(w, [&](const Vec& x) { return dot(n_, cross(to_b, x)); });
+      return std::vector<Share>{{u, 1, side}, {v, 2, side}, {whole - u - v, 0, side}};
+    };
+    return in_plane(n_, start_from({0, side}), shares);
   }
 
-  void add_parallelogram(std::size_t from, std::size_t to) {
-    const Vec e = difference(pair_.corners[to], pair_.corners[from]);
-    const Vec axis = difference(vertex(from, 1).place, vertex(from, -1).place);
-    const Vec n = cross(e, axis);
-    if (n == Vec{0, 0, 0}) return;
-    const Vec w = difference(pair_.start, vertex(from, -1).place);
-    Part part = plane_part(n, w);
-    const Linear share = measured(w, [&](const Vec& x) { return dot(n, cross(x, axis)); });
-    const Linear along = measured(w, [&](const Vec& x) { return dot(n, cross(e, x)); });
-    const Linear whole = {part.scale, 0};
-    part.weights[from] = whole - share;
-    part.weights[to] = share;
-    part.bounds = {share, whole - share, along, whole - along};
-    part.along = along + along - whole;
-    parts_.push_back(std::move(part));
+  [[nodiscard]] Part parallelogram(std::size_t from, std::size_t to) const {
+    const auto shares = [this, from, to] {
+      const Vec n = normal_of_parallelogram(from, to);
+      const Vec w = start_from({from, -1});
+      const Linear whole = {dot(n, n), 0};
+      const Linear share = measured(w, [&](const Vec& x) { return dot(n, cross(x, axis())); });
+      const Linear along = measured(w, [&](const Vec& x) { return dot(n, cross(from_corner(from, to), x)); });
+      return std::vector<Share>{{share, to, 0}, {whole - share, from, 0}, {along, {}, 1}, {whole - along, {}, -1}};
+    };
+    return in_plane(normal_of_parallelogram(from, to), start_from({from, -1}), shares);
   }
 
-  [[nodiscard]] Part plane_part(const Vec& n, const Vec& w) const {
+  template <typename Shares>
+  [[nodiscard]] Part in_plane(const Vec& n, const Vec& w, const Shares& shares) const {
     const mpz_class nn = dot(n, n);
     const mpz_class height = dot(n, w);
     const mpz_class rate = dot(n, pair_.step);
-    return {{rate * rate, rate * height, height * height - pair_.rr * nn}, nn, {}, {}, {}};
+    return {{rate * rate, rate * height, height * height - pair_.rr * nn}, nn, shares};
   }
 
   const WholePair& pair_;
   Vec n_;
-  std::vector<Part> parts_;
+  std::array<std::array<Vec, 3>, 3>
+      places_;  ///< The places of each corner: at an end, in the middle, at the other end.
 };
+
+/// The touched point: the sum of the corners times their weights, and of the half axis times `along`. All are times
+/// `scale` here.
+struct Touched {
+  mpz_class scale;
+  std::array<Linear, 3> weights;
+  Linear along;
+};
+
+Touched touched_of(const Part& part) {
+  Touched touched{part.scale, {}, {}};
+  for (const auto& [weight, corner, side] : part.shares()) {
+    if (corner) touched.weights[*corner] = touched.weights[*corner] + weight;
+    touched.along = touched.along + side * weight;
+  }
+  return touched;
+}
 
 /// The half axis as a sum of corners whose weights add up to zero, if it is parallel to the triangle: the weights times
 /// a positive whole number, and this number. It is 0 if the axis is not parallel.
@@ -245,25 +292,25 @@ AxisInTriangle axis_in_triangle(const WholePair& pair) {
 
 /// Moves the touched point along the axis toward the one below the centre, for as long as it stays in the triangle. All
 /// of these points are equally near to the core.
-void move_toward_centre(const AxisInTriangle& axis, const OneRootNumber& t, Part& part) {
-  const int side = part.along.sign_at(t);
+void move_toward_centre(const AxisInTriangle& axis, const OneRootNumber& t, Touched& touched) {
+  const int side = touched.along.sign_at(t);
   if (axis.whole == 0 || side == 0) return;
   // The point moves by limit / whole half axes.
-  Linear limit = side * part.along;
-  mpz_class whole = part.scale;
+  Linear limit = side * touched.along;
+  mpz_class whole = touched.scale;
   for (std::size_t i = 0; i < 3; ++i) {
     const mpz_class rate = -side * axis.weights[i];
     if (rate <= 0) continue;
-    const Linear other = axis.whole * part.weights[i];
-    const mpz_class other_whole = part.scale * rate;
+    const Linear other = axis.whole * touched.weights[i];
+    const mpz_class other_whole = touched.scale * rate;
     if ((whole * other - other_whole * limit).sign_at(t) >= 0) continue;
     limit = other;
     whole = other_whole;
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    part.weights[i] = (whole * axis.whole) * part.weights[i] + (part.scale * side * axis.weights[i]) * limit;
+    touched.weights[i] = (whole * axis.whole) * touched.weights[i] + (touched.scale * side * axis.weights[i]) * limit;
   }
-  part.scale *= whole * axis.whole;
+  touched.scale *= whole * axis.whole;
 }
 
 Feature feature_of(const std::array<OneRootNumber, 3>& weights) {
@@ -276,10 +323,10 @@ Feature feature_of(const std::array<OneRootNumber, 3>& weights) {
   return has[0] ? Feature::corner_a : has[1] ? Feature::corner_b : Feature::corner_c;
 }
 
-SweptTruth truth_at(const QuadraticRoot& t, const Part& part) {
+SweptTruth truth_at(const QuadraticRoot& t, const Touched& touched) {
   std::array<OneRootNumber, 3> weights;
   for (std::size_t i = 0; i < 3; ++i) {
-    weights[i] = t.number().linear(part.weights[i].constant, part.weights[i].rate, part.scale);
+    weights[i] = t.number().linear(touched.weights[i].constant, touched.weights[i].rate, touched.scale);
   }
   return {true, false, t, weights[1], weights[2], feature_of(weights)};
 }
@@ -297,13 +344,13 @@ std::optional<SweptTruth> truth_across(const WholePair& pair) {
   for (std::size_t i = 0; i < 3; ++i) at[i] = sgn(rate) * (rate * w[i] - height * pair.half_axis[i]);
   const Vec to_b = difference(pair.corners[1], pair.corners[0]);
   const Vec to_c = difference(pair.corners[2], pair.corners[0]);
-  Part part;
-  part.scale = dot(n, n) * abs(rate);
+  Touched touched;
+  touched.scale = dot(n, n) * abs(rate);
   const mpz_class u = dot(n, cross(at, to_c));
   const mpz_class v = dot(n, cross(to_b, at));
-  part.weights = {Linear{part.scale - u - v, 0}, Linear{u, 0}, Linear{v, 0}};
-  if (u < 0 || v < 0 || u + v > part.scale) return std::nullopt;
-  return truth_at({}, part);
+  touched.weights = {Linear{touched.scale - u - v, 0}, Linear{u, 0}, Linear{v, 0}};
+  if (u < 0 || v < 0 || u + v > touched.scale) return std::nullopt;
+  return truth_at({}, touched);
 }
 
 /// What is true if they touch at the start. Then the nearest point is the touched one.
@@ -313,12 +360,12 @@ std::optional<SweptTruth> truth_at_start(const WholePair& pair, const std::vecto
     const QuadraticRoot zero;
     const Part* nearest = nullptr;
     for (const Part& part : parts) {
-      if (!part.is_over_it(zero.number())) continue;
-      // Compares c / scale, which is the squared distance less r².
+      // c / scale is the squared distance less r².
+      if (part.equation.c > 0 || !part.is_over_it(zero.number())) continue;
       if (nearest == nullptr || part.equation.c * nearest->scale < nearest->equation.c * part.scale) nearest = &part;
     }
-    if (nearest == nullptr || nearest->equation.c > 0) return std::nullopt;
-    Part touched = *nearest;
+    if (nearest == nullptr) return std::nullopt;
+    Touched touched = touched_of(*nearest);
     move_toward_centre(axis_in_triangle(pair), zero.number(), touched);
     truth = truth_at(zero, touched);
   }
@@ -326,30 +373,46 @@ std::optional<SweptTruth> truth_at_start(const WholePair& pair, const std::vecto
   return truth;
 }
 
+/// Whether a root is in [0, 1], if the equation has roots. Signs tell. Both roots are negative if their sum -2 b / a
+/// is, and their product c / a is not. Less 1, they are the roots of a x² + 2 (a + b) x + (a + 2 b + c).
+bool is_in_range(const QuadraticRoot& root) {
+  const mpz_class slope = root.a + root.b;
+  const mpz_class value = slope + root.b + root.c;
+  if (root.is_upper) return !(root.b > 0 && root.c > 0) && slope >= 0 && value >= 0;
+  return root.b <= 0 && root.c >= 0 && !(slope < 0 && value > 0);
+}
+
 }  // namespace
 
 template <typename Scalar>
 SweptTruth truth_of(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
   const WholePair pair = whole_pair(capsule, triangle);
-  const std::vector<Part> parts = PartLister(pair).parts();
+  const PartLister lister(pair);
+  const std::vector<Part> parts = lister.parts();
   if (const auto at_start = truth_at_start(pair, parts)) return *at_start;
   const Part* first = nullptr;
   QuadraticRoot root;
+  OneRootNumber first_t;
   for (const Part& part : parts) {
     QuadraticRoot candidate = part.equation;
-    if (candidate.a == 0 || candidate.b * candidate.b < candidate.a * candidate.c) continue;
+    if (candidate.a == 0) continue;
     for (const bool is_upper : {false, true}) {
       candidate.is_upper = is_upper;
+      if (!is_in_range(candidate)) continue;
       const OneRootNumber t = candidate.number();
-      if (t.sign() < 0 || t.compare(1, 0) > 0 || !part.is_over_it(t)) continue;
-      if (first != nullptr && t.compare(root.number()) >= 0) continue;
-      first = &part;
-      root = candidate;
+      if (t.d < 0) break;  // There are no roots.
+      if (!part.is_over_it(t)) continue;
+      if (first == nullptr || t.compare(first_t) < 0) {
+        first = &part;
+        root = candidate;
+        first_t = t;
+      }
+      break;  // The upper root is not before the lower one.
     }
   }
   if (first == nullptr) return {};
-  Part touched = *first;
-  move_toward_centre(axis_in_triangle(pair), root.number(), touched);
+  Touched touched = touched_of(*first);
+  move_toward_centre(axis_in_triangle(pair), first_t, touched);
   return truth_at(root, touched);
 }
 
