@@ -21,6 +21,14 @@ inline constexpr std::uint64_t published_hash<float> = 0xd88a62f1b9569e69u;
 template <>
 inline constexpr std::uint64_t published_hash<double> = 0xad3e23d18afb4535u;
 
+/// The same of the few that `keep_few` keeps.
+template <typename Scalar>
+inline constexpr std::uint64_t published_hash_of_few = 0;
+template <>
+inline constexpr std::uint64_t published_hash_of_few<float> = 0x412b87b10ef1b365u;
+template <>
+inline constexpr std::uint64_t published_hash_of_few<double> = 0x62162969c7fc932eu;
+
 /// A mesh of 1,000 triangles and 10,000 questions that are hard for it, the same on every platform. Points are those of
 /// a lattice, drawn as whole numbers. No step from these to a Scalar rounds.
 template <typename Scalar>

@@ -25,6 +25,14 @@ inline constexpr std::uint64_t published_scene_hash<float> = 0x398b2abd086fb78cu
 template <>
 inline constexpr std::uint64_t published_scene_hash<double> = 0xcd0def44a09f8e30u;
 
+/// The same of the few that `keep_few` keeps.
+template <typename Scalar>
+inline constexpr std::uint64_t published_scene_hash_of_few = 0;
+template <>
+inline constexpr std::uint64_t published_scene_hash_of_few<float> = 0xddf27c485cb5aafeu;
+template <>
+inline constexpr std::uint64_t published_scene_hash_of_few<double> = 0x64edf37aed6efcebu;
+
 /// Where an instance of the hard scene is.
 template <typename Scalar>
 struct HardInstance {
@@ -211,7 +219,7 @@ class SceneAnswers {
   std::vector<std::vector<SceneHit<Scalar>>> all_;
   std::vector<SceneHit<Scalar>> first_;
   std::vector<std::uint8_t> any_;
-  std::vector<Vector3<Scalar>> free_;  ///< Of segments that hit.
+  std::vector<Vector3<Scalar>> free_;  ///< The last free points of segments that hit.
 };
 
 }  // namespace surehit::test

@@ -19,6 +19,14 @@ inline constexpr std::uint64_t published_shape_hash<float> = 0x14c7c82b40dad125u
 template <>
 inline constexpr std::uint64_t published_shape_hash<double> = 0xe48635223dd68dfcu;
 
+/// The same of the few that `keep_few` keeps.
+template <typename Scalar>
+inline constexpr std::uint64_t published_shape_hash_of_few = 0;
+template <>
+inline constexpr std::uint64_t published_shape_hash_of_few<float> = 0x27f3981869f237b1u;
+template <>
+inline constexpr std::uint64_t published_shape_hash_of_few<double> = 0x285e6ba8769a1902u;
+
 /// Moving balls, boxes and capsules that are hard for the mesh of `HardQuestions`, the same on every platform. Half of
 /// them go along the segments of these questions. The others rest on vertices of the ground, at a height of exactly
 /// their size, so they graze. No step to a Scalar rounds.

@@ -25,6 +25,12 @@ struct Questions {
   [[nodiscard]] const QueryOptions<Scalar>& options_of(std::size_t id) const { return options[all[id].options]; }
 };
 
+/// Keeps the first sixteenth of what is asked, for a library that is slow to answer.
+template <typename T>
+void keep_few(std::vector<T>& asked) {
+  asked.erase(asked.begin() + static_cast<std::ptrdiff_t>(asked.size() / 16), asked.end());
+}
+
 /// None; those that compare t; those that ask about contacts and triangles.
 template <typename Scalar>
 [[nodiscard]] std::vector<QueryOptions<Scalar>> asked_options() {

@@ -44,6 +44,9 @@ TYPED_TEST(ShapeDeterminism, answers_are_the_published_ones) {
       std::count_if(answers.all.begin(), answers.all.end(), [](const auto& answer) { return answer.any; });
   EXPECT_GT(hits, 400);
   EXPECT_LT(hits, 1400);
+  keep_few(this->hard.shapes);
+  EXPECT_EQ(ShapeAnswers<TypeParam>(this->hard.hard.collider(), this->hard.shapes).hash(),
+            published_shape_hash_of_few<TypeParam>);
 }
 
 TYPED_TEST(ShapeDeterminism, answers_are_the_same_on_every_instruction_set) {

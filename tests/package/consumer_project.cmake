@@ -16,10 +16,11 @@ function(configure_consumer)
     ${ARGV})
 endfunction()
 
+# The arguments are those of answer_hash.
 function(build_and_run_consumer)
   run("${CMAKE_COMMAND}" --build "${TEST_FOLDER}/build" --parallel 1)
   run("${TEST_FOLDER}/build/consumer")
-  run("${TEST_FOLDER}/build/answer_hash")
+  run("${TEST_FOLDER}/build/answer_hash" ${ARGV})
   if(EXISTS "${TEST_FOLDER}/build/gpu_consumer")
     run("${TEST_FOLDER}/build/gpu_consumer")
   endif()
