@@ -5,9 +5,9 @@ file(REMOVE_RECURSE "${TEST_FOLDER}")
 copy_library_sources("${TEST_FOLDER}/surehit")
 
 foreach(library IN ITEMS surehit_broadphase surehit_collision)
-  # One library need not wait for the other one.
+  # Collision has the objects of broadphase, so these are compiled first. Together they take less time.
   configure_consumer("-DSUREHIT_SOURCE_FOLDER=${TEST_FOLDER}/surehit" "-DFORCE_FAST_MATH_ON=${library}"
-    -DCMAKE_OPTIMIZE_DEPENDENCIES=ON -DSUREHIT_OPTIMIZED=OFF)
+    -DCMAKE_UNITY_BUILD=ON -DSUREHIT_OPTIMIZED=OFF)
   execute_process(COMMAND "${CMAKE_COMMAND}" --build "${TEST_FOLDER}/build" --parallel 1 --target ${library}
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(result EQUAL 0)
