@@ -6,7 +6,8 @@ usage() {
   cat <<USAGE
 usage: $0 [--with-tests] [FOLDER]
 
-Builds the package into FOLDER/package, by default build/web/package. --with-tests builds FOLDER/answer_hash.wasm too.
+Builds the package into FOLDER/package, by default build/web/package. --with-tests builds FOLDER/answer_hash.wasm too, and
+joins sources. That compiles faster, and the module is a little larger.
 USAGE
 }
 
@@ -39,7 +40,7 @@ done
 [[ ${#missing[@]} -eq 0 ]] || fail "missing: ${missing[*]}; .ci/install_packages.sh library web installs them"
 
 cmake -G Ninja -S "$here" -B "$folder" -DCMAKE_TOOLCHAIN_FILE="$here/wasm32.cmake" -DCMAKE_BUILD_TYPE=Release \
-  -DSUREHIT_WEB_TESTS=$with_tests
+  -DSUREHIT_WEB_TESTS=$with_tests -DCMAKE_UNITY_BUILD=$with_tests
 cmake --build "$folder"
 
 mkdir -p "$folder/package"
