@@ -45,7 +45,8 @@ concept TemporaryHitFilter = FiltersHits<Callable, Filter, Answer> && !std::is_l
 /// The filter refers to a callable that has a name, and this callable must outlive it. It copies a temporary one, such
 /// as a lambda. This one must be trivially copyable, and at most as large as six pointers. A filter allocates nothing.
 ///
-/// `Answer` is the type of the hits. It is `SceneHit<Scalar>` for a scene.
+/// `Answer` is the type of the hits. It is `SceneHit<Scalar>` for a scene. For moving shapes it is `ShapeHit<Scalar>`,
+/// and `SceneShapeHit<Scalar>` in a scene.
 template <FloatOrDouble Scalar, typename Answer = Hit<Scalar>>
 class HitFilter {
  public:

@@ -84,7 +84,7 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   /// Sets the pose of an instance. Fails for a stale id, or for an invalid pose. Does not end its motion.
   InstanceResult try_set_pose(InstanceId id, const Pose<Scalar>& pose);
   /// Sets the motion of an instance. At parameter t, the instance is at its pose plus t times the motion. This is for
-  /// segments, whose t is then a time in a step. Rays and lines see the instance at its pose.
+  /// segments and moving shapes, whose t is then a time in a step. Rays and lines see the instance at its pose.
   ///
   /// The motion stays until it is set again. Zero ends it. Fails for a stale id, or if the motion is not finite.
   InstanceResult try_set_motion(InstanceId id, const Vector3<Scalar>& motion);
