@@ -1,6 +1,7 @@
 #include "surehit/shape_hit.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "path_range.hpp"
 #include "shape/box_contact.hpp"
@@ -57,18 +58,22 @@ Vector3<Scalar> normal_of_contact(const Shape& shape, const Triangle<Scalar>& tr
 
 /// Returns a + u (b - a) + v (c - a) on one axis. In double, a float has no roundings that count. Rounded weights may
 /// have a sum above 1, so the result is kept between the corners.
+///
+/// N3. In double, it is off by less than 4 ulp of the largest of the three numbers.
+/// Proof. Let this number be in [1, 2), as a power of two changes no rounding. A rounding below 4 is off by at most an
+///     ulp, one below 2 by half an ulp, and one below 1 by a quarter. The differences count as their weights do: 1 ulp.
+///     The sum of the products is below 4: 1 ulp. The last sum is kept below 2: half an ulp. The products are below 4
+///     together. If one reaches 2 and the other is below 1, they are off by 1.25 ulp, and 1 ulp if neither reaches 2.
+///     If the other reaches 1, they are off by 1.5 ulp, but a difference reaches 3. Then |a| reaches 1, so the last sum
+///     is one of whole ulps, and exact. In all cases, that is 3.75 ulp at most. Among denormals, sums are exact, and a
+///     product is off by half an ulp. What a quarter of a denormal loses is nothing beside 2^1020.
 template <typename Scalar>
 Scalar weighted(Scalar a, Scalar b, Scalar c, const ShapeHit<Scalar>& hit) {
-  double sum = 0;
-  if constexpr (std::is_same_v<Scalar, float>) {
-    const double first = a;
-    sum = first + (hit.u * (b - first) + hit.v * (c - first));
-  } else {
-    // A quarter of each number keeps differences from overflowing.
-    const double first = a / 4;
-    sum = 4 * (first + (hit.u * (b / 4 - first) + hit.v * (c / 4 - first)));
-  }
   const auto [low, high] = std::minmax({double{a}, double{b}, double{c}});
+  // A quarter of large numbers keeps differences from overflowing. Elsewhere it would round denormals.
+  const double share = std::is_same_v<Scalar, double> && std::max(-low, high) > 0x1p1020 ? 0.25 : 1;
+  const double first = share * a;
+  const double sum = (first + (hit.u * (share * b - first) + hit.v * (share * c - first))) / share;
   return static_cast<Scalar>(std::clamp(sum, low, high));
 }
 

@@ -1,14 +1,18 @@
+#include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "support/box_families.hpp"
 #include "support/capsule_families.hpp"
 #include "support/capsule_oracle.hpp"
 #include "support/case_count.hpp"
+#include "support/exact_oracle.hpp"
 #include "support/random.hpp"
 #include "support/sphere_families.hpp"
 #include "support/sphere_oracle.hpp"
@@ -131,6 +135,61 @@ TYPED_TEST(ContactNormal, BelongsToAPointThatIsNearTheTouchedOne) {
   above_one.v = Scalar(0.25);
   EXPECT_EQ(contact_point({{-large, 0, 0}, {large, 0, 0}, {large, 1, 0}}, above_one)[0], large);
   EXPECT_EQ(contact_point({{-large, 0, 0}, {large, 0, 0}, {0, large, 0}}, hit), (Vector3<Scalar>{0, large / 2, 0}));
+}
+
+// "Each of them adds at most half an ulp of 1 times its edge. The sum adds at most 4 ulp of the largest coordinate."
+TYPED_TEST(ContactNormal, BelongsToAPointThatIsOffByWhatIsStated) {
+  using Scalar = TypeParam;
+  using Limits = std::numeric_limits<Scalar>;
+  Random random(71);
+  const auto ulp_of = [](Scalar x) {
+    return std::ldexp(Scalar{1},
+                      std::max(x > 0 ? std::ilogb(x) : -9999, Limits::min_exponent - 1) - Limits::digits + 1);
+  };
+  double worst = 0;
+  for (const int exponent : {Limits::min_exponent - Limits::digits + 5, Limits::min_exponent, 0,
+                             Limits::max_exponent - 4, Limits::max_exponent - 3, Limits::max_exponent}) {
+    const auto draw = [&] {
+      const int below = random.one_in(4) ? static_cast<int>(random.below(60)) : 0;
+      return std::clamp(std::ldexp(random.symmetric<Scalar>(), exponent - below), -Limits::max(), Limits::max());
+    };
+    for (std::size_t i = case_count(2000); i > 0; --i) {
+      const Scalar a = draw();
+      const Scalar b = draw();
+      const Scalar c = draw();
+      mpq_class u(random.unit<double>());
+      mpq_class v = (1 - u) * mpq_class(random.unit<double>());
+      if (random.one_in(4)) v = 1 - u;
+      if (random.one_in(8)) u = mpq_class(1, 3);
+      if (random.one_in(8)) v = 0;
+      if (u + v > 1) continue;
+      ShapeHit<Scalar> hit;
+      hit.u = nearest<Scalar>(u);
+      hit.v = nearest<Scalar>(v);
+      const mpq_class point(double{contact_point({{a, 0, 0}, {b, 0, 0}, {c, 0, 0}}, hit)[0]});
+      const auto number = [](Scalar x) { return mpq_class(double{x}); };
+      const mpq_class ab = number(b) - number(a);
+      const mpq_class ac = number(c) - number(a);
+      const mpq_class four = 4 * number(ulp_of(std::max({std::fabs(a), std::fabs(b), std::fabs(c)})));
+      const mpq_class of_weights = number(Limits::epsilon()) / 2 * (abs(ab) + abs(ac));
+      ASSERT_LE(abs(mpq_class(number(a) + u * ab + v * ac - point)), four + of_weights) << exponent << ", case " << i;
+      if (number(hit.u) + number(hit.v) > 1) continue;
+      const mpq_class error = abs(mpq_class(number(a) + number(hit.u) * ab + number(hit.v) * ac - point));
+      ASSERT_LE(error, four) << exponent << ", case " << i;
+      worst = std::max(worst, mpq_class(error / four).get_d());
+    }
+  }
+  testing::Test::RecordProperty("worst_share", std::to_string(worst));
+}
+
+TYPED_TEST(ContactNormal, BelongsToAPointThatLosesNoDenormals) {
+  using Scalar = TypeParam;
+  const Scalar least = std::numeric_limits<Scalar>::denorm_min();
+  ShapeHit<Scalar> hit;
+  hit.u = Scalar(0.2501);
+  hit.v = Scalar(0.376);
+  const Triangle<Scalar> tiny = {{6 * least, 0, 0}, {14 * least, 0, 0}, {22 * least, 0, 0}};
+  EXPECT_EQ(contact_point(tiny, hit)[0], 14 * least);  // 14.02 times the least number
 }
 
 }  // namespace
