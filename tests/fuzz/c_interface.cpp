@@ -284,7 +284,7 @@ class CInterfaceCase : CArgumentDrawer<Scalar> {
     const surehit_status all = C::shape_all_hits(asked, &moving, given, given_filter, nullptr, hits.data(),
                                                  bytes_.below(triangle_count + 1), &count);
     if (all == SUREHIT_OK && (count > 0) != is_hit) stop_at("shape_all_hits differs from shape_first_hit");
-    checked(C::shape_overlaps(asked, &moving, given, or_none(&statistics), or_null(&answer)));
+    checked(C::shape_overlaps(asked, &moving, given, given_filter, or_none(&statistics), or_null(&answer)));
     const typename C::Triangle triangle = {vector(), vector(), vector()};
     checked(C::shape_intersect(or_null(&triangle), &moving, given, &hits[0]));
     typename C::Vector contact;
@@ -349,7 +349,7 @@ class CInterfaceCase : CArgumentDrawer<Scalar> {
     const surehit_status all = C::scene_shape_all_hits(asked, &moving, given, given_filter, nullptr, hits.data(),
                                                        bytes_.below(triangle_count + 1), &count);
     if (all == SUREHIT_OK && (count > 0) != is_hit) stop_at("scene_shape_all_hits differs from the first hit");
-    checked(C::scene_shape_overlaps(asked, &moving, given, nullptr, or_null(&answer)));
+    checked(C::scene_shape_overlaps(asked, &moving, given, given_filter, nullptr, or_null(&answer)));
     if (!is_hit) return;
     if (bytes_.one_in(4)) hit.triangle = value(triangle_count);
     if (bytes_.one_in(4)) hit.instance = id();

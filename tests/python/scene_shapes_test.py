@@ -105,6 +105,8 @@ class SceneShapesTest(unittest.TestCase):
         tile = surehit.Collider(TILE, [[0, 1, 2]])
         scene = surehit.Scene(np.float32)
         near = scene.add(tile)
+        self.assertEqual([scene.overlaps(resting, filter=lambda hit: hit.instance == instance)
+                          for instance in (floor, lift)], [True, False])
         far = scene.add(tile, surehit.translation_pose((0, 0, -2), np.float32))
         scene.commit()
         boxes = surehit.SweptBoxes(np.tile((2, 1, 3), (2000, 1)), (2, 1, -5), (1, 1, 1))

@@ -44,6 +44,8 @@ class ShapesTest(unittest.TestCase):
                 self.assertEqual(collider.first_hit(shapes[i]), hits[i])
                 self.assertEqual((bool(blocked[i]), collider.any_hit(shapes[i])), (bool(met), bool(met)))
                 self.assertEqual(collider.overlaps(shapes[i]), any(hit.started_touching for hit in met))
+                self.assertEqual(collider.overlaps(shapes[i], filter=lambda hit: hit.triangle % 2),
+                                 any(hit.started_touching and hit.triangle % 2 for hit in met))
                 if every:
                     t = collider.last_free_t(shapes[i], every[0])
                     before = np.nextafter(dtype(every[0].t), dtype(0))

@@ -269,6 +269,10 @@ class SUREHIT_API Collider {
   /// `ignore_start_contact`. To learn which triangles, ask for `all_hits` with a `max_t` of 0.
   [[nodiscard]] bool overlaps(const SweptShape<Scalar>& shape, const ShapeQueryOptions<Scalar>& options = {},
                               QueryStatistics* statistics = nullptr) const noexcept;
+  /// Returns true if the filter accepts any contact at the start. It is given the hits of the shape at rest.
+  [[nodiscard]] bool overlaps(const SweptShape<Scalar>& shape, ShapeHitFilter<Scalar> filter,
+                              const ShapeQueryOptions<Scalar>& options = {},
+                              QueryStatistics* statistics = nullptr) const noexcept;
   /// Sets `hits` to one hit for each triangle that the shape touches, in the order of exact t, and then of triangle
   /// ids. Memory is as for the `all_hits` of paths.
   void all_hits(const SweptShape<Scalar>& shape, std::vector<ShapeHit<Scalar>>& hits,

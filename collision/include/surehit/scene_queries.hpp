@@ -141,6 +141,10 @@ class SUREHIT_API SceneQueries {
   /// Returns true if the shape touches any triangle at its start, see `Collider::overlaps`.
   [[nodiscard]] bool overlaps(const SweptShape<Scalar>& shape, const SceneShapeQueryOptions<Scalar>& options = {},
                               QueryStatistics* statistics = nullptr) const noexcept;
+  /// Returns true if the filter accepts any contact at the start.
+  [[nodiscard]] bool overlaps(const SweptShape<Scalar>& shape, SceneShapeHitFilter<Scalar> filter,
+                              const SceneShapeQueryOptions<Scalar>& options = {},
+                              QueryStatistics* statistics = nullptr) const noexcept;
   /// Sets `hits` to one hit for each placed triangle that the shape touches, in order. May throw std::bad_alloc.
   void all_hits(const SweptShape<Scalar>& shape, std::vector<SceneShapeHit<Scalar>>& hits,
                 const SceneShapeQueryOptions<Scalar>& options = {}, QueryStatistics* statistics = nullptr) const;

@@ -82,22 +82,30 @@ template <typename Subject>
       });
 }
 
+/// Sets `result` to 1 if `ask(object, path, ...)` says yes, and to 0 otherwise. The rest is the filter, if there is
+/// one, the options and the statistics.
+template <typename Subject, typename Ask>
+[[nodiscard]] surehit_status yes_or_no(const SingleQuery<Subject>& query, std::uint8_t* result, const Ask& ask) {
+  return query.answer(
+      true, [&](const auto& object, const auto& path, const auto& options, const auto* filter, QueryStatistics* work) {
+        const bool is_true =
+            filter != nullptr ? ask(object, path, *filter, options, work) : ask(object, path, options, work);
+        *result = is_true && (filter == nullptr || !filter->has_stopped()) ? 1 : 0;
+      });
+}
+
 template <typename Subject>
 [[nodiscard]] surehit_status any_hit(const SingleQuery<Subject>& query, std::uint8_t* blocked) {
   query.arguments().check_pointer(blocked, "blocked");
-  return query.answer(
-      true, [&](const auto& object, const auto& path, const auto& options, const auto* filter, QueryStatistics* work) {
-        const bool found =
-            filter != nullptr ? object.any_hit(path, *filter, options, work) : object.any_hit(path, options, work);
-        *blocked = found && (filter == nullptr || !filter->has_stopped()) ? 1 : 0;
-      });
+  return yes_or_no(query, blocked,
+                   [](const auto& object, const auto&... asked) -> bool { return object.any_hit(asked...); });
 }
 
 template <typename Subject>
 [[nodiscard]] surehit_status overlaps(const SingleQuery<Subject>& query, std::uint8_t* touches) {
   query.arguments().check_pointer(touches, "touches");
-  return query.answer(true, [&](const auto& object, const auto& shape, const auto& options, const auto* /*filter*/,
-                                QueryStatistics* work) { *touches = object.overlaps(shape, options, work) ? 1 : 0; });
+  return yes_or_no(query, touches,
+                   [](const auto& object, const auto&... asked) -> bool { return object.overlaps(asked...); });
 }
 
 template <typename Subject>

@@ -30,69 +30,70 @@ surehit_status last_free_t_in_scene(const char* function, const void* handle,
 }  // namespace
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
-#define SUREHIT_SCENE_SHAPE_FUNCTIONS(Scalar, s)                                                                       \
-  SUREHIT_C_API surehit_scene_shape_query_options##s surehit_scene_shape_query_options##s##_default() {                \
-    const surehit::SceneShapeQueryOptions<Scalar> options;                                                             \
-    return {options.max_t,                                                                                             \
-            static_cast<uint8_t>(options.culling),                                                                     \
-            options.mask,                                                                                              \
-            options.instance_mask,                                                                                     \
-            to_c(options.ignored_instance),                                                                            \
-            options.ignored_triangle,                                                                                  \
-            options.ignore_start_contact};                                                                             \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_shape_first_hit(                                                     \
-      const surehit_scene##s* scene, const surehit_swept_shape##s* shape,                                              \
-      const surehit_scene_shape_query_options##s* options, const surehit_scene_shape_filter##s* filter,                \
-      surehit_statistics* statistics, surehit_scene_shape_hit##s* hit) {                                               \
-    Arguments arguments(__func__);                                                                                     \
-    return first_hit(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, filter, statistics), hit);     \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_shape_any_hit(                                                       \
-      const surehit_scene##s* scene, const surehit_swept_shape##s* shape,                                              \
-      const surehit_scene_shape_query_options##s* options, const surehit_scene_shape_filter##s* filter,                \
-      surehit_statistics* statistics, uint8_t* blocked) {                                                              \
-    Arguments arguments(__func__);                                                                                     \
-    return any_hit(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, filter, statistics), blocked);   \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_shape_all_hits(                                                      \
-      const surehit_scene##s* scene, const surehit_swept_shape##s* shape,                                              \
-      const surehit_scene_shape_query_options##s* options, const surehit_scene_shape_filter##s* filter,                \
-      surehit_statistics* statistics, surehit_scene_shape_hit##s* hits, size_t capacity, size_t* hit_count) {          \
-    Arguments arguments(__func__);                                                                                     \
-    return all_hits(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, filter, statistics), hits,      \
-                    capacity, hit_count);                                                                              \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_shape_first_hits(                                                    \
-      const surehit_scene##s* scene, const surehit_swept_shapes##s* shapes,                                            \
-      const surehit_scene_shape_batch_options##s* options, surehit_scene_shape_hit##s* hits) {                         \
-    Arguments arguments(__func__);                                                                                     \
-    return first_hits(Batch<SceneShapes<Scalar>>(arguments, scene, shapes, options), hits);                            \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_shape_any_hits(                                                      \
-      const surehit_scene##s* scene, const surehit_swept_shapes##s* shapes,                                            \
-      const surehit_scene_shape_batch_options##s* options, uint8_t* blocked) {                                         \
-    Arguments arguments(__func__);                                                                                     \
-    return any_hits(Batch<SceneShapes<Scalar>>(arguments, scene, shapes, options), blocked);                           \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_shape_overlaps(                                                      \
-      const surehit_scene##s* scene, const surehit_swept_shape##s* shape,                                              \
-      const surehit_scene_shape_query_options##s* options, surehit_statistics* statistics, uint8_t* touches) {         \
-    Arguments arguments(__func__);                                                                                     \
-    return overlaps(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, nullptr, statistics), touches); \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_shape_last_free_t(                                                   \
-      const surehit_scene##s* scene, const surehit_swept_shape##s* shape, const surehit_scene_shape_hit##s* hit,       \
-      Scalar* t) {                                                                                                     \
-    return last_free_t_in_scene<Scalar>(__func__, scene, shape, hit, t);                                               \
-  }                                                                                                                    \
-  SUREHIT_C_API surehit_status surehit_scene##s##_shape_last_free_point(                                               \
-      const surehit_scene##s* scene, const surehit_swept_shape##s* shape, const surehit_scene_shape_hit##s* hit,       \
-      const surehit_scene_shape_query_options##s* options, const surehit_scene_shape_filter##s* filter,                \
-      surehit_vector3##s* point) {                                                                                     \
-    Arguments arguments(__func__);                                                                                     \
-    return last_free_centre(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, filter, nullptr), hit,  \
-                            point);                                                                                    \
+#define SUREHIT_SCENE_SHAPE_FUNCTIONS(Scalar, s)                                                                      \
+  SUREHIT_C_API surehit_scene_shape_query_options##s surehit_scene_shape_query_options##s##_default() {               \
+    const surehit::SceneShapeQueryOptions<Scalar> options;                                                            \
+    return {options.max_t,                                                                                            \
+            static_cast<uint8_t>(options.culling),                                                                    \
+            options.mask,                                                                                             \
+            options.instance_mask,                                                                                    \
+            to_c(options.ignored_instance),                                                                           \
+            options.ignored_triangle,                                                                                 \
+            options.ignore_start_contact};                                                                            \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_shape_first_hit(                                                    \
+      const surehit_scene##s* scene, const surehit_swept_shape##s* shape,                                             \
+      const surehit_scene_shape_query_options##s* options, const surehit_scene_shape_filter##s* filter,               \
+      surehit_statistics* statistics, surehit_scene_shape_hit##s* hit) {                                              \
+    Arguments arguments(__func__);                                                                                    \
+    return first_hit(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, filter, statistics), hit);    \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_shape_any_hit(                                                      \
+      const surehit_scene##s* scene, const surehit_swept_shape##s* shape,                                             \
+      const surehit_scene_shape_query_options##s* options, const surehit_scene_shape_filter##s* filter,               \
+      surehit_statistics* statistics, uint8_t* blocked) {                                                             \
+    Arguments arguments(__func__);                                                                                    \
+    return any_hit(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, filter, statistics), blocked);  \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_shape_all_hits(                                                     \
+      const surehit_scene##s* scene, const surehit_swept_shape##s* shape,                                             \
+      const surehit_scene_shape_query_options##s* options, const surehit_scene_shape_filter##s* filter,               \
+      surehit_statistics* statistics, surehit_scene_shape_hit##s* hits, size_t capacity, size_t* hit_count) {         \
+    Arguments arguments(__func__);                                                                                    \
+    return all_hits(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, filter, statistics), hits,     \
+                    capacity, hit_count);                                                                             \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_shape_first_hits(                                                   \
+      const surehit_scene##s* scene, const surehit_swept_shapes##s* shapes,                                           \
+      const surehit_scene_shape_batch_options##s* options, surehit_scene_shape_hit##s* hits) {                        \
+    Arguments arguments(__func__);                                                                                    \
+    return first_hits(Batch<SceneShapes<Scalar>>(arguments, scene, shapes, options), hits);                           \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_shape_any_hits(                                                     \
+      const surehit_scene##s* scene, const surehit_swept_shapes##s* shapes,                                           \
+      const surehit_scene_shape_batch_options##s* options, uint8_t* blocked) {                                        \
+    Arguments arguments(__func__);                                                                                    \
+    return any_hits(Batch<SceneShapes<Scalar>>(arguments, scene, shapes, options), blocked);                          \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_shape_overlaps(                                                     \
+      const surehit_scene##s* scene, const surehit_swept_shape##s* shape,                                             \
+      const surehit_scene_shape_query_options##s* options, const surehit_scene_shape_filter##s* filter,               \
+      surehit_statistics* statistics, uint8_t* touches) {                                                             \
+    Arguments arguments(__func__);                                                                                    \
+    return overlaps(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, filter, statistics), touches); \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_shape_last_free_t(                                                  \
+      const surehit_scene##s* scene, const surehit_swept_shape##s* shape, const surehit_scene_shape_hit##s* hit,      \
+      Scalar* t) {                                                                                                    \
+    return last_free_t_in_scene<Scalar>(__func__, scene, shape, hit, t);                                              \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_shape_last_free_point(                                              \
+      const surehit_scene##s* scene, const surehit_swept_shape##s* shape, const surehit_scene_shape_hit##s* hit,      \
+      const surehit_scene_shape_query_options##s* options, const surehit_scene_shape_filter##s* filter,               \
+      surehit_vector3##s* point) {                                                                                    \
+    Arguments arguments(__func__);                                                                                    \
+    return last_free_centre(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, filter, nullptr), hit, \
+                            point);                                                                                   \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 extern "C" {

@@ -114,9 +114,10 @@ surehit_status contact_normal_of(const char* function, const typename Structs<Sc
   }                                                                                                                  \
   SUREHIT_C_API surehit_status surehit_collider##s##_shape_overlaps(                                                 \
       const surehit_collider##s* collider, const surehit_swept_shape##s* shape,                                      \
-      const surehit_shape_query_options##s* options, surehit_statistics* statistics, uint8_t* touches) {             \
+      const surehit_shape_query_options##s* options, const surehit_shape_filter##s* filter,                          \
+      surehit_statistics* statistics, uint8_t* touches) {                                                            \
     Arguments arguments(__func__);                                                                                   \
-    return overlaps(SingleQuery<Shapes<Scalar>>(arguments, collider, shape, options, nullptr, statistics), touches); \
+    return overlaps(SingleQuery<Shapes<Scalar>>(arguments, collider, shape, options, filter, statistics), touches);  \
   }                                                                                                                  \
   SUREHIT_C_API surehit_status surehit_collider##s##_shape_last_free_t(const surehit_collider##s* collider,          \
                                                                        const surehit_swept_shape##s* shape,          \

@@ -10,6 +10,7 @@
 #include "shape/capsule_contact.hpp"
 #include "shape/free_centre.hpp"
 #include "shape/sphere_contact.hpp"
+#include "shape/overlap.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"
 #include "surehit/scene_queries.hpp"
@@ -111,12 +112,18 @@ bool SceneQueries<Scalar>::any_hit(const SweptShape<Scalar>& shape, SceneShapeHi
 template <FloatOrDouble Scalar>
 bool SceneQueries<Scalar>::overlaps(const SweptShape<Scalar>& shape, const SceneShapeQueryOptions<Scalar>& options,
                                     QueryStatistics* statistics) const noexcept {
-  SceneShapeQueryOptions<Scalar> at_start = options;
-  at_start.max_t = 0;
-  at_start.ignore_start_contact = false;
-  SweptShape<Scalar> resting = shape;
-  std::visit([](auto& any) { any.end = any.start; }, resting);
-  return any_hit(resting, at_start, statistics);
+  return detail::overlaps_anything(shape, options, [&](const auto& resting, const auto& at_start) {
+    return any_hit(resting, at_start, statistics);
+  });
+}
+
+template <FloatOrDouble Scalar>
+bool SceneQueries<Scalar>::overlaps(const SweptShape<Scalar>& shape, SceneShapeHitFilter<Scalar> filter,
+                                    const SceneShapeQueryOptions<Scalar>& options,
+                                    QueryStatistics* statistics) const noexcept {
+  return detail::overlaps_anything(shape, options, [&](const auto& resting, const auto& at_start) {
+    return any_hit(resting, filter, at_start, statistics);
+  });
 }
 
 template <FloatOrDouble Scalar>
@@ -194,6 +201,9 @@ Vector3<Scalar> SceneQueries<Scalar>::last_free_point(const SweptShape<Scalar>& 
                                               QueryStatistics*) const noexcept;                                        \
   template bool SceneQueries<Scalar>::any_hit(const SweptShape<Scalar>&, SceneShapeHitFilter<Scalar>,                  \
                                               const SceneShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept; \
+  template bool SceneQueries<Scalar>::overlaps(const SweptShape<Scalar>&, SceneShapeHitFilter<Scalar>,                 \
+                                               const SceneShapeQueryOptions<Scalar>&, QueryStatistics*)                \
+      const noexcept;                                                                                                  \
   template bool SceneQueries<Scalar>::overlaps(const SweptShape<Scalar>&, const SceneShapeQueryOptions<Scalar>&,       \
                                                QueryStatistics*) const noexcept;                                       \
   template void SceneQueries<Scalar>::all_hits(const SweptShape<Scalar>&, std::vector<SceneShapeHit<Scalar>>&,         \

@@ -7,6 +7,7 @@
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
 #include "shape/free_centre.hpp"
+#include "shape/overlap.hpp"
 #include "shape/shape_batch.hpp"
 #include "shape/shape_query.hpp"
 #include "shape/sphere_contact.hpp"
@@ -100,12 +101,17 @@ bool Collider<Scalar>::any_hit(const SweptShape<Scalar>& shape, ShapeHitFilter<S
 template <FloatOrDouble Scalar>
 bool Collider<Scalar>::overlaps(const SweptShape<Scalar>& shape, const ShapeQueryOptions<Scalar>& options,
                                 QueryStatistics* statistics) const noexcept {
-  SweptShape<Scalar> resting = shape;
-  std::visit([](auto& any) { any.end = any.start; }, resting);
-  ShapeQueryOptions<Scalar> at_start = options;
-  at_start.max_t = 0;
-  at_start.ignore_start_contact = false;
-  return any_hit(resting, at_start, statistics);
+  return detail::overlaps_anything(shape, options, [&](const auto& resting, const auto& at_start) {
+    return any_hit(resting, at_start, statistics);
+  });
+}
+
+template <FloatOrDouble Scalar>
+bool Collider<Scalar>::overlaps(const SweptShape<Scalar>& shape, ShapeHitFilter<Scalar> filter,
+                                const ShapeQueryOptions<Scalar>& options, QueryStatistics* statistics) const noexcept {
+  return detail::overlaps_anything(shape, options, [&](const auto& resting, const auto& at_start) {
+    return any_hit(resting, filter, at_start, statistics);
+  });
 }
 
 template <FloatOrDouble Scalar>
@@ -172,6 +178,8 @@ Vector3<Scalar> Collider<Scalar>::last_free_point(const SweptShape<Scalar>& shap
                                           const ShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept;          \
   template bool Collider<Scalar>::overlaps(const SweptShape<Scalar>&, const ShapeQueryOptions<Scalar>&,                \
                                            QueryStatistics*) const noexcept;                                           \
+  template bool Collider<Scalar>::overlaps(const SweptShape<Scalar>&, ShapeHitFilter<Scalar>,                          \
+                                           const ShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept;         \
   template void Collider<Scalar>::all_hits(const SweptShape<Scalar>&, std::vector<ShapeHit<Scalar>>&,                  \
                                            const ShapeQueryOptions<Scalar>&, QueryStatistics*) const;                  \
   template void Collider<Scalar>::all_hits(const SweptShape<Scalar>&, std::vector<ShapeHit<Scalar>>&,                  \

@@ -49,8 +49,9 @@ static void single_queries(const surehit_scenef* scene, const surehit_instance_i
   EXPECT(answer == 1 && statistics.paths == 1 && statistics.instances == 2);
   EXPECT(surehit_scenef_shape_all_hits(scene, &ball, NULL, NULL, NULL, hits, 2, &count) == SUREHIT_OK && count == 2);
   EXPECT(hits[0].instance.index == ids[0].index && hits[1].instance.index == ids[1].index);
-  EXPECT(surehit_scenef_shape_overlaps(scene, &rests, NULL, NULL, &answer) == SUREHIT_OK && answer == 1);
-  EXPECT(surehit_scenef_shape_overlaps(scene, &ball, NULL, NULL, &answer) == SUREHIT_OK && answer == 0);
+  EXPECT(surehit_scenef_shape_overlaps(scene, &rests, NULL, NULL, NULL, &answer) == SUREHIT_OK && answer == 1);
+  EXPECT(surehit_scenef_shape_overlaps(scene, &rests, NULL, &filter, NULL, &answer) == SUREHIT_OK && answer == 0);
+  EXPECT(surehit_scenef_shape_overlaps(scene, &ball, NULL, NULL, NULL, &answer) == SUREHIT_OK && answer == 0);
 }
 
 static void batches(const surehit_scenef* scene) {

@@ -40,8 +40,8 @@ static void single_queries(const surehit_colliderf* level) {
   statistics.size = sizeof statistics;
   EXPECT(surehit_colliderf_shape_any_hit(level, &beside, NULL, NULL, &statistics, &answer) == SUREHIT_OK);
   EXPECT(answer == 0 && statistics.paths == 1);
-  EXPECT(surehit_colliderf_shape_overlaps(level, &falls, NULL, NULL, &answer) == SUREHIT_OK && answer == 0);
-  EXPECT(surehit_colliderf_shape_overlaps(level, &rests, NULL, NULL, &answer) == SUREHIT_OK && answer == 1);
+  EXPECT(surehit_colliderf_shape_overlaps(level, &falls, NULL, NULL, NULL, &answer) == SUREHIT_OK && answer == 0);
+  EXPECT(surehit_colliderf_shape_overlaps(level, &rests, NULL, NULL, NULL, &answer) == SUREHIT_OK && answer == 1);
   EXPECT(surehit_colliderf_shape_first_hit(level, &rests, NULL, NULL, NULL, &hit) == SUREHIT_OK);
   EXPECT(hit.t == 0 && hit.started_touching == 1);
 

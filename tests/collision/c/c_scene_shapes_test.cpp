@@ -78,8 +78,8 @@ class CSceneShapes : public testing::Test {
     std::uint8_t answer = 2;
     ASSERT_EQ(C::scene_shape_any_hit(c.handle, &c_shape, &c_options, &c_filter, nullptr, &answer), SUREHIT_OK);
     EXPECT_EQ(answer, hit ? 1 : 0);
-    ASSERT_EQ(C::scene_shape_overlaps(c.handle, &c_shape, &c_options, nullptr, &answer), SUREHIT_OK);
-    EXPECT_EQ(answer, cpp.overlaps(shape, options) ? 1 : 0);
+    ASSERT_EQ(C::scene_shape_overlaps(c.handle, &c_shape, &c_options, &c_filter, nullptr, &answer), SUREHIT_OK);
+    EXPECT_EQ(answer, cpp.overlaps(shape, filter, options) ? 1 : 0);
     touching += answer;
 
     std::vector<SceneShapeHit<Scalar>> hits;
@@ -204,7 +204,8 @@ TYPED_TEST(CSceneShapes, that_are_wrong_are_refused) {
           SUREHIT_INVALID_HANDLE, "scene was destroyed, or is of another kind");
   refused(first_hit(scene, no_shape, &options, &hit), SUREHIT_NULL_POINTER, "shape is");
   refused(first_hit(scene, &shape, &options, no_hit), SUREHIT_NULL_POINTER, "hit is");
-  refused(C::scene_shape_overlaps(scene, &shape, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER, "touches is");
+  refused(C::scene_shape_overlaps(scene, &shape, nullptr, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER,
+          "touches is");
   refused(C::scene_shape_last_free_t(scene, &shape, &hit, nullptr), SUREHIT_NULL_POINTER, "t is");
   refused(C::scene_shape_last_free_t(scene, &shape, nullptr, &t), SUREHIT_NULL_POINTER, "hit is");
   refused(C::scene_shape_last_free_point(scene, &shape, &hit, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER,
@@ -233,6 +234,11 @@ TYPED_TEST(CSceneShapes, that_are_wrong_are_refused) {
   other.instance.generation += 1;
   refused(C::scene_shape_last_free_t(scene, &shape, &other, &t), SUREHIT_STALE_ID, "no instance with index 0");
   other.instance = {7, 0};
+  answer = 7;
+  typename C::Shape rests = shape;
+  rests.start.z = 1;
+  refused(C::scene_shape_overlaps(scene, &rests, nullptr, &stops, nullptr, &answer), SUREHIT_STOPPED, "said stop");
+  EXPECT_EQ(answer, 0);
   refused(C::scene_shape_last_free_t(scene, &shape, &other, &t), SUREHIT_STALE_ID, "no instance with index 7");
   EXPECT_EQ(t, TypeParam{7});
 

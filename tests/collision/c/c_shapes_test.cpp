@@ -91,8 +91,8 @@ class CShapes : public testing::Test {
     std::uint8_t answer = 2;
     ASSERT_EQ(C::shape_any_hit(c.get(), &given, &given_options, c_filter, nullptr, &answer), SUREHIT_OK);
     EXPECT_EQ(answer, hit.triangle != no_triangle ? 1 : 0);
-    ASSERT_EQ(C::shape_overlaps(c.get(), &given, &given_options, &work, &answer), SUREHIT_OK);
-    EXPECT_EQ(answer, cpp.overlaps(shape, options) ? 1 : 0);
+    ASSERT_EQ(C::shape_overlaps(c.get(), &given, &given_options, c_filter, &work, &answer), SUREHIT_OK);
+    EXPECT_EQ(answer, cpp.overlaps(shape, filter, options) ? 1 : 0);
     touching += answer;
 
     std::vector<ShapeHit<Scalar>> hits;
@@ -236,7 +236,7 @@ TYPED_TEST(CShapes, that_are_wrong_are_refused) {
   refused(C::shape_first_hit(nullptr, &shape, nullptr, nullptr, nullptr, &hit), SUREHIT_NULL_POINTER, "collider is");
   refused(C::shape_first_hit(collider, nullptr, nullptr, nullptr, nullptr, &hit), SUREHIT_NULL_POINTER, "shape is");
   refused(C::shape_any_hit(collider, &shape, nullptr, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER, "blocked is");
-  refused(C::shape_overlaps(collider, &shape, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER, "touches is");
+  refused(C::shape_overlaps(collider, &shape, nullptr, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER, "touches is");
   refused(C::shape_last_free_t(collider, &shape, &hit, nullptr), SUREHIT_NULL_POINTER, "t is");
   refused(C::shape_last_free_point(collider, &shape, nullptr, nullptr, nullptr, &vector), SUREHIT_NULL_POINTER,
           "hit is");
@@ -250,10 +250,14 @@ TYPED_TEST(CShapes, that_are_wrong_are_refused) {
   refused(C::contact_normal(&triangle, &shape, nullptr), SUREHIT_NULL_POINTER, "normal is");
   const typename C::ShapeFilter no_filter = {nullptr, nullptr};
   refused(C::shape_any_hit(collider, &shape, nullptr, &no_filter, nullptr, &blocked), SUREHIT_NULL_POINTER, "accept");
+  refused(C::shape_overlaps(collider, &shape, nullptr, &no_filter, nullptr, &blocked), SUREHIT_NULL_POINTER, "accept");
 
   const typename C::ShapeFilter stops = {
       [](void*, std::size_t, const typename C::ShapeHit*) -> std::int32_t { return SUREHIT_STOP; }, nullptr};
   refused(C::shape_any_hit(collider, &shape, nullptr, &stops, nullptr, &blocked), SUREHIT_STOPPED, "said stop");
+  EXPECT_EQ(blocked, 0);
+  blocked = 7;
+  refused(C::shape_overlaps(collider, &shape, nullptr, &stops, nullptr, &blocked), SUREHIT_STOPPED, "said stop");
   EXPECT_EQ(blocked, 0);
   hit.t = 1;
   refused(C::shape_last_free_point(collider, &shape, &hit, nullptr, &stops, &vector), SUREHIT_STOPPED, "said stop");

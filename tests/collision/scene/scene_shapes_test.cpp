@@ -98,6 +98,10 @@ class SceneShapes : public testing::Test {
     ASSERT_EQ(first.value_or(none), all.empty() ? none : all.front());
     ASSERT_EQ(scene.any_hit(shape), !all.empty());
     ASSERT_EQ(scene.overlaps(shape), !all.empty() && all.front().started_touching);
+    const auto is_odd = [](const SceneShapeHit<Scalar>& hit) { return (hit.triangle + hit.instance.index) % 2 == 1; };
+    ASSERT_EQ(scene.overlaps(shape, is_odd), std::any_of(all.begin(), all.end(), [&](const auto& hit) {
+                return hit.started_touching && is_odd(hit);
+              }));
     if (!first || first->started_touching) return;
     const Scalar free = scene.last_free_t(shape, *first);
     ASSERT_FALSE(scene.any_hit(shape, {.max_t = free}));

@@ -314,6 +314,11 @@ TYPED_TEST(ColliderSpheres, OverlapAtTheStartWhateverTheRestOfTheStepIs) {
   EXPECT_TRUE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 2}, beyond, 2}, {.max_t = -1}));
   EXPECT_FALSE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 3}, {1, 1, 9}, 2}, {.max_t = 1}));
   EXPECT_FALSE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 2}, {1, 1, 2}, 2}, {.ignored_triangle = 0}));
+  const SweptSphere<Scalar> leaves = {{1, 1, 2}, {1, 1, 9}, 2};  // and comes to the other one
+  EXPECT_TRUE(collider.overlaps(leaves, [](const ShapeHit<Scalar>& hit) { return hit.triangle == 0; }));
+  EXPECT_FALSE(collider.overlaps(leaves, [](const ShapeHit<Scalar>& hit) { return hit.triangle == 1; }));
+  EXPECT_TRUE(collider.overlaps(leaves, [](const ShapeHit<Scalar>& hit) { return hit.started_touching; },
+                                {.ignore_start_contact = true}));
 }
 
 TYPED_TEST(ColliderSpheres, FindTheLastFreeT) {

@@ -57,6 +57,11 @@ void compare_with_brute_force(const TriangleMeshView<Scalar>& mesh, const std::v
     ASSERT_EQ(collider.any_hit(shape), !expected.empty()) << what << ", shape " << i;
     ASSERT_EQ(blocked[i] != 0, !expected.empty()) << what << ", shape " << i;
     ASSERT_EQ(collider.overlaps(shape), first.started_touching) << what << ", shape " << i;
+    const auto is_even = [](const ShapeHit<Scalar>& hit) { return hit.triangle % 2 == 0; };
+    ASSERT_EQ(collider.overlaps(shape, is_even),
+              std::any_of(expected.begin(), expected.end(),
+                          [&](const auto& hit) { return hit.started_touching && is_even(hit); }))
+        << what << ", shape " << i;
   }
 }
 

@@ -38,7 +38,7 @@ _OF_SCENES: dict[str, list[Any]] = {
 # Those that colliders and scenes have alike.
 _ABOUT_SHAPES: dict[str, list[Any]] = {
     "shape_first_hit": [_P] * 6, "shape_any_hit": [_P] * 6, "shape_all_hits": [_P] * 6 + [c_size_t, _P],
-    "shape_first_hits": [_P] * 4, "shape_any_hits": [_P] * 4, "shape_overlaps": [_P] * 5,
+    "shape_first_hits": [_P] * 4, "shape_any_hits": [_P] * 4, "shape_overlaps": [_P] * 6,
     "shape_last_free_t": [_P] * 4, "shape_last_free_point": [_P] * 6}
 _OF_OTHERS: dict[str, list[Any]] = {
     "triangle{}_intersect": [_P] * 4, "triangle{}_max_t_keeping": [_P] * 4, "triangle{}_normal": [_P, _P],

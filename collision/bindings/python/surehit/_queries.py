@@ -21,18 +21,19 @@ from .paths import Path, Paths, Segment
 from .shapes import SweptShape, SweptShapes
 
 _FEW_HITS = 16
+_CALLS = ("first_hit", "any_hit", "all_hits", "first_hits", "any_hits")
 
 
 class Subject:
     """What is asked about: the paths or the shapes that come to colliders or scenes. It has their types and functions.
     """
 
-    def __init__(self, layouts: Layouts, kind: SimpleNamespace, prefix: str, hit_of: Callable[[Any], Any]) -> None:
+    def __init__(self, layouts: Layouts, kind: SimpleNamespace, prefix: str, hit_of: Callable[[Any], Any],
+                 calls: tuple[str, ...] = _CALLS) -> None:
         self.kind = kind
         self.hit_of = hit_of
         self.options = AskedOptions(layouts, kind)
-        self.calls = {name: function(prefix + name)
-                      for name in ("first_hit", "any_hit", "all_hits", "first_hits", "any_hits")}
+        self.calls = {name: function(prefix + name) for name in calls}
 
 
 class Queries(Generic[PathHit, TouchHit]):
@@ -49,12 +50,13 @@ class Queries(Generic[PathHit, TouchHit]):
         self._layouts = layouts
         self._prefix = f"{word}{layouts.suffix}_"
         shape_prefix = self._prefix + "shape_"
+        shape_calls = (*_CALLS, "overlaps")
         if word == "collider":
             self._paths = Subject(layouts, layouts.collider, self._prefix, hit_of)
-            self._shapes = Subject(layouts, layouts.shape, shape_prefix, shape_hit_of)
+            self._shapes = Subject(layouts, layouts.shape, shape_prefix, shape_hit_of, shape_calls)
         else:
             self._paths = Subject(layouts, layouts.scene, self._prefix, scene_hit_of)
-            self._shapes = Subject(layouts, layouts.scene_shape, shape_prefix, scene_shape_hit_of)
+            self._shapes = Subject(layouts, layouts.scene_shape, shape_prefix, scene_shape_hit_of, shape_calls)
 
     def _function(self, name: str) -> Any:
         return function(self._prefix + name)
@@ -168,14 +170,14 @@ class Queries(Generic[PathHit, TouchHit]):
             None if chosen is None else byref(chosen), point.ctypes.data))
         return point
 
-    def overlaps(self, shape: SweptShape, *, statistics: Statistics | None = None, **options: Any) -> bool:
-        """Returns whether a shape touches anything at its start. Its end plays no part, and neither does ``max_t``."""
-        subject = self._shapes_of(shape)
+    def overlaps(self, shape: SweptShape, *, filter: Callable[[TouchHit], Any] | None = None,
+                 statistics: Statistics | None = None, **options: Any) -> bool:
+        """Returns whether a shape touches anything at its start. Its end plays no part, and neither does ``max_t``.
+
+        A filter is given the hits of the shape at rest.
+        """
         touches = c_uint8()
-        asked = subject.options.single(options)
-        check(self._function("shape_overlaps")(
-            self._handle, byref(shape.struct(self._layouts)), None if asked is None else byref(asked),
-            None if statistics is None else byref(statistics), byref(touches)))
+        self._single(self._shapes_of(shape), "overlaps", shape, options, filter, statistics, byref(touches))
         return touches.value != 0
 
     def last_free_t(self, shape: SweptShape, hit: TouchHit) -> float:

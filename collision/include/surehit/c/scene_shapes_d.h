@@ -47,11 +47,12 @@ SUREHIT_C_API surehit_status surehit_scened_shape_any_hits(const surehit_scened*
                                                            const surehit_scene_shape_batch_optionsd* options,
                                                            uint8_t* blocked);
 
-/// Sets `touches` to 1 if the shape touches any triangle at its start, and to 0 otherwise. Its end plays no part, and
-/// neither do `max_t` and `ignore_start_contact`. Allocates nothing.
+/// Sets `touches` to 1 if the shape has a contact at its start that the filter accepts, and to 0 otherwise, see
+/// `surehit_colliderd_shape_overlaps`.
 SUREHIT_C_API surehit_status surehit_scened_shape_overlaps(const surehit_scened* scene,
                                                            const surehit_swept_shaped* shape,
                                                            const surehit_scene_shape_query_optionsd* options,
+                                                           const surehit_scene_shape_filterd* filter,
                                                            surehit_statistics* statistics, uint8_t* touches);
 
 /// Sets `t` to the maximum number below the exact t of a hit, see `surehit_colliderd_shape_last_free_t`. If the

@@ -51,11 +51,13 @@ SUREHIT_C_API surehit_status surehit_colliderf_shape_any_hits(const surehit_coll
                                                               const surehit_shape_batch_optionsf* options,
                                                               uint8_t* blocked);
 
-/// Sets `touches` to 1 if the shape touches any triangle at its start, and to 0 otherwise. Its end plays no part, and
-/// neither do `max_t` and `ignore_start_contact`. Allocates nothing.
+/// Sets `touches` to 1 if the shape has a contact at its start that the filter accepts, and to 0 otherwise. Its end
+/// plays no part, and neither do `max_t` and `ignore_start_contact`. The filter is given the hits of the shape at rest.
+/// Allocates nothing. After `SUREHIT_STOPPED`, `touches` is 0.
 SUREHIT_C_API surehit_status surehit_colliderf_shape_overlaps(const surehit_colliderf* collider,
                                                               const surehit_swept_shapef* shape,
                                                               const surehit_shape_query_optionsf* options,
+                                                              const surehit_shape_filterf* filter,
                                                               surehit_statistics* statistics, uint8_t* touches);
 
 /// Sets `t` to the maximum number below the exact t of a hit. There the shape has not touched the triangle yet. For
