@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -234,6 +235,30 @@ TYPED_TEST(PublicSurface, keeps_a_hit_by_the_limit_that_it_gives) {
   const auto far = collider.first_hit(slow);
   ASSERT_TRUE(far);
   EXPECT_EQ(collider.max_t_keeping(slow, *far), std::numeric_limits<TypeParam>::infinity());
+}
+
+TYPED_TEST(PublicSurface, says_where_shapes_touch) {
+  const auto collider =
+      std::make_shared<const Collider<TypeParam>>(TriangleMeshView<TypeParam>(this->points_, this->triangles_));
+  Scene<TypeParam> scene;
+  scene.add(collider, Pose<TypeParam>::translated({0, 0, 1}));
+  scene.commit();
+  const SceneSnapshot<TypeParam> snapshot = scene.snapshot();
+  const SweptSphere<TypeParam> ball{{1, 1, 4}, {1, 1, 0}, TypeParam{0.5}};
+  const auto hit = scene.first_hit(ball);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(scene.contact_point(*hit), (Vector3<TypeParam>{1, 1, 1}));
+  EXPECT_EQ(snapshot.contact_point(*hit), scene.contact_point(*hit));
+  EXPECT_EQ(scene.contact_normal(ball, *hit), (Vector3<TypeParam>{0, 0, 1}));
+  EXPECT_EQ(snapshot.contact_normal(ball, *hit), scene.contact_normal(ball, *hit));
+  const SweptBox<TypeParam> resting{{1, 1, 1}, {1, 1, 9}, {1, 1, 1}};
+  const std::function<bool(const SceneShapeHit<TypeParam>&)> is_floor = [](const auto& touch) {
+    return touch.triangle == 0;
+  };
+  EXPECT_TRUE(scene.overlaps(resting, is_floor));
+  EXPECT_FALSE(snapshot.overlaps(resting, is_floor, {.ignored_instance = hit->instance}));
+  EXPECT_TRUE(collider->overlaps(resting, [](const ShapeHit<TypeParam>& touch) { return touch.triangle == 0; }));
+  EXPECT_FALSE(collider->overlaps(resting, [](const ShapeHit<TypeParam>& touch) { return touch.triangle > 1; }));
 }
 
 }  // namespace

@@ -358,6 +358,8 @@ class CInterfaceCase : CArgumentDrawer<Scalar> {
     if (bytes_.one_in(4)) hit.t = number();
     typename C::Vector point;
     checked(C::scene_shape_last_free_point(asked, &moving, &hit, given, given_filter, or_null(&point)));
+    checked(C::scene_contact_point(asked, &hit, or_null(&point)));
+    checked(C::scene_contact_normal(asked, &moving, &hit, or_null(&point)));
   }
 
   void ask_pair() {

@@ -54,6 +54,15 @@ class SceneShapesTest(unittest.TestCase):
                     self.assertEqual(scene.first_hit(shapes[i]), hits[i])
                     self.assertEqual((bool(blocked[i]), scene.any_hit(shapes[i])), (bool(met), bool(met)))
                     self.assertEqual(scene.overlaps(shapes[i]), any(hit.started_touching for hit in met))
+                    for hit in every[:2]:
+                        corners, motion = next(part[2:] for part in placed if part[:2] == (hit.instance, hit.triangle))
+                        at = np.array(hit[:3], float)
+                        exact = corners[0] + at[1:] @ (corners[1:] - corners[0]) + at[0] * motion
+                        np.testing.assert_allclose(scene.contact_point(hit), exact, atol=np.finfo(dtype).eps * 32)
+                        np.testing.assert_allclose(
+                            scene.contact_normal(shapes[i], hit),
+                            surehit.contact_normal(seen_from(shapes[i], motion), corners.astype(dtype)),
+                            atol=np.finfo(dtype).eps * 8)
                     if every:
                         t = scene.last_free_t(shapes[i], every[0])
                         before = np.nextafter(dtype(every[0].t), dtype(0))
@@ -96,17 +105,20 @@ class SceneShapesTest(unittest.TestCase):
         resting = surehit.SweptSphere((2, 1, 1), (2, 1, 9), 1)
         self.assertEqual((scene.overlaps(resting), scene.overlaps(ball)), (True, False))
         self.assertFalse(scene.overlaps(resting, instance_mask=2))
+        self.assertEqual([scene.overlaps(resting, filter=lambda hit: hit.instance == instance)
+                          for instance in (floor, lift)], [True, False])
         self.assertFalse(scene.any_hit(resting, ignore_start_contact=True))
         scene.set_motion(lift, (0, 0, 8))  # it comes up while the ball comes down
         scene.commit()
-        self.assertEqual(scene.first_hit(ball, instance_mask=2).t, 0.25)
+        hit = scene.first_hit(ball, instance_mask=2)
+        self.assertEqual((hit.t, scene.contact_point(hit).tolist()), (0.25, [2, 1, 0]))
+        self.assertEqual(scene.contact_normal(ball, hit).tolist(), [0, 0, 1])
+        self.assertEqual(scene.snapshot().contact_point(hit).dtype, np.float32)
 
     def test_batches_with_filters_and_threads(self):
         tile = surehit.Collider(TILE, [[0, 1, 2]])
         scene = surehit.Scene(np.float32)
         near = scene.add(tile)
-        self.assertEqual([scene.overlaps(resting, filter=lambda hit: hit.instance == instance)
-                          for instance in (floor, lift)], [True, False])
         far = scene.add(tile, surehit.translation_pose((0, 0, -2), np.float32))
         scene.commit()
         boxes = surehit.SweptBoxes(np.tile((2, 1, 3), (2000, 1)), (2, 1, -5), (1, 1, 1))
@@ -131,6 +143,10 @@ class SceneShapesTest(unittest.TestCase):
                  "no instance with index 3"),
                 (lambda: scene.last_free_t(ball, hit._replace(triangle=1)), surehit.OutOfRange, "no triangle 1"),
                 (lambda: scene.overlaps((0, 0, 0)), TypeError, "must be a moving shape, and not tuple"),
+                (lambda: scene.contact_point(hit._replace(instance=(3, 0))), surehit.InvalidInstance,
+                 "no instance with index 3"),
+                (lambda: scene.contact_normal(ball, hit._replace(triangle=1)), surehit.OutOfRange, "no triangle 1"),
+                (lambda: scene.contact_normal((0, 0, 0), hit), TypeError, "must be a moving shape, and not tuple"),
                 (lambda: scene.first_hit(ball, min_t=0), TypeError, "there is no option min_t"),
                 (lambda: scene.first_hits([ball]), TypeError, "Lines or moving shapes, and not list"),
                 (lambda: scene.first_hit(surehit.SweptSphere((0, 0, 0), (0, 0, 1), np.float64(0.1))), ValueError,

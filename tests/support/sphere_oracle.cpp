@@ -220,17 +220,23 @@ bool is_before(const mpf_class& x, const mpf_class& y) {
 }
 
 template <typename Scalar>
-std::optional<std::string> find_error_of_normal(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
-                                                const ShapeHit<Scalar>& hit, const Vector3<Scalar>& normal,
-                                                double allowed) {
+std::optional<std::string> find_error_of_normal(const RationalPair& exact, const ShapeHit<Scalar>& hit,
+                                                const Vector3<Scalar>& normal, double allowed) {
   const Float tiny = tiny_number<Scalar>();
-  const PairOf<Float> pair = to_floats(rational(sphere, triangle));
+  const PairOf<Float> pair = to_floats(exact);
   const Float t = hit.started_touching ? Float(0) : first_time(pair, tiny).value();
   const auto centre = along(pair.start, t, pair.step);
   const auto nearest = nearest_on_triangle(centre, pair);
   const auto point =
       along(along(pair.a, nearest.u, Vec<Float>(pair.b - pair.a)), nearest.v, Vec<Float>(pair.c - pair.a));
   return find_error_of_unit(point, centre, normal, allowed, tiny);
+}
+
+template <typename Scalar>
+std::optional<std::string> find_error_of_normal(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                                const ShapeHit<Scalar>& hit, const Vector3<Scalar>& normal,
+                                                double allowed) {
+  return find_error_of_normal(rational(sphere, triangle), hit, normal, allowed);
 }
 
 template <typename Scalar>
@@ -241,6 +247,8 @@ bool comes_before(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x, 
 #define SUREHIT_INSTANTIATE(Scalar)                                                                                  \
   template std::optional<std::string> find_error(const SweptSphere<Scalar>&, const Triangle<Scalar>&,                \
                                                  const std::optional<ShapeHit<Scalar>>&);                            \
+  template std::optional<std::string> find_error_of_normal(const RationalPair&, const ShapeHit<Scalar>&,             \
+                                                           const Vector3<Scalar>&, double);                          \
   template std::optional<std::string> find_error_of_normal(const SweptSphere<Scalar>&, const Triangle<Scalar>&,      \
                                                            const ShapeHit<Scalar>&, const Vector3<Scalar>&, double); \
   template std::optional<std::string> find_error(const RationalPair&, const std::optional<ShapeHit<Scalar>>&);       \

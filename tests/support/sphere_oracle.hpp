@@ -49,6 +49,9 @@ template <typename Scalar>
 
 /// Says what is wrong with the normal of a contact, or returns nothing. A component may be off by `allowed`.
 template <typename Scalar>
+[[nodiscard]] std::optional<std::string> find_error_of_normal(const RationalPair& pair, const ShapeHit<Scalar>& hit,
+                                                              const Vector3<Scalar>& normal, double allowed);
+template <typename Scalar>
 [[nodiscard]] std::optional<std::string> find_error_of_normal(const SweptSphere<Scalar>& sphere,
                                                               const Triangle<Scalar>& triangle,
                                                               const ShapeHit<Scalar>& hit,

@@ -171,7 +171,8 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
   /// Returns the corners of a placed triangle at t = 0, as the pose that was set last places it. Each coordinate is the
-  /// exact one, rounded once to nearest. `triangle` must be below `triangle_count(id)`.
+  /// exact one, rounded once to nearest. `triangle` must be below `triangle_count(id)`. A shape that touches the exact
+  /// image may miss the rounded one, so ask the scene for the `contact_point` and the `contact_normal` of a hit.
   [[nodiscard]] Triangle<Scalar> triangle(InstanceId id, std::uint32_t triangle) const noexcept;
   /// Returns the unit normal of a placed triangle, as `surehit::normal` returns that of a triangle: within 2 ulp(1).
   /// It is that of the exact image, before any corner is rounded.

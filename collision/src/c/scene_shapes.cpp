@@ -14,16 +14,46 @@ namespace {
 template <typename Scalar>
 using SceneShapes = ShapesIn<Scene<Scalar>>;
 
+/// Fails unless the hit is one of a triangle that is there.
+template <typename Scalar>
+void check_hit(SceneCall<Scalar>& call, const typename SceneShapeStructs<Scalar>::Hit* hit) {
+  call.arguments.check_pointer(hit, "hit");
+  if (call.arguments.are_valid()) call.check_triangle(hit->instance, hit->triangle);
+}
+
 template <typename Scalar>
 surehit_status last_free_t_in_scene(const char* function, const void* handle,
                                     const typename ShapeStructs<Scalar>::Shape* shape,
                                     const typename SceneShapeStructs<Scalar>::Hit* hit, Scalar* t) {
   SceneCall<Scalar> call(function, handle);
   check_shape(call.arguments, shape);
-  call.arguments.check_pointer(hit, "hit");
-  if (call.arguments.are_valid()) call.check_triangle(hit->instance, hit->triangle);
+  check_hit(call, hit);
   return call.tell(t, "t", [&](const auto& scene) {
     return scene.last_free_t(shape_of<Scalar>(*shape), Asked<SceneShapes<Scalar>>::from_c(*hit));
+  });
+}
+
+template <typename Scalar>
+surehit_status contact_point_in_scene(const char* function, const void* handle,
+                                      const typename SceneShapeStructs<Scalar>::Hit* hit,
+                                      typename Structs<Scalar>::Vector3* point) {
+  SceneCall<Scalar> call(function, handle);
+  check_hit(call, hit);
+  return call.tell(point, "point", [&](const auto& scene) {
+    return to_c(scene.contact_point(Asked<SceneShapes<Scalar>>::from_c(*hit)));
+  });
+}
+
+template <typename Scalar>
+surehit_status contact_normal_in_scene(const char* function, const void* handle,
+                                       const typename ShapeStructs<Scalar>::Shape* shape,
+                                       const typename SceneShapeStructs<Scalar>::Hit* hit,
+                                       typename Structs<Scalar>::Vector3* normal) {
+  SceneCall<Scalar> call(function, handle);
+  check_shape(call.arguments, shape);
+  check_hit(call, hit);
+  return call.tell(normal, "normal", [&](const auto& scene) {
+    return to_c(scene.contact_normal(shape_of<Scalar>(*shape), Asked<SceneShapes<Scalar>>::from_c(*hit)));
   });
 }
 
@@ -94,6 +124,15 @@ surehit_status last_free_t_in_scene(const char* function, const void* handle,
     Arguments arguments(__func__);                                                                                    \
     return last_free_centre(SingleQuery<SceneShapes<Scalar>>(arguments, scene, shape, options, filter, nullptr), hit, \
                             point);                                                                                   \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_shape_contact_point(                                                \
+      const surehit_scene##s* scene, const surehit_scene_shape_hit##s* hit, surehit_vector3##s* point) {              \
+    return contact_point_in_scene<Scalar>(__func__, scene, hit, point);                                               \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_shape_contact_normal(                                               \
+      const surehit_scene##s* scene, const surehit_swept_shape##s* shape, const surehit_scene_shape_hit##s* hit,      \
+      surehit_vector3##s* normal) {                                                                                   \
+    return contact_normal_in_scene<Scalar>(__func__, scene, shape, hit, normal);                                      \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 extern "C" {

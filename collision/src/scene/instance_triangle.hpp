@@ -8,6 +8,7 @@
 #include "scene/committed_scene.hpp"
 #include "scene/placement.hpp"
 #include "support/floating_point_environment.hpp"
+#include "surehit/scene_shape_hit.hpp"
 #include "surehit/triangle.hpp"
 #include "unit_of_cross.hpp"
 
@@ -17,6 +18,15 @@ namespace surehit::detail {
 template <typename Scalar>
 [[nodiscard]] std::size_t triangle_count(const InstanceMesh<Scalar>& mesh) noexcept {
   return mesh.own != nullptr ? mesh.own->mesh.triangle_count() : mesh.floats->mesh.triangle_count();
+}
+
+/// Returns the instance that has the triangle of a hit, or null if none has. The hit may be of any instance, committed
+/// or not, because a caller in another language may bring any.
+template <typename Scalar>
+[[nodiscard]] const CommittedInstance<Scalar>* instance_of(const CommittedScene<Scalar>& scene,
+                                                           const SceneShapeHit<Scalar>& hit) noexcept {
+  const CommittedInstance<Scalar>* const instance = scene.find(hit.instance);
+  return instance != nullptr && hit.triangle < triangle_count(instance->mesh) ? instance : nullptr;
 }
 
 /// Calls `use(triangle)` for a triangle of a mesh that is placed there.

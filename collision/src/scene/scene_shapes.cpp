@@ -5,12 +5,13 @@
 
 #include "query/answer_batch.hpp"
 #include "scene/committed_scene.hpp"
+#include "scene/instance_triangle.hpp"
 #include "scene/scene_shape_query.hpp"
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
 #include "shape/free_centre.hpp"
-#include "shape/sphere_contact.hpp"
 #include "shape/overlap.hpp"
+#include "shape/sphere_contact.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"
 #include "surehit/scene_queries.hpp"
@@ -166,13 +167,10 @@ Scalar SceneQueries<Scalar>::last_free_t(const SweptShape<Scalar>& shape,
                                          const SceneShapeHit<Scalar>& hit) const noexcept {
   const FloatingPointEnvironment environment;
   if (hit.started_touching || !(hit.t > 0)) return 0;
-  const auto& instances = committed().instances;
-  // A caller in another language may bring a hit of an instance that is not committed yet.
-  if (hit.instance.index >= instances.size()) return 0;
-  const auto& instance = instances[hit.instance.index];
-  if (instance.generation != hit.instance.generation || !instance.is_in_tree) return 0;
+  const auto* const instance = detail::instance_of(committed(), hit);
+  if (instance == nullptr) return 0;
   const bool is_touched =
-      std::visit([&](const auto& any) { return detail::touches(instance, hit.triangle, any, hit.t); }, shape);
+      std::visit([&](const auto& any) { return detail::touches(*instance, hit.triangle, any, hit.t); }, shape);
   return is_touched ? std::nextafter(hit.t, Scalar{0}) : hit.t;
 }
 
@@ -201,11 +199,11 @@ Vector3<Scalar> SceneQueries<Scalar>::last_free_point(const SweptShape<Scalar>& 
                                               QueryStatistics*) const noexcept;                                        \
   template bool SceneQueries<Scalar>::any_hit(const SweptShape<Scalar>&, SceneShapeHitFilter<Scalar>,                  \
                                               const SceneShapeQueryOptions<Scalar>&, QueryStatistics*) const noexcept; \
+  template bool SceneQueries<Scalar>::overlaps(const SweptShape<Scalar>&, const SceneShapeQueryOptions<Scalar>&,       \
+                                               QueryStatistics*) const noexcept;                                       \
   template bool SceneQueries<Scalar>::overlaps(const SweptShape<Scalar>&, SceneShapeHitFilter<Scalar>,                 \
                                                const SceneShapeQueryOptions<Scalar>&, QueryStatistics*)                \
       const noexcept;                                                                                                  \
-  template bool SceneQueries<Scalar>::overlaps(const SweptShape<Scalar>&, const SceneShapeQueryOptions<Scalar>&,       \
-                                               QueryStatistics*) const noexcept;                                       \
   template void SceneQueries<Scalar>::all_hits(const SweptShape<Scalar>&, std::vector<SceneShapeHit<Scalar>>&,         \
                                                const SceneShapeQueryOptions<Scalar>&, QueryStatistics*) const;         \
   template void SceneQueries<Scalar>::all_hits(const SweptShape<Scalar>&, std::vector<SceneShapeHit<Scalar>>&,         \

@@ -302,19 +302,18 @@ Direction exact_direction(const SweptBox<Scalar>& box, const AnyTriangle& triang
   return ExactBox<Scalar, AnyTriangle>(box, triangle).direction(contact);
 }
 
-#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                                 \
-  template std::optional<BoxContact> exact_contact(const SweptBox<Scalar>&, const AnyTriangle&);                 \
-  template int compare_times(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, const AnyTriangle&, \
-                             const BoxContact&);                                                                 \
-  template int compare_time(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, Scalar);             \
-  template int sign_along(const SweptBox<Scalar>&, const AnyTriangle&);                                          \
-  template void round_exactly(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, ShapeHit<Scalar>&);
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                                  \
+  template std::optional<BoxContact> exact_contact(const SweptBox<Scalar>&, const AnyTriangle&);                  \
+  template int compare_times(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, const AnyTriangle&,  \
+                             const BoxContact&);                                                                  \
+  template int compare_time(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, Scalar);              \
+  template int sign_along(const SweptBox<Scalar>&, const AnyTriangle&);                                           \
+  template void round_exactly(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, ShapeHit<Scalar>&); \
+  template Direction exact_direction(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&);
 SUREHIT_INSTANTIATE(float, Triangle<float>)
 SUREHIT_INSTANTIATE(double, Triangle<double>)
 SUREHIT_INSTANTIATE(float, PlacedTriangle<float>)
 SUREHIT_INSTANTIATE(double, PlacedTriangle<double>)
-template Direction exact_direction(const SweptBox<float>&, const Triangle<float>&, const BoxContact&);
-template Direction exact_direction(const SweptBox<double>&, const Triangle<double>&, const BoxContact&);
 #undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit::detail

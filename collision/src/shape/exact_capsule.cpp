@@ -249,13 +249,12 @@ Direction exact_direction(const SweptCapsule<Scalar>& capsule, const AnyTriangle
   template int compare_time(const SweptCapsule<Scalar>&, const AnyTriangle&, const CapsuleContact&, Scalar); \
   template int sign_along(const SweptCapsule<Scalar>&, const AnyTriangle&);                                  \
   template void round_exactly(const SweptCapsule<Scalar>&, const AnyTriangle&, const CapsuleContact&,        \
-                              ShapeHit<Scalar>&);
+                              ShapeHit<Scalar>&);                                                            \
+  template Direction exact_direction(const SweptCapsule<Scalar>&, const AnyTriangle&, const CapsuleContact&);
 SUREHIT_INSTANTIATE(float, Triangle<float>)
 SUREHIT_INSTANTIATE(double, Triangle<double>)
 SUREHIT_INSTANTIATE(float, PlacedTriangle<float>)
 SUREHIT_INSTANTIATE(double, PlacedTriangle<double>)
 #undef SUREHIT_INSTANTIATE
-template Direction exact_direction(const SweptCapsule<float>&, const Triangle<float>&, const CapsuleContact&);
-template Direction exact_direction(const SweptCapsule<double>&, const Triangle<double>&, const CapsuleContact&);
 
 }  // namespace surehit::detail

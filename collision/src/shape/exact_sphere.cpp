@@ -182,13 +182,13 @@ Direction exact_direction(const SweptSphere<Scalar>& sphere, const AnyTriangle& 
                              const SphereContact&);                                                                    \
   template int compare_time(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, Scalar);             \
   template int sign_along(const SweptSphere<Scalar>&, const AnyTriangle&);                                             \
-  template void round_exactly(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, ShapeHit<Scalar>&);
+  template void round_exactly(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&,                    \
+                              ShapeHit<Scalar>&);                                                                      \
+  template Direction exact_direction(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&);
 SUREHIT_INSTANTIATE(float, Triangle<float>)
 SUREHIT_INSTANTIATE(double, Triangle<double>)
 SUREHIT_INSTANTIATE(float, PlacedTriangle<float>)
 SUREHIT_INSTANTIATE(double, PlacedTriangle<double>)
-template Direction exact_direction(const SweptSphere<float>&, const Triangle<float>&, const SphereContact&);
-template Direction exact_direction(const SweptSphere<double>&, const Triangle<double>&, const SphereContact&);
 #undef SUREHIT_INSTANTIATE
 
 }  // namespace surehit::detail

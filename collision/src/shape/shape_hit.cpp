@@ -6,14 +6,11 @@
 #include "path_range.hpp"
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
-#include "shape/exact_box.hpp"
-#include "shape/exact_capsule.hpp"
-#include "shape/exact_sphere.hpp"
+#include "shape/contact_normal.hpp"
 #include "shape/shape_narrowphase.hpp"
 #include "shape/sphere_contact.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"
-#include "surehit/hit.hpp"
 #include "surehit/intersect.hpp"
 
 namespace surehit {
@@ -28,32 +25,6 @@ std::optional<ShapeHit<Scalar>> intersect_shape(const Shape& shape, const Triang
   detail::ShapeCandidate<Shape> candidate{0, triangle, {}};
   if (!narrowphase.find_contact(triangle, 1, candidate.contact)) return std::nullopt;
   return narrowphase.hit(candidate);
-}
-
-/// Returns the contact of a valid shape, for its direction.
-template <typename Shape, typename Scalar>
-std::optional<detail::ContactOf<Shape>> find_contact(const Shape& shape, const Triangle<Scalar>& triangle) {
-  // A box may pass several sides at once, and integers tell which one is the first.
-  if constexpr (std::is_same_v<Shape, SweptBox<Scalar>>) return detail::exact_contact(shape, triangle);
-  QueryStatistics statistics;
-  const ShapeQueryOptions<Scalar> options;
-  detail::ContactOf<Shape> contact;
-  if (!detail::ShapeNarrowphase<Shape>(shape, options, statistics).find_contact(triangle, 1, contact)) {
-    return std::nullopt;
-  }
-  return contact;
-}
-
-template <typename Shape, typename Scalar>
-Vector3<Scalar> normal_of_contact(const Shape& shape, const Triangle<Scalar>& triangle) {
-  const Vector3<Scalar> zero = Vector3<Scalar>::Zero();
-  if (!detail::is_valid(shape) || !detail::is_finite(triangle)) return zero;
-  const auto contact = find_contact(shape, triangle);
-  if (!contact) return zero;
-  const Vector3<Scalar> along = detail::unit_of<Scalar>(detail::exact_direction(shape, triangle, *contact));
-  if (along != zero) return along;
-  const Vector3<Scalar> n = normal(triangle);
-  return detail::sign_along(shape, triangle) > 0 ? Vector3<Scalar>(-n) : n;
 }
 
 /// Returns a + u (b - a) + v (c - a) on one axis. In double, a float has no roundings that count. Rounded weights may
@@ -90,7 +61,8 @@ template <FloatOrDouble Scalar>
 Vector3<Scalar> contact_normal(const std::type_identity_t<SweptShape<Scalar>>& shape,
                                const Triangle<Scalar>& triangle) noexcept {
   const FloatingPointEnvironment environment;
-  return std::visit([&](const auto& any) { return normal_of_contact(any, triangle); }, shape);
+  if (!detail::is_finite(triangle)) return Vector3<Scalar>::Zero();
+  return std::visit([&](const auto& any) { return detail::normal_of_contact(any, triangle); }, shape);
 }
 
 template <FloatOrDouble Scalar>

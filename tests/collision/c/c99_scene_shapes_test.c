@@ -33,6 +33,10 @@ static void single_queries(const surehit_scenef* scene, const surehit_instance_i
   EXPECT(surehit_scenef_shape_last_free_t(scene, &ball, &hit, &t) == SUREHIT_OK && t < 0.25F && t > 0.2499F);
   EXPECT(surehit_scenef_shape_last_free_point(scene, &ball, &hit, NULL, NULL, &point) == SUREHIT_OK);
   EXPECT(point.x == 2 && point.z > 1 && point.z < 1.0001F);
+  EXPECT(surehit_scenef_shape_contact_point(scene, &hit, &point) == SUREHIT_OK);
+  EXPECT(point.x == 2 && point.y == 1 && point.z == 0);
+  EXPECT(surehit_scenef_shape_contact_normal(scene, &ball, &hit, &point) == SUREHIT_OK);
+  EXPECT(point.x == 0 && point.y == 0 && point.z == 1);
   EXPECT(surehit_scenef_shape_first_hit(scene, &box, NULL, NULL, NULL, &hit) == SUREHIT_OK && hit.t == 0.25F);
 
   options.ignored_instance = ids[0];
@@ -78,6 +82,7 @@ static void moving_instance(surehit_colliderf* tile) {
   const surehit_swept_shaped rests = {{2, 1, 3}, {2, 1, 3}, {0, 0, 0}, 1, SUREHIT_SWEPT_SPHERE};
   const surehit_vector3d up = {0, 0, 4};
   surehit_scene_shape_hitd hit;
+  surehit_vector3d point;
   surehit_scened* scene = NULL;
   surehit_instance_id id;
   EXPECT(surehit_scened_create(&scene) == SUREHIT_OK);
@@ -85,6 +90,8 @@ static void moving_instance(surehit_colliderf* tile) {
   EXPECT(surehit_scened_set_motion(scene, id, &up) == SUREHIT_OK);
   EXPECT(surehit_scened_commit(scene, NULL) == SUREHIT_OK);
   EXPECT(surehit_scened_shape_first_hit(scene, &rests, NULL, NULL, NULL, &hit) == SUREHIT_OK && hit.t == 0.5);
+  EXPECT(surehit_scened_shape_contact_point(scene, &hit, &point) == SUREHIT_OK && point.z == 2);
+  EXPECT(surehit_scened_shape_contact_normal(scene, &rests, &hit, &point) == SUREHIT_OK && point.z == 1);
   EXPECT(surehit_scened_destroy(scene) == SUREHIT_OK);
 }
 

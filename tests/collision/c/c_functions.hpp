@@ -136,6 +136,8 @@ struct CFunctions;
     static constexpr auto scene_shape_overlaps = surehit_scene##s##_shape_overlaps;                     \
     static constexpr auto scene_shape_last_free_t = surehit_scene##s##_shape_last_free_t;               \
     static constexpr auto scene_shape_last_free_point = surehit_scene##s##_shape_last_free_point;       \
+    static constexpr auto scene_contact_point = surehit_scene##s##_shape_contact_point;                 \
+    static constexpr auto scene_contact_normal = surehit_scene##s##_shape_contact_normal;               \
   };
 SUREHIT_C_FUNCTIONS(float, f)
 SUREHIT_C_FUNCTIONS(double, d)

@@ -99,6 +99,10 @@ class CSceneShapes : public testing::Test {
     typename C::Vector point;
     ASSERT_EQ(C::scene_shape_last_free_point(c.handle, &c_shape, &c_hit, &c_options, &c_filter, &point), SUREHIT_OK);
     EXPECT_EQ(in_cpp(point), cpp.last_free_point(shape, *hit, filter, options));
+    ASSERT_EQ(C::scene_contact_point(c.handle, &c_hit, &point), SUREHIT_OK);
+    EXPECT_EQ(in_cpp(point), cpp.contact_point(*hit));
+    ASSERT_EQ(C::scene_contact_normal(c.handle, &c_shape, &c_hit, &point), SUREHIT_OK);
+    EXPECT_EQ(in_cpp(point), cpp.contact_normal(shape, *hit));
   }
 
   /// Shapes of one kind, with the options of each.
@@ -210,6 +214,13 @@ TYPED_TEST(CSceneShapes, that_are_wrong_are_refused) {
   refused(C::scene_shape_last_free_t(scene, &shape, nullptr, &t), SUREHIT_NULL_POINTER, "hit is");
   refused(C::scene_shape_last_free_point(scene, &shape, &hit, nullptr, nullptr, nullptr), SUREHIT_NULL_POINTER,
           "point is");
+  typename C::Vector vector = {7, 7, 7};
+  refused(C::scene_contact_point(nullptr, &hit, &vector), SUREHIT_NULL_POINTER, "scene is");
+  refused(C::scene_contact_point(scene, nullptr, &vector), SUREHIT_NULL_POINTER, "hit is");
+  refused(C::scene_contact_point(scene, &hit, nullptr), SUREHIT_NULL_POINTER, "point is");
+  refused(C::scene_contact_normal(scene, nullptr, &hit, &vector), SUREHIT_NULL_POINTER, "shape is");
+  refused(C::scene_contact_normal(scene, &shape, nullptr, &vector), SUREHIT_NULL_POINTER, "hit is");
+  refused(C::scene_contact_normal(scene, &shape, &hit, nullptr), SUREHIT_NULL_POINTER, "normal is");
   options.culling = 3;
   refused(first_hit(scene, &shape, &options, &hit), SUREHIT_INVALID_VALUE, "options.culling is 3");
   options.culling = 0;
@@ -223,6 +234,11 @@ TYPED_TEST(CSceneShapes, that_are_wrong_are_refused) {
       [](void*, std::size_t, const typename C::SceneShapeHit*) -> std::int32_t { return SUREHIT_STOP; }, nullptr};
   refused(C::scene_shape_any_hit(scene, &shape, nullptr, &stops, nullptr, &answer), SUREHIT_STOPPED, "said stop");
   EXPECT_EQ(answer, 0);
+  answer = 7;
+  typename C::Shape rests = shape;
+  rests.start.z = 1;
+  refused(C::scene_shape_overlaps(scene, &rests, nullptr, &stops, nullptr, &answer), SUREHIT_STOPPED, "said stop");
+  EXPECT_EQ(answer, 0);
   typename C::Sphere ball = {};
   const typename C::Shapes shapes = {&ball.start.x, SIZE_MAX / 4, SUREHIT_SWEPT_SPHERE};
   refused(C::scene_shape_first_hits(scene, &shapes, nullptr, &hit), SUREHIT_TOO_LARGE, "shapes.numbers");
@@ -230,17 +246,17 @@ TYPED_TEST(CSceneShapes, that_are_wrong_are_refused) {
   auto other = hit;
   other.triangle = 1;
   refused(C::scene_shape_last_free_t(scene, &shape, &other, &t), SUREHIT_OUT_OF_RANGE, "there is no triangle 1");
+  refused(C::scene_contact_point(scene, &other, &vector), SUREHIT_OUT_OF_RANGE, "there is no triangle 1");
+  refused(C::scene_contact_normal(scene, &shape, &other, &vector), SUREHIT_OUT_OF_RANGE, "there is no triangle 1");
   other = hit;
   other.instance.generation += 1;
   refused(C::scene_shape_last_free_t(scene, &shape, &other, &t), SUREHIT_STALE_ID, "no instance with index 0");
   other.instance = {7, 0};
-  answer = 7;
-  typename C::Shape rests = shape;
-  rests.start.z = 1;
-  refused(C::scene_shape_overlaps(scene, &rests, nullptr, &stops, nullptr, &answer), SUREHIT_STOPPED, "said stop");
-  EXPECT_EQ(answer, 0);
   refused(C::scene_shape_last_free_t(scene, &shape, &other, &t), SUREHIT_STALE_ID, "no instance with index 7");
+  refused(C::scene_contact_point(scene, &other, &vector), SUREHIT_STALE_ID, "no instance with index 7");
+  refused(C::scene_contact_normal(scene, &shape, &other, &vector), SUREHIT_STALE_ID, "no instance with index 7");
   EXPECT_EQ(t, TypeParam{7});
+  EXPECT_EQ(vector.x, TypeParam{7});
 
   // No query sees an instance before the commit.
   ASSERT_EQ(C::add(scene, collider, nullptr, 1, 0, &second), SUREHIT_OK);
@@ -248,6 +264,8 @@ TYPED_TEST(CSceneShapes, that_are_wrong_are_refused) {
   other.instance = second;
   EXPECT_EQ(C::scene_shape_last_free_t(scene, &shape, &other, &t), SUREHIT_OK);
   EXPECT_EQ(t, TypeParam{0});
+  EXPECT_EQ(C::scene_contact_normal(scene, &shape, &other, &vector), SUREHIT_OK);
+  EXPECT_EQ(vector.z, TypeParam{0});
   ASSERT_EQ(C::remove(scene, first), SUREHIT_OK);
   refused(C::scene_shape_last_free_t(scene, &shape, &hit, &t), SUREHIT_STALE_ID, "no instance with index 0");
   ASSERT_EQ(C::commit(scene, nullptr), SUREHIT_OK);

@@ -109,6 +109,9 @@ TYPED_TEST(SceneAllocation, none_in_queries_of_balls) {
               ASSERT_TRUE(hit);
               static_cast<void>(this->scene.any_hit(ball, odd));
               static_cast<void>(this->scene.overlaps(ball));
+              static_cast<void>(this->scene.overlaps(ball, odd));
+              static_cast<void>(this->scene.contact_point(*hit));
+              static_cast<void>(this->scene.contact_normal(ball, *hit));
               static_cast<void>(this->scene.last_free_t(ball, *hit));
               static_cast<void>(this->scene.last_free_point(ball, *hit));
               this->scene.first_hits(balls, hits, {.filter = odd});

@@ -139,7 +139,10 @@ class SceneSnapshots : public testing::Test {
       const auto first = subject.first_hit(ball);
       answers.numbers.push_back(subject.any_hit(ball) ? 1 : 0);
       answers.numbers.push_back(subject.overlaps(ball) ? 1 : 0);
-      if (first) answers.free_t.push_back(subject.last_free_t(ball, *first));
+      if (!first) continue;
+      answers.free_t.push_back(subject.last_free_t(ball, *first));
+      answers.points.push_back(subject.contact_point(*first));
+      answers.points.push_back(subject.contact_normal(ball, *first));
     }
     answers.ids = subject.instances();
     answers.numbers.push_back(subject.instance_count());

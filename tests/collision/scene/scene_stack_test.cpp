@@ -187,6 +187,35 @@ TYPED_TEST(SceneStack, of_triangles_and_normals) {
   }
 }
 
+/// Normals of contacts decide their pairs again, with integers. The longest are those of all numbers of all sizes.
+TYPED_TEST(SceneStack, of_contacts) {
+  using Scalar = TypeParam;
+  PaintedStack stack;
+  std::size_t deepest = 0;
+  const auto measure = [&](const auto& call) { deepest = std::max(deepest, stack.bytes_used_by(call)); };
+  std::size_t contacts = 0;
+  for (const auto& [start, end] : this->segments()) {
+    for (const Scalar size : {this->huge / 3, Scalar(0.25), this->tiny}) {
+      for (const SweptShape<Scalar>& shape :
+           {SweptShape<Scalar>(SweptSphere<Scalar>{start, end, size}),
+            SweptShape<Scalar>(SweptBox<Scalar>{start, end, {size, this->tiny, size / 3}}),
+            SweptShape<Scalar>(SweptCapsule<Scalar>{start, end, {size, this->tiny, -size}, size})}) {
+        std::vector<SceneShapeHit<Scalar>> hits;
+        this->scene_.all_hits(shape, hits);
+        hits.resize(std::min<std::size_t>(hits.size(), 4));
+        for (const auto& hit : hits) {
+          measure([&] { static_cast<void>(this->scene_.contact_point(hit)); });
+          measure([&] { static_cast<void>(this->scene_.contact_normal(shape, hit)); });
+          ++contacts;
+        }
+      }
+    }
+  }
+  testing::Test::RecordProperty("bytes", std::to_string(deepest));
+  EXPECT_GT(contacts, 50U);
+  EXPECT_LT(deepest, promised_bytes_of_shapes<Scalar>);
+}
+
 }  // namespace
 }  // namespace surehit::test
 

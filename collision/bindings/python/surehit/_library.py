@@ -34,7 +34,8 @@ _OF_SCENES: dict[str, list[Any]] = {
     "motion": [_P, _ID, _P], "mask": [_P, _ID, _P], "user_data": [_P, _ID, _P], "triangle_count": [_P, _ID, _P],
     "triangle": [_P, _ID, c_uint32, _P], "normal": [_P, _ID, c_uint32, _P], "box": [_P, _P], "memory_bytes": [_P, _P],
     "first_hit": [_P] * 6, "any_hit": [_P] * 6, "all_hits": [_P] * 6 + [c_size_t, _P], "first_hits": [_P] * 4,
-    "any_hits": [_P] * 4, "last_free_point": [_P] * 6}
+    "any_hits": [_P] * 4, "last_free_point": [_P] * 6, "shape_contact_point": [_P] * 3,
+    "shape_contact_normal": [_P] * 4}
 # Those that colliders and scenes have alike.
 _ABOUT_SHAPES: dict[str, list[Any]] = {
     "shape_first_hit": [_P] * 6, "shape_any_hit": [_P] * 6, "shape_all_hits": [_P] * 6 + [c_size_t, _P],

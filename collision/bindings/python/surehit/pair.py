@@ -45,7 +45,11 @@ def intersect(path: Path | SweptShape, triangle: ArrayLike, *, dtype: DTypeLike 
 
 def contact_point(triangle: ArrayLike, hit: ShapeHit | SceneShapeHit,
                   dtype: DTypeLike | None = None) -> NDArray[Any]:
-    """Returns the touched point of a triangle, a + u (b - a) + v (c - a), within 4 ulp of its largest coordinate."""
+    """Returns the touched point of a triangle, a + u (b - a) + v (c - a).
+
+    u and v are rounded once, and each of them adds at most half an ulp of 1 times its edge. The sum adds at most 4 ulp
+    of the triangle's largest coordinate. In a scene, ask ``Scene.contact_point``.
+    """
     layouts = layouts_of(wished_dtype(triangle) if dtype is None else dtype)
     struct = layouts.shape.Hit(hit.t, hit.u, hit.v, hit.triangle, int(hit.feature), hit.started_touching)
     result = np.empty(3, layouts.dtype)
@@ -56,6 +60,9 @@ def contact_point(triangle: ArrayLike, hit: ShapeHit | SceneShapeHit,
 
 def contact_normal(shape: SweptShape, triangle: ArrayLike, dtype: DTypeLike | None = None) -> NDArray[Any]:
     """Returns the unit direction in which a triangle pushes a shape where they first touch. It is zero if none is told.
+
+    Each component is within 8 ulp(1) of the true one in double, and within 1 in float. In a scene, ask
+    ``Scene.contact_normal``.
     """
     layouts = layouts_of(wished_dtype(triangle) if dtype is None else dtype)
     result = np.empty(3, layouts.dtype)

@@ -17,6 +17,7 @@ from ._options import Raised, executor_pointer
 from ._queries import Queries
 from .collider import Collider, _bits, _id
 from .hits import InstanceId, SceneHit, SceneShapeHit
+from .shapes import SweptShape
 
 
 def rigid_pose(quaternion: ArrayLike, translation: ArrayLike = (0, 0, 0),
@@ -113,6 +114,29 @@ class _Instances(Queries[SceneHit, SceneShapeHit]):
         """Returns the unit normal of a placed triangle. It is that of the exact image."""
         normal = np.empty(3, self.dtype)
         check(self._function("normal")(self._handle, _struct(instance), _id(triangle), normal.ctypes.data))
+        return normal
+
+    def contact_point(self, hit: SceneShapeHit) -> NDArray[Any]:
+        """Returns the touched point of a hit of a moving shape, where the instance is at the hit's t.
+
+        Each coordinate is the exact one for the t, u and v of the hit, rounded once. They are rounded too, so each adds
+        at most half an ulp of 1: u and v times a placed edge, and t times the motion.
+        """
+        point = np.empty(3, self.dtype)
+        check(self._function("shape_contact_point")(self._handle, byref(self._struct_of_touch(hit)),
+                                                    point.ctypes.data))
+        return point
+
+    def contact_normal(self, shape: SweptShape, hit: SceneShapeHit) -> NDArray[Any]:
+        """Returns the unit direction in which the triangle of one of a shape's hits pushes it where they first touch.
+
+        It is that of the exact image, as its instance sees the shape if it moves. It is zero if none is told. The error
+        is that of ``surehit.contact_normal``.
+        """
+        self._shapes_of(shape)
+        normal = np.empty(3, self.dtype)
+        check(self._function("shape_contact_normal")(self._handle, byref(shape.struct(self._layouts)),
+                                                     byref(self._struct_of_touch(hit)), normal.ctypes.data))
         return normal
 
 

@@ -73,6 +73,29 @@ SUREHIT_C_API surehit_status surehit_scenef_shape_last_free_point(const surehit_
                                                                   const surehit_scene_shape_filterf* filter,
                                                                   surehit_vector3f* point);
 
+/// Sets `point` to the touched point of a hit, where the instance is at the hit's t. With the corners of the mesh, the
+/// pose (M, m) and the motion d, it is M (a + u (b - a) + v (c - a)) + m + t d.
+///
+/// Each coordinate is the exact one for the t, u and v of the hit, rounded once to nearest. They are rounded too, so
+/// each adds at most half an ulp of 1: u and v times a placed edge, and t times the motion.
+///
+/// `hit` must be one of the hits in this scene. Fails with `SUREHIT_STALE_ID` if its instance is not there, or was
+/// removed since the last commit. Allocates nothing.
+SUREHIT_C_API surehit_status surehit_scenef_shape_contact_point(const surehit_scenef* scene,
+                                                                const surehit_scene_shape_hitf* hit,
+                                                                surehit_vector3f* point);
+
+/// Sets `normal` to the unit direction in which the triangle of a hit pushes the shape where they first touch, see
+/// `surehit_trianglef_shape_contact_normal`. It is that of the exact image, before any corner is rounded, and its error
+/// is the same. If the instance moves, it is as the instance sees the shape.
+///
+/// `hit` must be one of the shape's hits in this scene. Only its ids are used. Fails as
+/// `surehit_scenef_shape_contact_point` does. Takes some ten microseconds, and allocates nothing.
+SUREHIT_C_API surehit_status surehit_scenef_shape_contact_normal(const surehit_scenef* scene,
+                                                                 const surehit_swept_shapef* shape,
+                                                                 const surehit_scene_shape_hitf* hit,
+                                                                 surehit_vector3f* normal);
+
 #ifdef __cplusplus
 }
 #endif
