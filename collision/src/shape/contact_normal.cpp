@@ -43,14 +43,13 @@ std::optional<ContactOf<Shape>> contact_of(const Shape& shape, const AnyTriangle
 template <typename Shape, typename AnyTriangle>
 Vector3<ScalarOf<Shape>> normal_of_contact(const Shape& shape, const AnyTriangle& triangle) {
   using Scalar = ScalarOf<Shape>;
-  const Vector3<Scalar> zero = Vector3<Scalar>::Zero();
-  if (!is_valid(shape)) return zero;
-  const auto contact = contact_of(shape, triangle);
-  if (!contact) return zero;
-  const Vector3<Scalar> along = unit_of<Scalar>(exact_direction(shape, triangle, *contact));
-  if (along != zero) return along;
-  const Vector3<Scalar> n = unit_of_cross<Scalar>(exact_cross(triangle));
-  return sign_along(shape, triangle) > 0 ? Vector3<Scalar>(-n) : n;
+  const auto contact = is_valid(shape) ? contact_of(shape, triangle) : std::nullopt;
+  if (!contact) return Vector3<Scalar>::Zero();
+  Vector3<Scalar> along = unit_of<Scalar>(exact_direction(shape, triangle, *contact));
+  if (!along.isZero(0)) return along;
+  Vector3<Scalar> n = unit_of_cross<Scalar>(exact_cross(triangle));
+  if (sign_along(shape, triangle) > 0) n = -n;
+  return n;
 }
 
 #define SUREHIT_INSTANTIATE(Shape, Scalar)                                                   \
