@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -223,6 +224,29 @@ TEST_F(GpuColliderTest, hits_at_times_that_no_walk_knows) {
   expect_hits();
   for (const float share : {0.5F, 0.48F, 0.46F, 0.44F}) add(far, share * far);
   expect_hits();
+}
+
+/// The boxes of 12,000 slivers lie on each path, and the slivers beside it. The walk ends before it comes to the
+/// triangle that is hit.
+TEST_F(GpuColliderTest, walks_that_take_too_many_steps_are_left_to_the_host) {
+  GeneratedMesh<float> mesh;
+  for (int i = 0; i < 12'000; ++i) {
+    const float z = static_cast<float>(i) * 0x1p-14F;
+    mesh.add({{-1, -1, z}, {1, 1, z}, {1, 0.875F, z}});
+  }
+  mesh.add({{-1, -1, -1}, {-1, 1, -1}, {1, 1, -1}});
+  const auto collider = std::make_shared<Colliderf>(mesh.view());
+  Scenef scene;
+  scene.add(collider, Posef::translated({0, 0, 0.5F}));
+  scene.commit();
+  std::vector<Segmentf> paths;
+  for (int i = 0; i < 16; ++i) {
+    const float x = -0.5F - static_cast<float>(i) * 0x1p-10F;
+    paths.push_back({{x, 0.5F, 3}, {x, 0.5F, -3}});
+  }
+  EXPECT_EQ(expect_same_as_host(GpuCollider(device, *collider), *collider, paths, {}, &statistics), paths.size());
+  EXPECT_EQ(expect_same_as_host(GpuScene(device, scene.snapshot()), scene, paths, {}, &statistics), paths.size());
+  EXPECT_EQ(statistics.undecided, statistics.paths);
 }
 
 TEST_F(GpuColliderTest, meshes_of_others) {
