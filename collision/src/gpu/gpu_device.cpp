@@ -13,8 +13,10 @@ GpuResult GpuDevice::try_list(std::vector<GpuDescription>& descriptions) {
   descriptions.clear();
   detail::GpuDeviceState state;
   std::vector<std::pair<VkPhysicalDevice, detail::DeviceReport>> found;
-  if (auto error = state.start()) return *error;
-  if (auto error = state.find(found)) return *error;
+  auto error = state.start();
+  if (!error) error = state.find(found);
+  if (error && error->reason == GpuError::Reason::no_device) return {};  // A loader without a driver.
+  if (error) return *error;
   for (const auto& [device, report] : found) descriptions.push_back(detail::description_of(report));
   return {};
 }

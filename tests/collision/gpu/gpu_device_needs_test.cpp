@@ -194,6 +194,9 @@ TEST(GpuLoaderTest, without_a_driver_there_is_an_error) {
   const bool has_loader = opened.error().reason != Reason::no_loader;
   EXPECT_EQ(opened.error().reason, has_loader ? Reason::no_device : Reason::no_loader) << opened.error().what();
   EXPECT_FALSE(device.is_open());
+  std::vector<GpuDescription> descriptions(1);
+  EXPECT_EQ(GpuDevice::try_list(descriptions).has_value(), has_loader);  // No device is no failure.
+  EXPECT_TRUE(descriptions.empty());
   unsetenv("VK_ICD_FILENAMES");
   unsetenv("VK_DRIVER_FILES");
 }
