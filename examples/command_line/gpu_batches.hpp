@@ -9,13 +9,9 @@
 #include <surehit/path_span.hpp>
 #include <surehit/scene.hpp>
 
-namespace surehit::example {
+#include "command_line/gpu_counts.hpp"
 
-/// What the batches on a GPU did.
-struct GpuCounts {
-  std::uint64_t paths = 0;
-  std::uint64_t by_host = 0;  ///< the paths that the device left to the host
-};
+namespace surehit::example {
 
 /// What the batches of a collider, or those of a scene, take and give.
 template <typename Asked>

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "command_line/gpu_batches.hpp"
+#include "command_line/gpu_record.hpp"
 
 namespace surehit::example {
 
@@ -26,8 +27,7 @@ struct GpuBatchesOf<Asked>::State {
     const GpuBatchResult result = question(GpuBatchOptions{.goes_on_without_device = true, .statistics = &statistics});
     if (!result) throw GpuError(*result.error);
     const std::lock_guard lock(mutex);
-    counts.paths += statistics.paths;
-    counts.by_host += statistics.undecided;
+    add(result, statistics, counts);
   }
 
   GpuDevice device;

@@ -131,6 +131,7 @@ void look(const Request& request) {
   const GpuCounts counts = gpu->counts();
   std::printf("on %s, which left %llu segments to the host\n", gpu->name().c_str(),
               static_cast<unsigned long long>(counts.by_host));
+  warn_of_failure("line_of_sight", counts);
 }
 
 Work describe_program(CLI::App& app) {

@@ -197,6 +197,7 @@ Canvas draw_stage(const Request& request) {
     const GpuCounts of_gpu = gpu->counts();
     std::fprintf(text_stream(request), "on %s, which left %llu of %llu to the host\n", gpu->name().c_str(),
                  static_cast<unsigned long long>(of_gpu.by_host), static_cast<unsigned long long>(of_gpu.paths));
+    warn_of_failure("render", of_gpu);
   }
   return canvas;
 }

@@ -95,12 +95,13 @@ class Queries {
 
   void write(std::string_view header, Answers answers) const {
     const QueryStatistics statistics = write_answers(request_, header, table_.rows(), std::bind_front(answers, this));
-    if (!request_.wants_statistics) return;
-    std::fputs(text_of(statistics).c_str(), stderr);
+    if (request_.wants_statistics) std::fputs(text_of(statistics).c_str(), stderr);
     if (!gpu_) return;
-    const auto [on_gpu, by_host] = gpu_->counts();
-    std::fprintf(stderr, "gpu_paths,%llu,,\ngpu_left_to_host,%llu,,\n", static_cast<unsigned long long>(on_gpu),
-                 static_cast<unsigned long long>(by_host));
+    const GpuCounts counts = gpu_->counts();
+    warn_of_failure("surehit-query", counts);
+    if (!request_.wants_statistics) return;
+    std::fprintf(stderr, "gpu_paths,%llu,,\ngpu_left_to_host,%llu,,\n", static_cast<unsigned long long>(counts.paths),
+                 static_cast<unsigned long long>(counts.by_host));
   }
 
   [[nodiscard]] std::vector<Shape> paths(std::size_t begin, std::size_t end) const {

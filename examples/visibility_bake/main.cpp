@@ -307,6 +307,12 @@ void work(const Request& request) {
   std::fprintf(text, "%.0f segments: %.3f s, %.2f M segments/s by %d process%s of %u thread%s\n", segments, seconds,
                segments / seconds / 1e6, ranks.size(), ranks.size() == 1 ? "" : "es", options.threads,
                options.threads == 1 ? "" : "s");
+  if (gpu) {
+    const GpuCounts counts = gpu->counts();
+    std::fprintf(text, "on %s, which left %llu segments to the host\n", gpu->name().c_str(),
+                 static_cast<unsigned long long>(counts.by_host));
+    warn_of_failure("visibility_bake", counts);
+  }
   write_files(request, plan, job.visibility, job.place.start, *job.files);
   job.checkpoint->remove();
 }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "command_line/gpu_record.hpp"
 #include "examples/surehit_query_run.hpp"
 #include "gpu_answers.hpp"
 #include "level/level.hpp"
@@ -73,6 +74,24 @@ TEST_F(GpuBatchesTest, surehit_query_says_what_a_gpu_cannot_do) {
   expect_refused("--gpu --scalar double", 2, "only float has it");
   expect_refused("--gpu --path sphere", 2, "only straight paths have it");
   expect_refused("--gpu-name 'no such device'", 1, "Vulkan has no device with no such device in its name; there is ");
+}
+
+TEST(GpuCountsTest, what_the_host_did_and_why_a_device_failed_first_are_told) {
+  example::GpuCounts counts;
+  GpuBatchResult result;
+  add(result, {.paths = 10, .hits = 8, .rounded_by_host = 3, .undecided = 2}, counts);
+  EXPECT_EQ(counts.paths, 10U);
+  EXPECT_EQ(counts.by_host, 5U);
+  testing::internal::CaptureStderr();
+  warn_of_failure("program", counts);
+  for (const char* failure : {"it was lost", "it is still lost"}) {
+    result.error = GpuError(GpuError::Reason::device_lost, failure);
+    add(result, {.paths = 5, .undecided = 5}, counts);
+  }
+  EXPECT_EQ(counts.by_host, 15U);
+  warn_of_failure("program", counts);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "program: warning: the host went on without the device: it was lost\n");
 }
 
 TEST_F(GpuBatchesTest, line_of_sight_sees_the_same) {
