@@ -19,7 +19,7 @@ std::optional<GpuError> VulkanFunctions::open_loader(const char* name) {
   library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     return GpuError(GpuError::Reason::no_loader,
-                    std::string("the Vulkan loader ") + name + " cannot be opened; install libvulkan1 and a driver");
+                    std::string("the Vulkan loader ") + name + " cannot be opened; it may not be installed");
   }
   GetInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
   if (GetInstanceProcAddr == nullptr) return missing_function("GetInstanceProcAddr");
@@ -61,13 +61,16 @@ std::optional<GpuError> error_of(VkResult result, std::string_view what) {
       return error(Reason::out_of_memory, "too little memory on the host");
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
       return error(Reason::out_of_memory, "too little memory on the device");
+    case VK_ERROR_TOO_MANY_OBJECTS:
+      return error(Reason::out_of_memory, "too many objects on the device");
     case VK_ERROR_DEVICE_LOST:
       return error(Reason::device_lost, "the device was lost", "; it must be opened anew");
     case VK_TIMEOUT:
       return error(Reason::device_lost, "the device has not answered for two minutes", "; it must be opened anew");
     case VK_ERROR_INCOMPATIBLE_DRIVER:
+      return error(Reason::no_device, "no driver of Vulkan was found", "; a driver may not be installed");
     case VK_ERROR_INITIALIZATION_FAILED:
-      return GpuError(Reason::no_device, "no driver of Vulkan could be started; a driver may not be installed");
+      return error(Reason::failed, "a driver of Vulkan could not start");
     default:
       return error(Reason::failed, "Vulkan failed with " + std::to_string(static_cast<int>(result)));
   }

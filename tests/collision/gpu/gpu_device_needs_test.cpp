@@ -63,6 +63,10 @@ TEST(GpuNeedsTest, a_device_that_lacks_something_is_refused_with_the_reason) {
   EXPECT_EQ(missing([](DeviceReport& report) { report.memory.memoryTypes[0].propertyFlags = 0; }), "memory of its own");
   EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxComputeWorkGroupInvocations = 63; }),
             "work groups of 64 threads");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxComputeWorkGroupSize[0] = 63; }),
+            "work groups of 64 threads");
+  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxComputeWorkGroupCount[0] = 1023; }),
+            "work groups of 64 threads");
   EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxPerStageDescriptorStorageBuffers = 5; }),
             "six buffers for a shader");
 }
@@ -205,11 +209,16 @@ TEST(GpuLoaderTest, each_failure_has_its_reason) {
   const auto reason = [](VkResult result) { return detail::error_of(result, "while testing")->reason; };
   EXPECT_FALSE(detail::error_of(VK_SUCCESS, ""));
   EXPECT_EQ(reason(VK_ERROR_OUT_OF_HOST_MEMORY), Reason::out_of_memory);
+  EXPECT_EQ(reason(VK_ERROR_OUT_OF_DEVICE_MEMORY), Reason::out_of_memory);
+  EXPECT_EQ(reason(VK_ERROR_TOO_MANY_OBJECTS), Reason::out_of_memory);
   EXPECT_EQ(reason(VK_ERROR_INCOMPATIBLE_DRIVER), Reason::no_device);
   EXPECT_EQ(reason(VK_TIMEOUT), Reason::device_lost);
   EXPECT_EQ(reason(VK_ERROR_UNKNOWN), Reason::failed);
   EXPECT_STREQ(detail::error_of(VK_ERROR_DEVICE_LOST, "while testing")->what(),
                "the device was lost while testing; it must be opened anew");
+  EXPECT_EQ(reason(VK_ERROR_INITIALIZATION_FAILED), Reason::failed);
+  EXPECT_STREQ(detail::error_of(VK_ERROR_INITIALIZATION_FAILED, "while testing")->what(),
+               "a driver of Vulkan could not start while testing");
 }
 
 }  // namespace
