@@ -175,7 +175,9 @@ struct GpuStatistics {
   std::uint64_t rounded = 0;  ///< The number of first hits whose t, u and v the device rounded.
   /// The number of first hits that the device found, and whose t, u and v the host rounded.
   std::uint64_t rounded_by_host = 0;
-  std::uint64_t undecided = 0;   ///< The number of paths that the device left to the host as a whole.
+  /// The number of paths that the host answered as a whole: those that the device left to it, those of a batch with a
+  /// filter or of a mesh that the device cannot have, and those after a failure.
+  std::uint64_t undecided = 0;
   std::uint64_t dispatches = 0;  ///< The number of pieces of work that the device was given.
 };
 
@@ -211,8 +213,8 @@ class GpuCollider {
   /// Makes one that has no mesh. It must be uploaded before it is asked.
   GpuCollider() noexcept = default;
 
-  /// Uploads a collider to an open device. Fails if the device has too little memory. This is then as before. May throw
-  /// std::bad_alloc.
+  /// Uploads a collider to an open device. Fails if the device is not open or was lost, if it has too little memory, or
+  /// if the mesh is too large for one of its buffers. This is then as before. May throw std::bad_alloc.
   GpuResult try_upload(const GpuDevice& device, const Colliderf& collider);
   /// Uploads the collider anew, after it was rebuilt or its masks were changed. Fails as `try_upload` does.
   GpuResult try_update();

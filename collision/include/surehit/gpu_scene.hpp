@@ -34,8 +34,9 @@ class GpuScene {
   /// Makes one that has no scene. It must be uploaded before it is asked.
   GpuScene() noexcept = default;
 
-  /// Uploads a scene to an open device. Fails if the device has too little memory, or fewer than eight buffers for a
-  /// shader. This is then as before. May throw std::bad_alloc.
+  /// Uploads a scene to an open device. Fails as `GpuCollider::try_upload` does. Fails too if the device has fewer than
+  /// eight buffers for a shader, or if a collider was rebuilt since the scene was committed. This is then as before.
+  /// May throw std::bad_alloc.
   GpuResult try_upload(const GpuDevice& device, const SceneSnapshotf& scene);
   /// Uploads another snapshot to the same device, usually after a commit. Fails as `try_upload` does.
   ///

@@ -9,7 +9,7 @@
 
 namespace surehit::detail {
 
-/// What narrows a path on the device, as `tree_walk.comp` reads it.
+/// What narrows a path on the device, as `path_kernel.glsl` declares it.
 struct PathLimits {
   float t_first, det_first, t_last, det_last;  ///< The weights of the ends of the range, as in `RangeWeights`.
   float first, last;                           ///< The range. 2^100 stands for infinity.
