@@ -35,7 +35,9 @@ class DeviceBuffer {
     if (const auto error = buffer_.make(state_, size, GpuBuffer::Place::device, "a benchmark")) throw GpuError(*error);
   }
   void fill(std::span<const std::byte> bytes) {
-    if (const auto error = state_.upload(bytes, buffer_)) throw GpuError(*error);
+    detail::GpuWork work(state_);
+    if (const auto error = work.begin(nullptr)) throw GpuError(*error);
+    if (const auto error = state_.upload(work.slots()[0], bytes, buffer_)) throw GpuError(*error);
   }
   [[nodiscard]] GpuBufferPart part() const {
     const VkBuffer handle = buffer_.get();

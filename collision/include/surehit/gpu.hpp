@@ -119,7 +119,8 @@ struct GpuPaths {
 /// An open device of Vulkan. Copies refer to the same device, which closes with the last of them and of its colliders.
 ///
 /// Vulkan's loader is opened when a device is listed or opened, so a program starts without it. Any number of threads
-/// may use a device. Their batches take turns: a batch holds the device until its end.
+/// may use a device. No batch holds it, so an executor or a filter may ask it anew. Each batch under way at the same
+/// time takes 16 MB on the device and as much on the host. The memory of four is kept for later ones.
 ///
 /// A program that has a device of its own lets the library adopt it, and so keeps paths and answers on the device.
 class GpuDevice {
@@ -233,9 +234,7 @@ class GpuCollider {
   /// Sets `hits[i]` to the first hit of path i, as `Collider::first_hits` does. Lengths are as there.
   ///
   /// If there is a filter, the host answers all paths, because the device cannot call it. An executor spreads the work
-  /// of the host. It must not ask the same device, since it would wait for the end of its own batch. So a pool
-  /// that is the executor of a batch must not begin batches on that device. `BatchOptions::statistics` count the work
-  /// of the host alone.
+  /// of the host. `BatchOptions::statistics` count the work of the host alone.
   ///
   /// Fails if the device fails, or if the collider has changed since it was uploaded. Work is cut into pieces of
   /// bounded length, so that a desktop stays alive. May throw std::bad_alloc.

@@ -1,7 +1,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,18 +54,16 @@ GpuResult GpuCollider::try_upload(const GpuDevice& device, const Colliderf& coll
   state->is_on_device = !tree.nodes.empty();
   state->mesh = std::make_shared<detail::GpuMesh>();
   if (state->is_on_device) {
-    GpuDeviceState& on = *state->device;
-    detail::GpuMesh& mesh = *state->mesh;
-    const std::lock_guard lock(on.mutex);
-    if (on.is_lost) return GpuError(GpuError::Reason::device_lost, "the device was lost; it must be opened anew");
-    detail::GpuWork work(on, state->mesh);
-    if (auto error = on.upload(std::as_bytes(std::span(tree.nodes)), "the nodes of a mesh", *mesh.nodes)) {
+    const detail::GpuMesh& mesh = *state->mesh;
+    detail::GpuWork work(*state->device);
+    if (auto error = work.begin(state->mesh)) return *error;
+    if (auto error = work.upload(std::as_bytes(std::span(tree.nodes)), "the nodes of a mesh", *mesh.nodes)) {
       return *error;
     }
-    if (auto error = on.upload(std::as_bytes(std::span(tree.triangles)), "the triangles of a mesh", *mesh.triangles)) {
+    if (auto error =
+            work.upload(std::as_bytes(std::span(tree.triangles)), "the triangles of a mesh", *mesh.triangles)) {
       return *error;
     }
-    work.end();
   }
   state_ = std::move(state);
   return {};

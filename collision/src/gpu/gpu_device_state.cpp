@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "gpu/device_answers.hpp"
-#include "gpu/path_limits.hpp"
 #include "roundings.spv.hpp"
 #include "scene_walk.spv.hpp"
 #include "tree_walk.spv.hpp"
@@ -12,17 +10,7 @@
 namespace surehit::detail {
 namespace {
 
-constexpr std::uint64_t one_second = 1'000'000'000;
-constexpr std::uint64_t two_minutes = 120 * one_second;
 constexpr const char* while_beginning = "while beginning a batch";
-
-/// A structure of Vulkan with all members zero, except for its type.
-template <typename Structure>
-Structure of_type(VkStructureType type) {
-  Structure structure = {};
-  structure.sType = type;
-  return structure;
-}
 
 GpuError lacking(const std::string& device_name, const std::string& missing) {
   return {GpuError::Reason::missing_feature, device_name + " cannot be used: it lacks " + missing};
@@ -41,14 +29,8 @@ GpuDeviceState::~GpuDeviceState() {
       forget();
       return;
     }
-    mesh.reset();
-    for (GpuSlot& slot : slots) {
-      vulkan.DestroyFence(device, slot.fence, nullptr);
-      slot = {};
-    }
+    pairs.clear();
     for (VkPipeline pipeline : pipelines_) vulkan.DestroyPipeline(device, pipeline, nullptr);
-    vulkan.DestroyDescriptorPool(device, sets_, nullptr);
-    vulkan.DestroyCommandPool(device, commands_, nullptr);
     vulkan.DestroyPipelineLayout(device, layout_, nullptr);
     vulkan.DestroyDescriptorSetLayout(device, set_layout_, nullptr);
     if (!is_adopted) vulkan.DestroyDevice(device, nullptr);
@@ -165,18 +147,13 @@ GpuHandles GpuDeviceState::handles() const {
 }
 
 std::optional<GpuError> GpuDeviceState::prepare() {
-  auto pool = of_type<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
-  pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-  pool.queueFamilyIndex = family_;
-  const VkResult made = vulkan.CreateCommandPool(device, &pool, nullptr, &commands_);
-  if (auto error = error_of(made, "while opening " + name, commands_)) return error;
   if (auto error = make_layouts()) return error;
   if (auto error = make_pipeline(GpuTask::roundings, roundings_spirv)) return error;
-  if (auto error = make_slots()) return error;
-
   const std::vector<RoundingCase> cases = rounding_cases();
   std::vector<RoundingResult> results(cases.size());
-  if (auto error = round(cases, results)) return error;
+  GpuWork work(*this);
+  if (auto error = work.begin(nullptr)) return error;
+  if (auto error = round(work.slots()[0], cases, results)) return error;
   if (const auto fault = rounding_fault(cases, results)) {
     return GpuError(GpuError::Reason::missing_feature, name + " cannot be used: " + *fault);
   }
@@ -188,6 +165,7 @@ std::optional<GpuError> GpuDeviceState::prepare_scenes() {
   if (!has_buffers_for_scenes(report)) {
     return GpuError(GpuError::Reason::missing_feature, name + " takes no scenes: it lacks eight buffers for a shader");
   }
+  const std::lock_guard lock(scenes_mutex_);
   for (const GpuTask task : {GpuTask::scene_any_hits, GpuTask::scene_first_hits}) {
     if (pipelines_[static_cast<std::size_t>(task)] != VK_NULL_HANDLE) continue;
     if (auto error = make_pipeline(task, scene_walk_spirv)) return error;
@@ -241,45 +219,6 @@ std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<co
   return error_of(made, what, pipeline);
 }
 
-std::optional<GpuError> GpuDeviceState::make_slots() {
-  const std::string what = "while opening " + name;
-  const auto slot_count = static_cast<std::uint32_t>(slots.size());
-  const VkDescriptorPoolSize sizes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer_count() * slot_count};
-  auto pool = of_type<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
-  pool.maxSets = slot_count;
-  pool.poolSizeCount = 1;
-  pool.pPoolSizes = &sizes;
-  if (auto error = error_of(vulkan.CreateDescriptorPool(device, &pool, nullptr, &sets_), what, sets_)) return error;
-  for (GpuSlot& slot : slots) {
-    auto commands = of_type<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
-    commands.commandPool = commands_;
-    commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    commands.commandBufferCount = 1;
-    if (auto error = error_of(vulkan.AllocateCommandBuffers(device, &commands, &slot.commands), what)) return error;
-    auto set = of_type<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
-    set.descriptorPool = sets_;
-    set.descriptorSetCount = 1;
-    set.pSetLayouts = &set_layout_;
-    if (auto error = error_of(vulkan.AllocateDescriptorSets(device, &set, &slot.buffers), what)) return error;
-    const auto fence = of_type<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-    const VkResult made = vulkan.CreateFence(device, &fence, nullptr, &slot.fence);
-    if (auto error = error_of(made, what, slot.fence)) return error;
-    struct Wanted {
-      GpuBuffer *on_host, *on_device;
-      std::size_t size;
-    };
-    for (const Wanted& wanted : {Wanted{&slot.host_paths, &slot.paths, sizeof(float[6])},
-                                 Wanted{&slot.host_limits, &slot.limits, sizeof(PathLimits)},
-                                 Wanted{&slot.host_answers, &slot.answers, sizeof(DeviceSceneHit)},
-                                 Wanted{&slot.host_list, &slot.list, sizeof(ListedPath)}}) {
-      const std::size_t bytes = wanted.size * paths_in_dispatch + sizeof(ListedCounts);
-      if (auto error = wanted.on_host->make(*this, bytes, GpuBuffer::Place::host, "a batch")) return error;
-      if (auto error = wanted.on_device->make(*this, bytes, GpuBuffer::Place::device, "a batch")) return error;
-    }
-  }
-  return std::nullopt;
-}
-
 void GpuDeviceState::bind(const GpuSlot& slot, const std::array<VkBuffer, 4>& of_mesh, const GpuRange& paths,
                           const GpuRange& answers) const {
   std::array<VkDescriptorBufferInfo, buffers_for_scenes> infos;
@@ -307,6 +246,7 @@ void GpuDeviceState::bind(const GpuSlot& slot, const std::array<VkBuffer, 4>& of
 std::optional<GpuError> GpuDeviceState::submit(GpuSlot& slot, std::span<const GpuCopy> before,
                                                const GpuDispatch* dispatch, std::span<const GpuCopy> after,
                                                bool waits_for_all) {
+  if (is_lost) return lost();
   auto begin = of_type<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   if (auto error = noted(vulkan.BeginCommandBuffer(slot.commands, &begin), while_beginning)) return error;
@@ -358,54 +298,16 @@ std::optional<GpuError> GpuDeviceState::submit(GpuSlot& slot, std::span<const Gp
   auto work = of_type<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
   work.commandBufferCount = 1;
   work.pCommandBuffers = &slot.commands;
-  const VkResult begun = vulkan.QueueSubmit(queue_, 1, &work, slot.fence);
+  const VkResult begun = [&] {
+    const std::lock_guard lock(queue_mutex_);
+    return vulkan.QueueSubmit(queue_, 1, &work, slot.fence);
+  }();
   slot.is_under_way = begun == VK_SUCCESS;
   return noted(begun, while_beginning);
 }
 
-std::optional<GpuError> GpuDeviceState::wait(GpuSlot& slot) {
-  const char* const what = "while a batch was under way";
-  if (auto error = noted(vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes), what)) return error;
-  slot.is_under_way = false;
-  const VkResult reset = vulkan.ResetFences(device, 1, &slot.fence);
-  if (reset != VK_SUCCESS) is_lost = true;  // The next wait would end before the work does.
-  return noted(reset, what);
-}
-
-void GpuDeviceState::abandon() noexcept {
-  for (GpuSlot& slot : slots) {
-    if (is_lost || !slot.is_under_way) continue;
-    VkResult result = vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes);
-    slot.is_under_way = result != VK_SUCCESS;
-    if (result == VK_SUCCESS) result = vulkan.ResetFences(device, 1, &slot.fence);
-    is_lost = result != VK_SUCCESS;
-  }
-}
-
-bool GpuDeviceState::has_returned() noexcept {
-  bool has = true;
-  for (const GpuSlot& slot : slots) {
-    if (!slot.is_under_way) continue;
-    const VkResult result = vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, one_second);
-    // A device that was lost has returned. Any other error says nothing of the work.
-    has &= result == VK_SUCCESS || result == VK_ERROR_DEVICE_LOST;
-  }
-  return has;
-}
-
-void GpuDeviceState::forget() noexcept {
-  for (GpuSlot& slot : slots) {
-    for (GpuBuffer* buffer : {&slot.host_paths, &slot.host_limits, &slot.host_answers, &slot.host_list, &slot.paths,
-                              &slot.limits, &slot.answers, &slot.list}) {
-      buffer->forget();
-    }
-  }
-  if (mesh != nullptr) {
-    for (GpuBuffer* buffer : {mesh->nodes.get(), mesh->triangles.get(), &mesh->scene_nodes, &mesh->instances}) {
-      buffer->forget();
-    }
-  }
-  vulkan.library = nullptr;
+GpuError GpuDeviceState::lost() {
+  return {GpuError::Reason::device_lost, "the device was lost; it must be opened anew"};
 }
 
 std::optional<GpuError> GpuDeviceState::noted(VkResult result, const char* what) {
@@ -414,7 +316,8 @@ std::optional<GpuError> GpuDeviceState::noted(VkResult result, const char* what)
   return error_of(result, what);
 }
 
-std::optional<GpuError> GpuDeviceState::upload(std::span<const std::byte> bytes, const char* what, GpuBuffer& buffer) {
+std::optional<GpuError> GpuDeviceState::upload(GpuSlot& slot, std::span<const std::byte> bytes, const char* what,
+                                               GpuBuffer& buffer) {
   const std::uint64_t max = report.properties.limits.maxStorageBufferRange;
   if (bytes.size() > max) {
     return GpuError(GpuError::Reason::too_large, std::string(what) + " take " + std::to_string(bytes.size()) +
@@ -422,11 +325,10 @@ std::optional<GpuError> GpuDeviceState::upload(std::span<const std::byte> bytes,
                                                      std::to_string(max));
   }
   if (auto error = buffer.make(*this, bytes.size(), GpuBuffer::Place::device, what)) return error;
-  return upload(bytes, buffer);
+  return upload(slot, bytes, buffer);
 }
 
-std::optional<GpuError> GpuDeviceState::upload(std::span<const std::byte> bytes, const GpuBuffer& to) {
-  GpuSlot& slot = slots[0];
+std::optional<GpuError> GpuDeviceState::upload(GpuSlot& slot, std::span<const std::byte> bytes, const GpuBuffer& to) {
   for (std::size_t first = 0; first < bytes.size(); first += slot.host_paths.size()) {
     const std::size_t count = std::min(slot.host_paths.size(), bytes.size() - first);
     std::memcpy(slot.host_paths.data(), bytes.data() + first, count);
@@ -437,8 +339,8 @@ std::optional<GpuError> GpuDeviceState::upload(std::span<const std::byte> bytes,
   return std::nullopt;
 }
 
-std::optional<GpuError> GpuDeviceState::round(std::span<const RoundingCase> cases, std::span<RoundingResult> results) {
-  GpuSlot& slot = slots[0];
+std::optional<GpuError> GpuDeviceState::round(GpuSlot& slot, std::span<const RoundingCase> cases,
+                                              std::span<RoundingResult> results) {
   std::memcpy(slot.host_paths.data(), cases.data(), cases.size_bytes());
   // The shader reads no mesh.
   VkBuffer unread = slot.limits.get();

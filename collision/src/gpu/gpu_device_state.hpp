@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -12,7 +13,7 @@
 #include <vector>
 
 #include "gpu/device_needs.hpp"
-#include "gpu/gpu_buffer.hpp"
+#include "gpu/gpu_slots.hpp"
 #include "gpu/rounding_check.hpp"
 #include "gpu/vulkan_functions.hpp"
 #include "surehit/gpu.hpp"
@@ -34,34 +35,6 @@ struct GpuRange {
 struct GpuCopy {
   VkBuffer from, to;
   VkBufferCopy region;
-};
-
-/// The work on one dispatch: its buffers on both sides, its commands, and a fence. A device has two of them, so that
-/// it works on one while the host finishes the other.
-struct GpuSlot {
-  GpuBuffer host_paths, host_limits, host_answers, host_list;  ///< Where the host writes and reads.
-  GpuBuffer paths, limits, answers, list;                      ///< Where the device does.
-  VkCommandBuffer commands = VK_NULL_HANDLE;
-  VkDescriptorSet buffers = VK_NULL_HANDLE;
-  VkFence fence = VK_NULL_HANDLE;
-  bool is_under_way = false;  ///< True from when work begins until it has been waited for.
-};
-
-/// The buffers of a mesh on a device, or those of a scene. Other versions of a scene may share those of its meshes.
-struct GpuMesh {
-  std::shared_ptr<GpuBuffer> nodes = std::make_shared<GpuBuffer>();
-  std::shared_ptr<GpuBuffer> triangles = std::make_shared<GpuBuffer>();
-  GpuBuffer scene_nodes, instances;  ///< Those of a scene alone.
-
-  /// Returns the buffers that a shader reads. That of a mesh reads the first two.
-  [[nodiscard]] std::array<VkBuffer, 4> buffers() const {
-    const bool is_scene = scene_nodes.get() != VK_NULL_HANDLE;
-    return {nodes->get(), triangles->get(), is_scene ? scene_nodes.get() : nodes->get(),
-            is_scene ? instances.get() : nodes->get()};
-  }
-  [[nodiscard]] std::size_t size() const {
-    return nodes->size() + triangles->size() + scene_nodes.size() + instances.size();
-  }
 };
 
 /// What the shader of a dispatch is.
@@ -96,6 +69,12 @@ struct GpuDeviceState {
 
   /// Makes what batches of scenes need, unless it is there. Fails if the device has too few buffers for them.
   [[nodiscard]] std::optional<GpuError> prepare_scenes();
+  /// Sets `pair` to slots that no one else has. If all are taken, it makes more, since the one that has them may wait
+  /// for this one. Fails if the device was lost, or has too little memory.
+  [[nodiscard]] std::optional<GpuError> take(GpuSlotPair*& pair);
+  /// Lets others take slots, once the device has nothing more to do with them. If that cannot be waited for, the device
+  /// keeps them, and counts as lost.
+  void give_back(GpuSlotPair& pair) noexcept;
   /// Sets the buffers of a slot. The first ones are those of a mesh or of a scene.
   void bind(const GpuSlot& slot, const std::array<VkBuffer, 4>& of_mesh, const GpuRange& paths,
             const GpuRange& answers) const;
@@ -106,14 +85,11 @@ struct GpuDeviceState {
                                                bool waits_for_all = false);
   /// Waits until the work in a slot has ended.
   [[nodiscard]] std::optional<GpuError> wait(GpuSlot& slot);
-  /// Waits until no work is under way, after a failure. A device that cannot be waited for counts as lost.
-  void abandon() noexcept;
-  /// Makes a buffer of the device, and fills it. `what` is what it is for.
-  [[nodiscard]] std::optional<GpuError> upload(std::span<const std::byte> bytes, const char* what, GpuBuffer& buffer);
-  /// Fills a buffer of the device.
-  [[nodiscard]] std::optional<GpuError> upload(std::span<const std::byte> bytes, const GpuBuffer& to);
-  /// Computes the cases of `rounding_check.hpp`.
-  [[nodiscard]] std::optional<GpuError> round(std::span<const RoundingCase> cases, std::span<RoundingResult> results);
+  /// Makes a buffer of the device, and fills it through a slot. `what` is what it is for.
+  [[nodiscard]] std::optional<GpuError> upload(GpuSlot& slot, std::span<const std::byte> bytes, const char* what,
+                                               GpuBuffer& buffer);
+  /// Fills a buffer of the device through a slot.
+  [[nodiscard]] std::optional<GpuError> upload(GpuSlot& slot, std::span<const std::byte> bytes, const GpuBuffer& to);
 
   /// Returns the state of an open device. Tests use it to let devices fail.
   [[nodiscard]] static const std::shared_ptr<GpuDeviceState>& of(const GpuDevice& device) { return device.state_; }
@@ -129,14 +105,18 @@ struct GpuDeviceState {
   VkDevice device = VK_NULL_HANDLE;
   DeviceReport report;
   std::string name;
-  bool is_adopted = false;  ///< True if the caller has opened the device, and closes it.
-  bool is_lost = false;     ///< Nothing more is asked of a device that was lost.
-  std::array<GpuSlot, 2> slots;
-  std::mutex mutex;  ///< Held by a batch and by an upload.
-  /// What work under way reads or fills. A device that was lost may still do so, and keeps it until it is closed.
-  std::shared_ptr<GpuMesh> mesh;
+  bool is_adopted = false;            ///< True if the caller has opened the device, and closes it.
+  std::atomic<bool> is_lost = false;  ///< Nothing more is asked of a device that was lost.
+  /// The slots of all batches and uploads under way, and a few that are free.
+  std::vector<std::unique_ptr<GpuSlotPair>> pairs;
+  static constexpr std::ptrdiff_t max_free_pairs = 4;
 
  private:
+  /// Makes the slots of a pair.
+  [[nodiscard]] std::optional<GpuError> make(GpuSlotPair& pair) const;
+  [[nodiscard]] std::optional<GpuError> make(GpuSlot& slot, const GpuSlotPair& pair) const;
+  /// Waits for work after a failure. A device that cannot be waited for counts as lost.
+  void abandon(GpuSlot& slot) noexcept;
   /// Waits a little for work that is under way. Returns false if some of it still is.
   [[nodiscard]] bool has_returned() noexcept;
   /// Leaves all memory to a device that has not returned from its work.
@@ -147,38 +127,52 @@ struct GpuDeviceState {
   [[nodiscard]] std::uint32_t buffer_count() const;
   [[nodiscard]] std::optional<GpuError> make_layouts();
   [[nodiscard]] std::optional<GpuError> make_pipeline(GpuTask task, std::span<const std::uint32_t> shader);
-  [[nodiscard]] std::optional<GpuError> make_slots();
+  /// Computes the cases of `rounding_check.hpp`.
+  [[nodiscard]] std::optional<GpuError> round(GpuSlot& slot, std::span<const RoundingCase> cases,
+                                              std::span<RoundingResult> results);
+  /// Returns the error of a device that was lost.
+  [[nodiscard]] static GpuError lost();
   /// Returns the error of a result, and notes that the device was lost.
   [[nodiscard]] std::optional<GpuError> noted(VkResult result, const char* what);
 
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   std::uint32_t family_ = 0;
   VkQueue queue_ = VK_NULL_HANDLE;
+  std::mutex queue_mutex_;   ///< Held while work is given to the queue.
+  std::mutex pairs_mutex_;   ///< Held while slots are taken or given back.
+  std::mutex scenes_mutex_;  ///< Held while what scenes need is made.
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::array<VkPipeline, gpu_task_count> pipelines_ = {};
-  VkCommandPool commands_ = VK_NULL_HANDLE;
-  VkDescriptorPool sets_ = VK_NULL_HANDLE;
 };
 
-/// A batch or an upload, which holds the mutex of the device. Unless `end` was called, it leaves the device only when
-/// that has nothing to do. So neither an error nor an exception leaves work under way.
+/// A batch or an upload on a device. In the end it waits until the device has nothing to do for it. So neither an error
+/// nor an exception leaves work under way.
 class GpuWork {
  public:
-  GpuWork(GpuDeviceState& device, std::shared_ptr<GpuMesh> mesh) : device_(device) { device_.mesh = std::move(mesh); }
+  explicit GpuWork(GpuDeviceState& device) : device_(device) {}
   ~GpuWork() {
-    if (!has_ended_) device_.abandon();
-    if (!device_.is_lost) device_.mesh.reset();
+    if (pair_ != nullptr) device_.give_back(*pair_);
   }
   GpuWork(const GpuWork&) = delete;
   GpuWork& operator=(const GpuWork&) = delete;
 
-  /// Says that all work has ended.
-  void end() { has_ended_ = true; }
+  /// Takes two slots for work on this mesh. Fails as `GpuDeviceState::take` does.
+  [[nodiscard]] std::optional<GpuError> begin(std::shared_ptr<GpuMesh> mesh) {
+    if (auto error = device_.take(pair_)) return error;
+    pair_->mesh = std::move(mesh);
+    return std::nullopt;
+  }
+  /// Returns the slots.
+  [[nodiscard]] std::array<GpuSlot, 2>& slots() const { return pair_->slots; }
+  /// Makes a buffer of the device, and fills it. `what` is what it is for.
+  [[nodiscard]] std::optional<GpuError> upload(std::span<const std::byte> bytes, const char* what, GpuBuffer& buffer) {
+    return device_.upload(pair_->slots[0], bytes, what, buffer);
+  }
 
  private:
   GpuDeviceState& device_;
-  bool has_ended_ = false;
+  GpuSlotPair* pair_ = nullptr;
 };
 
 }  // namespace surehit::detail

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -92,27 +91,25 @@ GpuResult upload(const std::shared_ptr<GpuDeviceState>& device, const SceneSnaps
   }
   const detail::SceneTree tree(committed, state->meshes);
   state->is_on_device = !tree.nodes.empty();
-  GpuDeviceState& on = *device;
-  const std::lock_guard lock(on.mutex);
-  if (on.is_lost) return GpuError(GpuError::Reason::device_lost, "the device was lost; it must be opened anew");
-  if (auto error = on.prepare_scenes()) return *error;
   detail::GpuMesh& mesh = *state->mesh;
-  detail::GpuWork work(on, state->mesh);
+  detail::GpuWork work(*device);
+  if (auto error = work.begin(state->mesh)) return *error;
+  if (auto error = device->prepare_scenes()) return *error;
   if (!keeps_meshes) {
-    if (auto error = on.upload(std::as_bytes(std::span(trees.nodes)), "the nodes of meshes", *mesh.nodes)) {
+    if (auto error = work.upload(std::as_bytes(std::span(trees.nodes)), "the nodes of meshes", *mesh.nodes)) {
       return *error;
     }
-    if (auto error = on.upload(std::as_bytes(std::span(trees.triangles)), "the triangles of meshes", *mesh.triangles)) {
+    if (auto error =
+            work.upload(std::as_bytes(std::span(trees.triangles)), "the triangles of meshes", *mesh.triangles)) {
       return *error;
     }
   }
-  if (auto error = on.upload(std::as_bytes(std::span(tree.nodes)), "the nodes of a scene", mesh.scene_nodes)) {
+  if (auto error = work.upload(std::as_bytes(std::span(tree.nodes)), "the nodes of a scene", mesh.scene_nodes)) {
     return *error;
   }
-  if (auto error = on.upload(std::as_bytes(std::span(tree.instances)), "the instances of a scene", mesh.instances)) {
+  if (auto error = work.upload(std::as_bytes(std::span(tree.instances)), "the instances of a scene", mesh.instances)) {
     return *error;
   }
-  work.end();
   result = std::move(state);
   return {};
 }

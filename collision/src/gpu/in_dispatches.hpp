@@ -1,10 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 
 #include "gpu/gpu_device_state.hpp"
@@ -14,29 +14,28 @@
 namespace surehit::detail {
 
 /// Cuts a batch of `count` paths into dispatches. While the device works on one slot, the host finishes the other.
-/// `begin(slot, first)` and `finish(slot, first)` return errors. `finished` is set to the number of finished paths,
-/// even if there is an error.
+/// Nothing is locked, so what runs in `finish` may ask the device anew. `begin(slot, first)` and `finish(slot, first)`
+/// return errors. `finished` is set to the number of finished paths, even if there is an error.
 template <typename Begin, typename Finish>
 [[nodiscard]] std::optional<GpuError> in_dispatches(GpuDeviceState& device, const std::shared_ptr<GpuMesh>& mesh,
                                                     std::size_t count, std::size_t& finished, const Begin& begin,
                                                     const Finish& finish) {
   constexpr std::size_t step = paths_in_dispatch;
-  const std::lock_guard lock(device.mutex);
-  if (device.is_lost) return GpuError(GpuError::Reason::device_lost, "the device was lost; it must be opened anew");
-  GpuWork work(device, mesh);
+  GpuWork work(device);
+  if (auto error = work.begin(mesh)) return error;
+  std::array<GpuSlot, 2>& slots = work.slots();
   std::size_t begun = 0;
   while (finished < count) {
-    if (begun < count && begun - finished < device.slots.size() * step) {
-      if (auto error = begin(device.slots[begun / step % 2], begun)) return error;
+    if (begun < count && begun - finished < slots.size() * step) {
+      if (auto error = begin(slots[begun / step % 2], begun)) return error;
       begun += std::min(step, count - begun);
       continue;
     }
-    GpuSlot& slot = device.slots[finished / step % 2];
+    GpuSlot& slot = slots[finished / step % 2];
     if (auto error = device.wait(slot)) return error;
     if (auto error = finish(slot, finished)) return error;
     finished += std::min(step, count - finished);
   }
-  work.end();
   return std::nullopt;
 }
 

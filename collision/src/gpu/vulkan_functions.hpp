@@ -77,6 +77,14 @@ struct VulkanFunctions {
 #undef SUREHIT_MEMBER
 };
 
+/// Returns a structure of Vulkan with all members zero, except for its type.
+template <typename Structure>
+[[nodiscard]] Structure of_type(VkStructureType type) {
+  Structure structure = {};
+  structure.sType = type;
+  return structure;
+}
+
 /// Returns what a result means, or nothing if it is a success. `what` says when it failed, such as "while opening
 /// a device", or for what. A success allocates nothing.
 [[nodiscard]] std::optional<GpuError> error_of(VkResult result, std::string_view what);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -46,10 +48,12 @@ inline std::vector<std::byte> faulty_answer;
 inline VKAPI_ATTR VkResult VKAPI_CALL faulty_answers(VkDevice device, std::uint32_t count, const VkFence* fences,
                                                      VkBool32 all, std::uint64_t timeout) {
   const VkResult result = wait_for(device, count, fences, all, timeout);
-  for (const detail::GpuSlot& slot : faulty->slots) {
-    if (slot.fence != *fences) continue;
-    for (std::size_t i = 0; i < 1000; ++i) {
-      std::memcpy(slot.host_answers.data() + i * faulty_answer.size(), faulty_answer.data(), faulty_answer.size());
+  for (const auto& pair : faulty->pairs) {
+    for (const detail::GpuSlot& slot : pair->slots) {
+      if (slot.fence != *fences) continue;
+      for (std::size_t i = 0; i < 1000; ++i) {
+        std::memcpy(slot.host_answers.data() + i * faulty_answer.size(), faulty_answer.data(), faulty_answer.size());
+      }
     }
   }
   return result;
@@ -60,6 +64,17 @@ inline VKAPI_ATTR void VKAPI_CALL counted_free(VkDevice device, VkDeviceMemory m
                                                const VkAllocationCallbacks* callbacks) {
   ++freed;
   give_back(device, memory, callbacks);
+}
+
+/// Expects that no one has slots of a device, and that no fence has been signaled, nor will be.
+inline void expect_idle(const detail::GpuDeviceState& state) {
+  for (const auto& pair : state.pairs) {
+    EXPECT_FALSE(pair->is_taken);
+    for (const detail::GpuSlot& slot : pair->slots) {
+      EXPECT_FALSE(slot.is_under_way);
+      EXPECT_EQ(state.vulkan.WaitForFences(state.device, 1, &slot.fence, VK_TRUE, 0), VK_TIMEOUT);
+    }
+  }
 }
 
 /// Lets a faulty device answer with this.

@@ -251,7 +251,7 @@ std::function<void(std::byte*)> change;
 VKAPI_ATTR VkResult VKAPI_CALL changed_list(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
                                             std::uint64_t timeout) {
   const VkResult result = wait_for(device, count, fences, all, timeout);
-  change(faulty->slots[0].host_list.data());
+  change(faulty->pairs.front()->slots[0].host_list.data());
   return result;
 }
 

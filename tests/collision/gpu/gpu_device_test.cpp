@@ -42,14 +42,6 @@ class GpuDeviceTest : public testing::Test {
     collider.first_hits(paths, expected);
   }
   [[nodiscard]] GpuDeviceState& state() const { return *GpuDeviceState::of(device); }
-  /// No fence has been signaled, nor will be.
-  void expect_idle() const {
-    const detail::VulkanFunctions& vulkan = state().vulkan;
-    for (const detail::GpuSlot& slot : state().slots) {
-      EXPECT_FALSE(slot.is_under_way);
-      EXPECT_EQ(vulkan.WaitForFences(state().device, 1, &slot.fence, VK_TRUE, 0), VK_TIMEOUT);
-    }
-  }
 
   GpuDevice device = any_gpu();
   Colliderf collider;
@@ -157,7 +149,7 @@ TEST_F(GpuDeviceTest, a_batch_that_throws_leaves_no_work_under_way) {
   failures_left = 1;
   EXPECT_THROW(static_cast<void>(on_gpu.first_hits(paths, hits)), std::bad_alloc);
   state().vulkan.WaitForFences = wait_for;
-  expect_idle();
+  expect_idle(state());
   std::reverse(paths.begin(), paths.end());
   std::reverse(expected.begin(), expected.end());
   EXPECT_TRUE(on_gpu.first_hits(paths, hits));
@@ -191,7 +183,7 @@ TEST_F(GpuDeviceTest, an_upload_that_fails_leaves_no_work_under_way) {
   state().vulkan.WaitForFences = wait_for;
   ASSERT_FALSE(updated);
   EXPECT_EQ(updated.error().reason, Reason::out_of_memory);
-  expect_idle();
+  expect_idle(state());
   std::vector<Hitf> hits(paths.size());
   EXPECT_TRUE(on_gpu.first_hits(paths, hits));
   EXPECT_EQ(hits, expected);
@@ -254,24 +246,6 @@ TEST_F(GpuDeviceTest, faulty_answers_of_a_device_are_left_to_the_host) {
   state().vulkan.WaitForFences = wait_for;
 }
 
-/// An executor of the host's batch may use the device.
-TEST_F(GpuDeviceTest, a_batch_that_goes_on_without_its_device_does_not_hold_it) {
-  const GpuCollider on_gpu(device, collider);
-  state().is_lost = true;
-  std::vector<Hitf> hits(paths.size());
-  bool is_free = false;
-  const auto run = [&](std::size_t count, const Executor::Task& task) {
-    std::thread([&] {
-      is_free = state().mutex.try_lock();
-      if (is_free) state().mutex.unlock();
-    }).join();
-    for (std::size_t i = 0; i < count; ++i) task(i);
-  };
-  EXPECT_TRUE(on_gpu.first_hits(paths, hits, {.executor = run}, {.goes_on_without_device = true}));
-  EXPECT_EQ(hits, expected);
-  EXPECT_TRUE(is_free);
-}
-
 /// Khronos's layer looks at each call. It writes what it finds to standard output.
 TEST(GpuValidationTest, the_validation_layer_has_nothing_to_say) {
   if (!std::filesystem::exists("/usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json")) {
@@ -290,7 +264,9 @@ TEST(GpuValidationTest, the_validation_layer_has_nothing_to_say) {
       collider.set_mask(1, 2);
       on_gpu.update();
       const std::vector<Segmentf> paths(150'000, {{0.25F, 0.5F, 1}, {0.25F, 0.5F, -1}});
+      std::thread other([&] { expect_same_as_host(on_gpu, collider, paths); });
       expect_same_as_host(on_gpu, collider, paths);
+      other.join();
       Scenef scene;
       const auto shared = std::make_shared<Colliderf>(std::move(collider));
       const InstanceId id = scene.add(shared);

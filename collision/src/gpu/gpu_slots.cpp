@@ -1,0 +1,162 @@
+#include "gpu/gpu_slots.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "gpu/device_answers.hpp"
+#include "gpu/gpu_device_state.hpp"
+#include "gpu/path_limits.hpp"
+
+namespace surehit::detail {
+namespace {
+
+constexpr std::uint64_t one_second = 1'000'000'000;
+constexpr std::uint64_t two_minutes = 120 * one_second;
+constexpr const char* for_a_batch = "for a batch";
+
+}  // namespace
+
+GpuSlotPair::~GpuSlotPair() {
+  if (device == nullptr) return;
+  for (const GpuSlot& slot : slots) device->vulkan.DestroyFence(device->device, slot.fence, nullptr);
+  device->vulkan.DestroyDescriptorPool(device->device, sets, nullptr);
+  device->vulkan.DestroyCommandPool(device->device, commands, nullptr);
+}
+
+void GpuSlotPair::forget() noexcept {
+  device = nullptr;
+  for (GpuSlot& slot : slots) {
+    for (GpuBuffer* buffer : {&slot.host_paths, &slot.host_limits, &slot.host_answers, &slot.host_list, &slot.paths,
+                              &slot.limits, &slot.answers, &slot.list}) {
+      buffer->forget();
+    }
+  }
+  if (mesh == nullptr) return;
+  for (GpuBuffer* buffer : {mesh->nodes.get(), mesh->triangles.get(), &mesh->scene_nodes, &mesh->instances}) {
+    buffer->forget();
+  }
+}
+
+std::optional<GpuError> GpuDeviceState::take(GpuSlotPair*& pair) {
+  if (is_lost) return lost();
+  {
+    const std::lock_guard lock(pairs_mutex_);
+    for (const auto& one : pairs) {
+      if (one->is_taken) continue;
+      one->is_taken = true;
+      pair = one.get();
+      return std::nullopt;
+    }
+  }
+  auto made = std::make_unique<GpuSlotPair>(*this);
+  if (auto error = make(*made)) return error;
+  const std::lock_guard lock(pairs_mutex_);
+  pairs.push_back(std::move(made));
+  pair = pairs.back().get();
+  return std::nullopt;
+}
+
+void GpuDeviceState::give_back(GpuSlotPair& pair) noexcept {
+  for (GpuSlot& slot : pair.slots) {
+    if (slot.is_under_way) abandon(slot);
+  }
+  if (pair.is_under_way()) return;  // The device keeps the pair and its mesh, and no one takes it again.
+  pair.mesh.reset();
+  std::unique_ptr<GpuSlotPair> surplus;  // It goes after the mutex was unlocked.
+  const std::lock_guard lock(pairs_mutex_);
+  pair.is_taken = false;
+  const auto free_pairs = std::count_if(pairs.begin(), pairs.end(), [](const auto& one) { return !one->is_taken; });
+  if (free_pairs <= max_free_pairs) return;
+  const auto place = std::find_if(pairs.begin(), pairs.end(), [&](const auto& one) { return one.get() == &pair; });
+  surplus = std::move(*place);
+  pairs.erase(place);
+}
+
+std::optional<GpuError> GpuDeviceState::make(GpuSlotPair& pair) const {
+  auto commands = of_type<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
+  commands.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+  commands.queueFamilyIndex = family_;
+  const VkResult has_commands = vulkan.CreateCommandPool(device, &commands, nullptr, &pair.commands);
+  if (auto error = error_of(has_commands, for_a_batch, pair.commands)) return error;
+  const auto slot_count = static_cast<std::uint32_t>(pair.slots.size());
+  const VkDescriptorPoolSize sizes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer_count() * slot_count};
+  auto sets = of_type<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+  sets.maxSets = slot_count;
+  sets.poolSizeCount = 1;
+  sets.pPoolSizes = &sizes;
+  const VkResult has_sets = vulkan.CreateDescriptorPool(device, &sets, nullptr, &pair.sets);
+  if (auto error = error_of(has_sets, for_a_batch, pair.sets)) return error;
+  for (GpuSlot& slot : pair.slots) {
+    if (auto error = make(slot, pair)) return error;
+  }
+  return std::nullopt;
+}
+
+std::optional<GpuError> GpuDeviceState::make(GpuSlot& slot, const GpuSlotPair& pair) const {
+  auto commands = of_type<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+  commands.commandPool = pair.commands;
+  commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  commands.commandBufferCount = 1;
+  const VkResult has_commands = vulkan.AllocateCommandBuffers(device, &commands, &slot.commands);
+  if (auto error = error_of(has_commands, for_a_batch)) return error;
+  auto set = of_type<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+  set.descriptorPool = pair.sets;
+  set.descriptorSetCount = 1;
+  set.pSetLayouts = &set_layout_;
+  if (auto error = error_of(vulkan.AllocateDescriptorSets(device, &set, &slot.buffers), for_a_batch)) return error;
+  const auto fence = of_type<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
+  const VkResult has_fence = vulkan.CreateFence(device, &fence, nullptr, &slot.fence);
+  if (auto error = error_of(has_fence, for_a_batch, slot.fence)) return error;
+  struct Wanted {
+    GpuBuffer *on_host, *on_device;
+    std::size_t size;
+  };
+  for (const Wanted& wanted : {Wanted{&slot.host_paths, &slot.paths, sizeof(float[6])},
+                               Wanted{&slot.host_limits, &slot.limits, sizeof(PathLimits)},
+                               Wanted{&slot.host_answers, &slot.answers, sizeof(DeviceSceneHit)},
+                               Wanted{&slot.host_list, &slot.list, sizeof(ListedPath)}}) {
+    const std::size_t bytes = wanted.size * paths_in_dispatch + sizeof(ListedCounts);
+    if (auto error = wanted.on_host->make(*this, bytes, GpuBuffer::Place::host, "a batch")) return error;
+    if (auto error = wanted.on_device->make(*this, bytes, GpuBuffer::Place::device, "a batch")) return error;
+  }
+  return std::nullopt;
+}
+
+std::optional<GpuError> GpuDeviceState::wait(GpuSlot& slot) {
+  if (is_lost) return lost();
+  const char* const what = "while a batch was under way";
+  if (auto error = noted(vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes), what)) return error;
+  slot.is_under_way = false;
+  const VkResult reset = vulkan.ResetFences(device, 1, &slot.fence);
+  if (reset != VK_SUCCESS) is_lost = true;  // The next wait would end before the work does.
+  return noted(reset, what);
+}
+
+void GpuDeviceState::abandon(GpuSlot& slot) noexcept {
+  if (is_lost) return;
+  VkResult result = vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes);
+  slot.is_under_way = result != VK_SUCCESS;
+  if (result == VK_SUCCESS) result = vulkan.ResetFences(device, 1, &slot.fence);
+  if (result != VK_SUCCESS) is_lost = true;
+}
+
+bool GpuDeviceState::has_returned() noexcept {
+  bool has = true;
+  for (const auto& pair : pairs) {
+    for (const GpuSlot& slot : pair->slots) {
+      if (!slot.is_under_way) continue;
+      const VkResult result = vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, one_second);
+      // A device that was lost has returned. Any other error says nothing of the work.
+      has &= result == VK_SUCCESS || result == VK_ERROR_DEVICE_LOST;
+    }
+  }
+  return has;
+}
+
+void GpuDeviceState::forget() noexcept {
+  for (const auto& pair : pairs) pair->forget();
+  vulkan.library = nullptr;
+}
+
+}  // namespace surehit::detail
