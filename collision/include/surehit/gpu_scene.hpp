@@ -66,6 +66,15 @@ class GpuScene {
   GpuBatchResult any_hits(const PathSpanf& paths, std::span<std::uint8_t> blocked,
                           const SceneBatchOptionsf& options = {}, const GpuBatchOptions& gpu = {}) const;
 
+  /// Does the same with paths and hits in buffers of the caller's, as `GpuCollider::first_hits` does. Each hit takes 24
+  /// bytes: those of a collider's hit, and then the index of the instance as a word of 32 bits. The generation is that
+  /// of the snapshot's instance with this index. A miss has `no_instance`.
+  GpuBatchResult first_hits(const GpuPaths& paths, const GpuBufferPart& hits, const SceneBatchOptionsf& options = {},
+                            const GpuBatchOptions& gpu = {}) const;
+  /// Sets a word of 32 bits for each path: to 1 if it has a hit, and to 0 otherwise. All else is as in `first_hits`.
+  GpuBatchResult any_hits(const GpuPaths& paths, const GpuBufferPart& blocked, const SceneBatchOptionsf& options = {},
+                          const GpuBatchOptions& gpu = {}) const;
+
   /// Returns the memory on the device that the meshes and the instances take, in bytes.
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 

@@ -12,10 +12,11 @@
 #include <vector>
 
 #include "gpu/device_answers.hpp"
-#include "gpu/gpu_collider_state.hpp"
+#include "gpu/gpu_device_state.hpp"
 #include "gpu/host_answers.hpp"
 #include "gpu/in_dispatches.hpp"
 #include "surehit/gpu.hpp"
+#include "surehit/scene_hit.hpp"
 
 namespace surehit::detail {
 
@@ -30,15 +31,21 @@ namespace surehit::detail {
 [[nodiscard]] inline DeviceHit device_answer(const Hitf& hit) {
   return {hit.t, hit.u, hit.v, hit.triangle, static_cast<std::uint32_t>(hit.side)};
 }
+[[nodiscard]] inline DeviceSceneHit device_answer(const SceneHitf& hit) {
+  return {device_answer(static_cast<const Hitf&>(hit)), hit.instance.index};
+}
 [[nodiscard]] inline DeviceAny device_answer(std::uint8_t blocked) { return blocked; }
 
 /// A batch whose paths and answers are in buffers of the caller's. The device writes its answers there and lists what
-/// is left to the host. The host's answers are copied over those of the device.
-template <typename Answer>
+/// is left to the host. The host's answers are copied over those of the device. The state is that of an uploaded
+/// collider or scene.
+template <typename State, typename Answer>
 class GpuBufferBatch {
  public:
-  GpuBufferBatch(const GpuColliderState& state, const GpuPaths& paths, const GpuBufferPart& answers,
-                 const BatchOptionsf& options, const GpuBatchOptions& gpu)
+  using BatchOptions = typename State::BatchOptions;
+
+  GpuBufferBatch(const State& state, const GpuPaths& paths, const GpuBufferPart& answers, const BatchOptions& options,
+                 const GpuBatchOptions& gpu)
       : state_(state), device_(*state.device), paths_(paths), answers_(answers), options_(options), gpu_(gpu) {
     count_ = options.path_options.empty() ? paths.count : std::min(paths.count, options.path_options.size());
   }
@@ -62,8 +69,10 @@ class GpuBufferBatch {
  private:
   static constexpr std::size_t step = paths_in_dispatch;
   static constexpr std::size_t path_size = sizeof(float[6]);
-  static constexpr bool wants_first = std::is_same_v<Answer, Hitf>;
-  using DeviceAnswer = std::conditional_t<wants_first, DeviceHit, DeviceAny>;
+  static constexpr bool wants_first = std::is_same_v<Answer, typename State::FirstHit>;
+  /// True if the host only rounds the hits that the device has found. A scene rounds while it answers.
+  static constexpr bool rounds_on_host = std::is_same_v<Answer, Hitf>;
+  using DeviceAnswer = std::conditional_t<wants_first, typename State::DeviceFirst, DeviceAny>;
   /// So much of the list comes back with the dispatch. The rest is fetched where there is more.
   static constexpr std::size_t listed_at_once = 1024;
 
@@ -88,7 +97,7 @@ class GpuBufferBatch {
     ++statistics_.dispatches;
     const GpuCopy there[] = {copy_of(slot.host_limits, slot.limits, limits * sizeof(PathLimits)),
                              copy_of(slot.host_list, slot.list, sizeof(ListedCounts))};
-    const GpuDispatch dispatch = {wants_first ? GpuTask::first_hits : GpuTask::any_hits,
+    const GpuDispatch dispatch = {wants_first ? State::first_task : State::any_task,
                                   pushed_words(paths_.kind, !options_.path_options.empty(), count, true)};
     const GpuCopy back =
         copy_of(slot.list, slot.host_list, sizeof(ListedCounts) + std::min(count, listed_at_once) * sizeof(ListedPath));
@@ -154,9 +163,7 @@ class GpuBufferBatch {
   [[nodiscard]] GpuError odd_list() const {
     return {GpuError::Reason::failed, device_.name + " has listed paths that it was not given"};
   }
-  [[nodiscard]] bool is_unrounded(const ListedPath& listed) const {
-    return wants_first && listed.triangle < state_.collider->triangle_count();
-  }
+  [[nodiscard]] bool is_unrounded(const ListedPath& listed) const { return wants_first && state_.has_hit(listed); }
 
   /// Sets `written_[i]` to the answer of `listed_[i]`.
   void answer_listed(std::size_t first) {
@@ -165,26 +172,25 @@ class GpuBufferBatch {
     open_paths_.clear();
     numbers_.clear();
     for (std::size_t i = 0; i < listed_.size(); ++i) {
-      if (is_unrounded(listed_[i])) continue;
+      if (rounds_on_host && is_unrounded(listed_[i])) continue;
       open_.push_back(i);
       open_paths_.push_back(first + listed_[i].path);
       numbers_.insert(numbers_.end(), listed_[i].numbers.begin(), listed_[i].numbers.end());
     }
-    if constexpr (wants_first) {
+    if constexpr (rounds_on_host) {
       in_tasks(options_.executor, listed_.size(), [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
           if (!is_unrounded(listed_[i])) continue;
           const std::array<float, 6>& x = listed_[i].numbers;
           const Pathf path(paths_.kind, Vector3f(x[0], x[1], x[2]), Vector3f(x[3], x[4], x[5]));
           Hitf hit;
-          round_on_host(*state_.collider, path, options_of(options_, first + listed_[i].path), listed_[i].triangle,
-                        hit);
+          round_on_host(state_.asked(), path, options_of(options_, first + listed_[i].path), listed_[i].triangle, hit);
           written_[i] = device_answer(hit);
         }
       });
     }
     if (open_.empty()) return;
-    answer_open(*state_.collider, paths_.kind, numbers_, open_paths_, options_, found_);
+    answer_open(state_.asked(), paths_.kind, numbers_, open_paths_, options_, found_);
     for (std::size_t i = 0; i < open_.size(); ++i) written_[open_[i]] = device_answer(found_[i]);
   }
 
@@ -206,18 +212,18 @@ class GpuBufferBatch {
     return device_.wait(slot);
   }
 
-  const GpuColliderState& state_;
+  const State& state_;
   GpuDeviceState& device_;
   const GpuPaths& paths_;
   const GpuBufferPart& answers_;
-  const BatchOptionsf& options_;
+  const BatchOptions& options_;
   const GpuBatchOptions& gpu_;
   std::size_t count_ = 0;
   bool is_for_host_ = false;
   GpuStatistics statistics_;
   std::vector<ListedPath> listed_;       ///< What the host finishes of a dispatch.
   std::vector<DeviceAnswer> written_;    ///< The answers to it.
-  std::vector<std::size_t> open_;        ///< Where the undecided paths are in the list.
+  std::vector<std::size_t> open_;        ///< Where the paths are in the list that the host answers.
   std::vector<std::size_t> open_paths_;  ///< Which paths of the batch they are.
   std::vector<float> numbers_;           ///< Their numbers.
   std::vector<Answer> found_;

@@ -86,12 +86,12 @@ GpuBatchResult GpuCollider::any_hits(const PathSpanf& paths, std::span<std::uint
 
 GpuBatchResult GpuCollider::first_hits(const GpuPaths& paths, const GpuBufferPart& hits, const BatchOptionsf& options,
                                        const GpuBatchOptions& gpu) const {
-  return run<detail::GpuBufferBatch<Hitf>>(state_.get(), paths, hits, options, gpu);
+  return run<detail::GpuBufferBatch<GpuColliderState, Hitf>>(state_.get(), paths, hits, options, gpu);
 }
 
 GpuBatchResult GpuCollider::any_hits(const GpuPaths& paths, const GpuBufferPart& blocked, const BatchOptionsf& options,
                                      const GpuBatchOptions& gpu) const {
-  return run<detail::GpuBufferBatch<std::uint8_t>>(state_.get(), paths, blocked, options, gpu);
+  return run<detail::GpuBufferBatch<GpuColliderState, std::uint8_t>>(state_.get(), paths, blocked, options, gpu);
 }
 
 std::size_t GpuCollider::memory_bytes() const noexcept { return state_ == nullptr ? 0 : state_->mesh->size(); }

@@ -33,6 +33,8 @@ struct GpuColliderState {
     return detail::leftover_of(answer, collider->triangle_count());
   }
   [[nodiscard]] Leftover leftover_of(DeviceAny answer) const { return detail::leftover_of(answer); }
+  /// Returns true if a list of the device says which triangle a path hits.
+  [[nodiscard]] bool has_hit(const ListedPath& listed) const { return listed.triangle < collider->triangle_count(); }
   [[nodiscard]] Hitf answer_of(const DeviceHit& answer) const { return detail::answer_of(answer); }
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gpu/gpu_batch.hpp"
+#include "gpu/gpu_buffer_batch.hpp"
 #include "gpu/gpu_scene_state.hpp"
 #include "gpu/scene_tree.hpp"
 #include "gpu/triangle_tree.hpp"
@@ -114,9 +115,9 @@ GpuResult upload(const std::shared_ptr<GpuDeviceState>& device, const SceneSnaps
   return {};
 }
 
-/// Runs a batch, unless a collider has changed since the scene was uploaded.
-template <typename Answer>
-GpuBatchResult run(const GpuSceneState* state, const PathSpanf& paths, std::span<Answer> answers,
+/// Runs a batch of this class, unless a collider has changed since the scene was uploaded.
+template <typename Batch, typename Paths, typename Answers>
+GpuBatchResult run(const GpuSceneState* state, const Paths& paths, const Answers& answers,
                    const SceneBatchOptionsf& options, const GpuBatchOptions& gpu) {
   const FloatingPointEnvironment environment;
   GpuBatchResult refused;
@@ -130,7 +131,7 @@ GpuBatchResult run(const GpuSceneState* state, const PathSpanf& paths, std::span
                              "a collider was rebuilt or has other masks since the scene was uploaded; update it first");
     return refused;
   }
-  return detail::GpuBatch<GpuSceneState, Answer>(*state, paths, answers, options, gpu).run();
+  return Batch(*state, paths, answers, options, gpu).run();
 }
 
 }  // namespace
@@ -147,12 +148,22 @@ GpuResult GpuScene::try_update(const SceneSnapshotf& scene) {
 
 GpuBatchResult GpuScene::first_hits(const PathSpanf& paths, std::span<SceneHitf> hits,
                                     const SceneBatchOptionsf& options, const GpuBatchOptions& gpu) const {
-  return run(state_.get(), paths, hits, options, gpu);
+  return run<detail::GpuBatch<GpuSceneState, SceneHitf>>(state_.get(), paths, hits, options, gpu);
 }
 
 GpuBatchResult GpuScene::any_hits(const PathSpanf& paths, std::span<std::uint8_t> blocked,
                                   const SceneBatchOptionsf& options, const GpuBatchOptions& gpu) const {
-  return run(state_.get(), paths, blocked, options, gpu);
+  return run<detail::GpuBatch<GpuSceneState, std::uint8_t>>(state_.get(), paths, blocked, options, gpu);
+}
+
+GpuBatchResult GpuScene::first_hits(const GpuPaths& paths, const GpuBufferPart& hits, const SceneBatchOptionsf& options,
+                                    const GpuBatchOptions& gpu) const {
+  return run<detail::GpuBufferBatch<GpuSceneState, SceneHitf>>(state_.get(), paths, hits, options, gpu);
+}
+
+GpuBatchResult GpuScene::any_hits(const GpuPaths& paths, const GpuBufferPart& blocked,
+                                  const SceneBatchOptionsf& options, const GpuBatchOptions& gpu) const {
+  return run<detail::GpuBufferBatch<GpuSceneState, std::uint8_t>>(state_.get(), paths, blocked, options, gpu);
 }
 
 std::size_t GpuScene::memory_bytes() const noexcept { return state_ == nullptr ? 0 : state_->mesh->size(); }

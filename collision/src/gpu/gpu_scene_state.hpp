@@ -52,6 +52,8 @@ struct GpuSceneState {
                                is_known ? instances[answer.instance].mesh.own->mesh.triangle_count() : std::size_t{0});
   }
   [[nodiscard]] Leftover leftover_of(DeviceAny answer) const { return detail::leftover_of(answer); }
+  /// Returns true if a list of the device says that a path hits something. It does not name the instance.
+  [[nodiscard]] bool has_hit(const ListedPath& listed) const { return listed.triangle != no_triangle; }
   [[nodiscard]] SceneHitf answer_of(const DeviceSceneHit& answer) const {
     if (answer.hit.triangle == no_triangle) return {};
     return {detail::answer_of(answer.hit), {answer.instance, committed().instances[answer.instance].generation}};

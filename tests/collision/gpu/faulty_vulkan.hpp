@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <new>
 #include <span>
 #include <vector>
@@ -56,6 +57,14 @@ inline VKAPI_ATTR VkResult VKAPI_CALL faulty_answers(VkDevice device, std::uint3
       }
     }
   }
+  return result;
+}
+/// Changes the list of the first dispatch, where its counts begin.
+inline std::function<void(std::byte*)> change;
+inline VKAPI_ATTR VkResult VKAPI_CALL changed_list(VkDevice device, std::uint32_t count, const VkFence* fences,
+                                                   VkBool32 all, std::uint64_t timeout) {
+  const VkResult result = wait_for(device, count, fences, all, timeout);
+  change(faulty->pairs.front()->slots[0].host_list.data());
   return result;
 }
 inline PFN_vkFreeMemory give_back = nullptr;

@@ -2,17 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "buffer_answers.hpp"
 #include "caller_buffer.hpp"
+#include "faulty_vulkan.hpp"
 #include "gpu/device_answers.hpp"
 #include "gpu/gpu_device_state.hpp"
 #include "gpu_answers.hpp"
@@ -21,6 +19,7 @@
 #include "support/pair_families.hpp"
 #include "support/path_drawer.hpp"
 #include "support/threads.hpp"
+#include "validation_layer.hpp"
 
 namespace surehit::test {
 namespace {
@@ -28,55 +27,6 @@ namespace {
 using Reason = GpuError::Reason;
 using detail::DeviceHit;
 using detail::GpuDeviceState;
-
-/// What stands in a buffer where nothing was written.
-constexpr std::uint32_t unset = 0x07070707;
-
-/// Asks with paths and answers in buffers of the caller's, and expects the bits of the host. Both begin behind 256
-/// bytes that nothing may touch, and so does something else behind them.
-void expect_same_in_buffers(const GpuDevice& device, const GpuCollider& on_gpu, const Colliderf& collider,
-                            const PathSpanf& paths, const BatchOptionsf& options = {},
-                            GpuStatistics* statistics = nullptr) {
-  constexpr std::size_t before = 256;
-  const CallerVulkan vulkan(device.handles());
-  const CallerBuffer given(vulkan, before + paths.size() * sizeof(float[6]) + 16);
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    float numbers[6];
-    paths.copy(i, numbers);
-    std::memcpy(given.data() + before + i * sizeof numbers, numbers, sizeof numbers);
-  }
-  const CallerBuffer hits(vulkan, before + paths.size() * sizeof(DeviceHit) + 16);
-  const CallerBuffer blocked(vulkan, before + paths.size() * sizeof(std::uint32_t) + 16);
-  const GpuPaths gpu_paths = {paths.kind(), paths.size(), given.part(before)};
-  const GpuBatchOptions gpu = {.statistics = statistics};
-  const GpuBatchResult first = on_gpu.first_hits(gpu_paths, hits.part(before), options, gpu);
-  ASSERT_TRUE(first) << first.error->what();
-  ASSERT_TRUE(on_gpu.any_hits(gpu_paths, blocked.part(before), options, gpu));
-  std::vector<Hitf> expected(paths.size());
-  std::vector<std::uint8_t> expected_blocked(paths.size());
-  collider.first_hits(paths, expected, options);
-  collider.any_hits(paths, expected_blocked, options);
-  const auto word = [](const CallerBuffer& buffer, std::size_t at) {
-    std::uint32_t result;
-    std::memcpy(&result, buffer.data() + at, sizeof result);
-    return result;
-  };
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    DeviceHit hit;
-    std::memcpy(&hit, hits.data() + before + i * sizeof hit, sizeof hit);
-    const std::uint32_t is_blocked = word(blocked, before + i * sizeof is_blocked);
-    if (hit.side <= 2 && same_bits(detail::answer_of(hit), expected[i]) && is_blocked == expected_blocked[i]) continue;
-    if (++different > 3) continue;
-    ADD_FAILURE() << hex_text(paths[i]) << ": " << hex_text(detail::answer_of(hit)) << ", not " << hex_text(expected[i])
-                  << ", and any hit is " << is_blocked;
-  }
-  EXPECT_EQ(different, 0U);
-  for (const CallerBuffer* buffer : {&hits, &blocked}) {
-    EXPECT_EQ(word(*buffer, before - 4), unset);
-    EXPECT_EQ(word(*buffer, before + paths.size() * (buffer == &hits ? sizeof(DeviceHit) : 4)), unset);
-  }
-}
 
 class GpuBufferBatchTest : public testing::Test {
  protected:
@@ -192,7 +142,7 @@ TEST_F(GpuGroundTest, short_batches) {
   EXPECT_TRUE(on_gpu.first_hits(GpuPaths(), GpuBufferPart()));
   const CallerVulkan vulkan(device.handles());
   const CallerBuffer given(vulkan, paths.size() * sizeof(float[6]));
-  std::memcpy(given.data(), paths.data(), paths.size() * sizeof(float[6]));
+  fill(given, 0, paths);
   const CallerBuffer blocked(vulkan, 256);
   const std::vector<QueryOptionsf> two(2);
   EXPECT_TRUE(on_gpu.any_hits({PathKind::segment, 100, given.part()}, blocked.part(), {.path_options = two}));
@@ -200,7 +150,7 @@ TEST_F(GpuGroundTest, short_batches) {
   std::memcpy(words, blocked.data(), sizeof words);
   EXPECT_LE(words[0], 1U);
   EXPECT_LE(words[1], 1U);
-  EXPECT_EQ(words[2], unset);
+  EXPECT_EQ(words[2], unset_word);
 }
 
 TEST_F(GpuGroundTest, bad_buffers_are_refused_with_the_reason) {
@@ -240,40 +190,26 @@ TEST_F(GpuGroundTest, bad_buffers_are_refused_with_the_reason) {
   EXPECT_EQ(GpuCollider().first_hits({PathKind::ray, 100, front}, back).error->reason, Reason::not_updated);
 }
 
-PFN_vkQueueSubmit submit = nullptr;
-int submits_left = 0;
-VKAPI_ATTR VkResult VKAPI_CALL lost_after(VkQueue queue, std::uint32_t count, const VkSubmitInfo* work, VkFence fence) {
-  return submits_left-- > 0 ? submit(queue, count, work, fence) : VK_ERROR_OUT_OF_DEVICE_MEMORY;
-}
-PFN_vkWaitForFences wait_for = nullptr;
-GpuDeviceState* faulty = nullptr;
-std::function<void(std::byte*)> change;
-VKAPI_ATTR VkResult VKAPI_CALL changed_list(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
-                                            std::uint64_t timeout) {
-  const VkResult result = wait_for(device, count, fences, all, timeout);
-  change(faulty->pairs.front()->slots[0].host_list.data());
-  return result;
-}
-
 /// Each work of the device may fail: the dispatches, what fetches a long list, and what writes the host's answers.
 TEST_F(GpuGroundTest, a_device_that_fails_says_how_many_answers_there_are) {
   const GpuCollider on_gpu(device, collider);
   const std::vector<Segmentf> paths = draw(70'000, 4);
   const CallerVulkan vulkan(device.handles());
   const CallerBuffer given(vulkan, paths.size() * sizeof(float[6]));
-  std::memcpy(given.data(), paths.data(), paths.size() * sizeof(float[6]));
+  fill(given, 0, paths);
   const CallerBuffer hits(vulkan, paths.size() * sizeof(DeviceHit));
   const GpuPaths gpu_paths = {PathKind::segment, paths.size(), given.part()};
-  submit = std::exchange(state().vulkan.QueueSubmit, lost_after);
+  submit = std::exchange(state().vulkan.QueueSubmit, no_submit);
+  submit_result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
   for (int works = 0; works < 6; ++works) {
-    submits_left = works;
+    calls_left = works;
     const GpuBatchResult result = on_gpu.first_hits(gpu_paths, hits.part(), {}, {.goes_on_without_device = true});
     EXPECT_FALSE(result);
     ASSERT_TRUE(result.error) << works;
     EXPECT_EQ(result.error->reason, Reason::out_of_memory);
     EXPECT_EQ(result.finished, works < 4 ? 0U : 1U << 16) << works;
   }
-  submits_left = 6;
+  calls_left = 6;
   EXPECT_TRUE(on_gpu.first_hits(gpu_paths, hits.part()));
   state().vulkan.QueueSubmit = submit;
 }
@@ -284,7 +220,7 @@ TEST_F(GpuGroundTest, faulty_lists_of_a_device_are_refused) {
   const CallerVulkan vulkan(device.handles());
   const std::vector<Segmentf> paths = draw(200, 4);
   const CallerBuffer given(vulkan, paths.size() * sizeof(float[6]));
-  std::memcpy(given.data(), paths.data(), paths.size() * sizeof(float[6]));
+  fill(given, 0, paths);
   const CallerBuffer hits(vulkan, paths.size() * sizeof(DeviceHit));
   faulty = &state();
   wait_for = std::exchange(state().vulkan.WaitForFences, changed_list);
@@ -334,32 +270,18 @@ TEST_F(GpuGroundTest, a_device_of_the_caller_is_adopted_and_stays_open) {
   EXPECT_FALSE(none.is_open());
 }
 
-/// Khronos's layer looks at each call. It writes what it finds to standard output.
 TEST(GpuBufferValidationTest, the_validation_layer_has_nothing_to_say) {
-  if (!std::filesystem::exists("/usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json")) {
-    GTEST_SKIP() << "no validation layer here";
-  }
-  setenv("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation", 1);
-  testing::internal::CaptureStdout();
-  bool is_open = false;
-  {
+  expect_nothing_from_validation([](const GpuDevice& device) {
     Random random(1);
     const auto ground = rough_ground<float>(20, 0.1F, random);
     const Colliderf collider(ground.view());
-    const GpuDevice device = any_gpu();
-    is_open = device.is_open();
-    if (is_open) {
-      const GpuCollider on_gpu(device, collider);
-      std::vector<Segmentf> paths(70'000, {{0.25F, 0.5F, 1}, {0.25F, 0.5F, -1}});
-      for (std::size_t i = 0; i < 5000; ++i) paths[2 * i].end = ground.vertices[i % ground.vertices.size()];
-      expect_same_in_buffers(device, on_gpu, collider, paths);
-      const auto odd = [](const Hitf& hit) { return hit.triangle % 2 == 1; };
-      expect_same_in_buffers(device, on_gpu, collider, paths, {.filter = odd});
-    }
-  }
-  unsetenv("VK_INSTANCE_LAYERS");
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
-  if (!is_open) GTEST_SKIP() << "no Vulkan device here";
+    const GpuCollider on_gpu(device, collider);
+    std::vector<Segmentf> paths(70'000, {{0.25F, 0.5F, 1}, {0.25F, 0.5F, -1}});
+    for (std::size_t i = 0; i < 5000; ++i) paths[2 * i].end = ground.vertices[i % ground.vertices.size()];
+    expect_same_in_buffers(device, on_gpu, collider, paths);
+    const auto odd = [](const Hitf& hit) { return hit.triangle % 2 == 1; };
+    expect_same_in_buffers(device, on_gpu, collider, paths, {.filter = odd});
+  });
 }
 
 }  // namespace
