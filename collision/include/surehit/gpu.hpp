@@ -81,7 +81,7 @@ struct GpuDescription {
 
 /// Which device is opened.
 struct GpuChoice {
-  std::string name = {};        ///< A part of the device's name. If it is empty, the first of the best kind is opened.
+  std::string name = {};        ///< A part of the device's name. If it is empty, devices of the best kind come first.
   bool takes_software = false;  ///< True if software will do. A device of that kind is opened by its name too.
 };
 
@@ -131,8 +131,9 @@ class GpuDevice {
   /// Sets `descriptions` to all devices, those of the best kind first. Fails if there is no loader. No device is no
   /// failure.
   static GpuResult try_list(std::vector<GpuDescription>& descriptions);
-  /// Becomes the device of this choice. Fails if there is none, if it lacks something, or if it computes otherwise than
-  /// the proofs assume. This device is then as before.
+  /// Becomes the first device of this choice that will do. Fails if there is none. A device will not do if it lacks
+  /// something, or computes otherwise than the proofs assume. If all are like that, the error is that of the first.
+  /// This device is then as before.
   GpuResult try_open(const GpuChoice& choice = {});
   /// Becomes a device that the caller has opened. Fails as `try_open` does, or if a handle is null.
   ///

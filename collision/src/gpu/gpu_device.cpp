@@ -12,7 +12,7 @@ namespace surehit {
 GpuResult GpuDevice::try_list(std::vector<GpuDescription>& descriptions) {
   descriptions.clear();
   detail::GpuDeviceState state;
-  std::vector<std::pair<VkPhysicalDevice, detail::DeviceReport>> found;
+  std::vector<detail::FoundDevice> found;
   auto error = state.start();
   if (!error) error = state.find(found);
   if (error && error->reason == GpuError::Reason::no_device) return {};  // A loader without a driver.
@@ -24,21 +24,25 @@ GpuResult GpuDevice::try_list(std::vector<GpuDescription>& descriptions) {
 GpuResult GpuDevice::try_open(const GpuChoice& choice) {
   const FloatingPointEnvironment environment;
   auto state = std::make_shared<detail::GpuDeviceState>();
-  std::vector<std::pair<VkPhysicalDevice, detail::DeviceReport>> found;
+  std::vector<detail::FoundDevice> found;
   if (auto error = state->start()) return *error;
   if (auto error = state->find(found)) return *error;
   const GpuError::Reason no_device = GpuError::Reason::no_device;
   if (found.empty()) return GpuError(no_device, "Vulkan has found no device; a driver may not be installed");
+  std::vector<detail::FoundDevice> chosen;
   std::string refused;
   for (const auto& [device, report] : found) {
     const GpuDescription description = detail::description_of(report);
     const bool is_chosen = choice.name.empty() ? description.kind != GpuKind::software || choice.takes_software
                                                : description.name.find(choice.name) != std::string::npos;
-    if (!is_chosen) {
+    if (is_chosen) {
+      chosen.emplace_back(device, report);
+    } else {
       refused += (refused.empty() ? "" : ", ") + description.name;
-      continue;
     }
-    if (auto error = state->open(device, report)) return *error;
+  }
+  if (!chosen.empty()) {
+    if (auto error = state->open_first(chosen)) return *error;
     state_ = std::move(state);
     return {};
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "roundings.spv.hpp"
 #include "scene_walk.spv.hpp"
@@ -24,18 +25,25 @@ GpuCopy copy_of(const GpuBuffer& from, const GpuBuffer& to, std::size_t bytes, s
 }  // namespace
 
 GpuDeviceState::~GpuDeviceState() {
-  if (device != VK_NULL_HANDLE) {
-    if (!has_returned()) {
-      forget();
-      return;
-    }
-    pairs.clear();
-    for (VkPipeline pipeline : pipelines_) vulkan.DestroyPipeline(device, pipeline, nullptr);
-    vulkan.DestroyPipelineLayout(device, layout_, nullptr);
-    vulkan.DestroyDescriptorSetLayout(device, set_layout_, nullptr);
-    if (!is_adopted) vulkan.DestroyDevice(device, nullptr);
-  }
+  if (!close()) return;
   if (instance != VK_NULL_HANDLE && !is_adopted) vulkan.DestroyInstance(instance, nullptr);
+}
+
+bool GpuDeviceState::close() noexcept {
+  if (device == VK_NULL_HANDLE) return true;
+  if (!has_returned()) {
+    forget();
+    return false;
+  }
+  pairs.clear();
+  for (VkPipeline& pipeline : pipelines_)
+    vulkan.DestroyPipeline(device, std::exchange(pipeline, VkPipeline{VK_NULL_HANDLE}), nullptr);
+  vulkan.DestroyPipelineLayout(device, std::exchange(layout_, VkPipelineLayout{VK_NULL_HANDLE}), nullptr);
+  vulkan.DestroyDescriptorSetLayout(device, std::exchange(set_layout_, VkDescriptorSetLayout{VK_NULL_HANDLE}), nullptr);
+  if (!is_adopted) vulkan.DestroyDevice(device, nullptr);
+  device = VK_NULL_HANDLE;
+  is_lost = false;
+  return true;
 }
 
 std::optional<GpuError> GpuDeviceState::start(const char* loader) {
@@ -55,7 +63,7 @@ std::optional<GpuError> GpuDeviceState::start(const char* loader) {
   return vulkan.load(instance);
 }
 
-std::optional<GpuError> GpuDeviceState::find(std::vector<std::pair<VkPhysicalDevice, DeviceReport>>& found) const {
+std::optional<GpuError> GpuDeviceState::find(std::vector<FoundDevice>& found) const {
   found.clear();
   std::uint32_t count = 0;
   if (auto error = error_of(vulkan.EnumeratePhysicalDevices(instance, &count, nullptr), "while finding devices")) {
@@ -83,6 +91,17 @@ DeviceReport GpuDeviceState::report_of(VkPhysicalDevice one) const {
   its_report.families.resize(families);
   vulkan.GetPhysicalDeviceQueueFamilyProperties(one, &families, its_report.families.data());
   return its_report;
+}
+
+std::optional<GpuError> GpuDeviceState::open_first(std::span<const FoundDevice> found) {
+  std::optional<GpuError> of_first;
+  for (const auto& [one, its_report] : found) {
+    auto error = open(one, its_report);
+    if (!error) return std::nullopt;
+    if (!of_first) of_first = std::move(error);
+    if (!close()) break;
+  }
+  return of_first;
 }
 
 std::optional<GpuError> GpuDeviceState::open(VkPhysicalDevice chosen, const DeviceReport& its_report) {

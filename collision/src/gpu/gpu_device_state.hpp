@@ -47,6 +47,9 @@ struct GpuDispatch {
   PushedWords words;
 };
 
+/// A device, and what its driver says of it.
+using FoundDevice = std::pair<VkPhysicalDevice, DeviceReport>;
+
 /// What an open device has behind its pointer.
 struct GpuDeviceState {
   GpuDeviceState() = default;
@@ -57,9 +60,11 @@ struct GpuDeviceState {
   /// Starts Vulkan, without a device.
   [[nodiscard]] std::optional<GpuError> start(const char* loader = "libvulkan.so.1");
   /// Sets `found` to what the drivers say of all devices.
-  [[nodiscard]] std::optional<GpuError> find(std::vector<std::pair<VkPhysicalDevice, DeviceReport>>& found) const;
+  [[nodiscard]] std::optional<GpuError> find(std::vector<FoundDevice>& found) const;
   /// Returns what the driver says of a device.
   [[nodiscard]] DeviceReport report_of(VkPhysicalDevice one) const;
+  /// Opens the first of these devices that will do. If none will, it returns the error of the first.
+  [[nodiscard]] std::optional<GpuError> open_first(std::span<const FoundDevice> found);
   /// Opens a device, makes its pipelines, and checks how it rounds.
   [[nodiscard]] std::optional<GpuError> open(VkPhysicalDevice chosen, const DeviceReport& its_report);
   /// Does the same with a device that the caller has opened. It is left open at the end.
@@ -117,6 +122,9 @@ struct GpuDeviceState {
   [[nodiscard]] std::optional<GpuError> make(GpuSlot& slot, const GpuSlotPair& pair) const;
   /// Waits for work after a failure. A device that cannot be waited for counts as lost.
   void abandon(GpuSlot& slot) noexcept;
+  /// Closes the device, so that another one can be opened. Returns false if it has not returned from its work, and must
+  /// be left as it is.
+  [[nodiscard]] bool close() noexcept;
   /// Waits a little for work that is under way. Returns false if some of it still is.
   [[nodiscard]] bool has_returned() noexcept;
   /// Leaves all memory to a device that has not returned from its work.

@@ -65,6 +65,53 @@ TEST_F(GpuDeviceTest, devices_are_listed_and_opened_by_name) {
   EXPECT_EQ(uploaded.error().reason, Reason::no_device);
 }
 
+PFN_vkGetDeviceProcAddr get_function = nullptr;
+PFN_vkDestroyDevice destroy = nullptr;
+int faulty_devices = 0;
+int closed_devices = 0;
+VKAPI_ATTR void VKAPI_CALL counted_close(VkDevice device, const VkAllocationCallbacks* callbacks) {
+  ++closed_devices;
+  destroy(device, callbacks);
+}
+VKAPI_ATTR VkResult VKAPI_CALL no_fence(VkDevice, const VkFenceCreateInfo*, const VkAllocationCallbacks*, VkFence*) {
+  return VK_ERROR_OUT_OF_HOST_MEMORY;
+}
+/// Devices that make no fences, until enough of them were opened.
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL faulty_function(VkDevice device, const char* name) {
+  const PFN_vkVoidFunction function = get_function(device, name);
+  if (std::string(name) == "vkDestroyDevice") {
+    destroy = reinterpret_cast<PFN_vkDestroyDevice>(function);
+    return reinterpret_cast<PFN_vkVoidFunction>(counted_close);
+  }
+  if (std::string(name) == "vkCreateFence" && faulty_devices-- > 0) {
+    return reinterpret_cast<PFN_vkVoidFunction>(no_fence);
+  }
+  return function;
+}
+
+TEST_F(GpuDeviceTest, devices_that_will_not_do_are_passed_over) {
+  std::vector<detail::FoundDevice> found;
+  GpuDeviceState several;
+  ASSERT_FALSE(several.start());
+  ASSERT_FALSE(several.find(found));
+  std::erase_if(found, [&](const auto& one) { return one.second.properties.deviceName != device.name(); });
+  ASSERT_FALSE(found.empty());
+  const detail::FoundDevice sound = found.front();
+  detail::FoundDevice old = sound;
+  old.second.properties.apiVersion = VK_API_VERSION_1_0;
+  get_function = std::exchange(several.vulkan.GetDeviceProcAddr, faulty_function);
+  faulty_devices = 2;
+  found = {old, sound, sound};
+  const auto error = several.open_first(found);
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->reason, Reason::missing_feature);
+  EXPECT_EQ(closed_devices, 2);
+  faulty_devices = 1;
+  EXPECT_FALSE(several.open_first(found));
+  EXPECT_EQ(closed_devices, 3);
+  EXPECT_EQ(several.name, device.name());
+}
+
 TEST_F(GpuDeviceTest, an_upload_without_memory_changes_nothing) {
   GpuCollider on_gpu(device, collider);
   allocate = std::exchange(state().vulkan.AllocateMemory, no_memory);
