@@ -66,6 +66,9 @@ layout(push_constant) uniform Dispatch {
   uint lists;        // 1 if the host looks at no answers, but at a list of what is left to it.
 };
 
+// A decision in pairs takes about as long as so many steps.
+const uint steps_of_pairs = 32;
+
 // What is no triangle.
 const uint miss = 0xffffffffu;
 const uint undecided = 0xfffffffeu;
@@ -117,6 +120,7 @@ float best_upper;    // and at most this.
 float limit;         // Some certain hit has its t here or before.
 float others;        // All other hits have their t here or later.
 bool has_open;       // True if something is undecided.
+uint steps;          // What the walk has taken so far.
 
 // Notes that something is undecided. Its hits have their t at `enters` or later. Returns true if no first hit can be
 // certain any more, because no certain hit is before all others (G8).
@@ -142,6 +146,7 @@ void take_hit(uint triangle, uint instance, float lower, float upper) {
 
 // Decides in pairs what the kernel has left open (G21).
 PairVerdict decide_in_pairs(vec3 a, vec3 b, vec3 c, uint instance) {
+  steps += steps_of_pairs;
 #ifdef SCENE
   PairDeterminants of = placed_determinants_of(instances[instance], given_start, toward, is_segment != 0, a, b, c);
 #else
@@ -214,7 +219,7 @@ uint answer(uint path) {
   uint waiting[max_depth];
   float waiting_enters[max_depth];
   uint depth = 0;
-  for (uint steps = 0; steps < max_steps; ++steps) {
+  for (steps = 0; steps < max_steps; ++steps) {
     TreeNode node = node_at(at);
     if (node.count == 0) {
       float left_enters;

@@ -249,6 +249,28 @@ TEST_F(GpuColliderTest, walks_that_take_too_many_steps_are_left_to_the_host) {
   EXPECT_EQ(statistics.undecided, statistics.paths);
 }
 
+/// The edge of each sliver is so near to the paths that it is decided in pairs. A walk takes so many decisions, and no
+/// more.
+TEST_F(GpuColliderTest, walks_with_too_many_decisions_in_pairs_are_left_to_the_host) {
+  for (const int slivers : {64, 300}) {
+    GeneratedMesh<float> mesh;
+    for (int i = 0; i < slivers; ++i) {
+      const float z = static_cast<float>(i) * 0x1p-10F;
+      mesh.add({{-1, -1, z}, {1, 1, z}, {1, 0.875F, z}});
+    }
+    mesh.add({{-4, -4, -1}, {-4, 4, -1}, {4, 0, -1}});
+    const Colliderf collider(mesh.view());
+    std::vector<Segmentf> paths;
+    for (int i = 0; i < 16; ++i) {
+      const float x = -0.5F - static_cast<float>(i) * 0x1p-10F;
+      paths.push_back({{x, x + 0x1p-20F, 3}, {x, x + 0x1p-20F, -3}});
+    }
+    GpuStatistics of_slivers;
+    EXPECT_EQ(expect_same_as_host(GpuCollider(device, collider), collider, paths, {}, &of_slivers), paths.size());
+    EXPECT_EQ(of_slivers.undecided, slivers == 64 ? 0U : of_slivers.paths);
+  }
+}
+
 TEST_F(GpuColliderTest, meshes_of_others) {
   const std::filesystem::path folder = SUREHIT_MESH_FOLDER;
   if (!std::filesystem::exists(folder / "dungeon.obj")) GTEST_SKIP() << "no meshes in " << folder;
