@@ -9,7 +9,7 @@
 namespace surehit {
 
 /// Small moving boxes that walk through the outermost grid side by side, one in each lane. They visit at least each
-/// cell that `SweptWalk` has to visit. SHAPES.md has the proof (W6, W7).
+/// cell that `SweptWalk` has to visit. SWEPT_WALK.md has the proof (W6, W7).
 ///
 /// All numbers of the walk are floats. They are counted in top cells and mirrored, so that no box falls on an axis.
 class SweptLanes {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "grid/grid.hpp"
 #include "grid/list_cells.hpp"
@@ -21,7 +22,7 @@ struct SweptExtents {
 };
 
 /// Visits all cells of a grid that a moving box comes to and that list triangles. It visits at least each cell that
-/// has a point which the box meets before t = `visitor.limit()`. SHAPES.md has the proof (W1 to W5).
+/// has a point which the box meets before t = `visitor.limit()`. SWEPT_WALK.md has the proof (W1 to W5).
 ///
 /// `visitor.visit_list(word)` gets the word of each cell, with its list. `visitor.is_done()` ends the walk.
 /// `visitor.count_cell()` counts a step. `slabs` has the slab of each list, or is null.
@@ -61,6 +62,9 @@ class SweptWalk {
     }
   };
 
+  /// The first and the last of some cells on one axis.
+  using Range = std::array<std::int64_t, 2>;
+
   /// The way of the box on one axis, in finest cells.
   struct Axis {
     double start = 0;         ///< The centre at t = 0.
@@ -79,22 +83,34 @@ class SweptWalk {
       const double t = last * inverse;
       return {std::max(0.0, std::min(s, t)), std::min(1.0, std::max(s, t))};
     }
-    /// Returns the one of two cells that the box comes to first.
-    [[nodiscard]] std::int64_t first_of(const std::array<std::int64_t, 2>& range) const {
-      return way < 0 ? range[1] : range[0];
+    /// Returns the times during which the box meets a top cell, which has so many finest cells on an edge.
+    [[nodiscard]] Times during_cell(std::int64_t cell, double size) const {
+      return during(static_cast<double>(cell) * size, static_cast<double>(cell + 1) * size);
     }
-    /// Returns when the box comes to a cell beyond so many cells of this size, where the first one is that of a range
-    /// (W5).
-    [[nodiscard]] double comes_beyond(const std::array<std::int64_t, 2>& range, double count, double size) const {
+    /// Returns a cell of a range, counted along the way.
+    [[nodiscard]] std::int64_t cell(const Range& range, std::int64_t number) const {
+      return way < 0 ? range[1] - number : range[0] + number;
+    }
+    /// Returns the number of a cell, counted along the way from the first one of a range.
+    [[nodiscard]] std::int64_t number(const Range& range, std::int64_t cell) const {
+      return way < 0 ? range[1] - cell : cell - range[0];
+    }
+    /// Returns so many cells, from the first one of a range along the way.
+    [[nodiscard]] Range first_cells(const Range& range, std::int64_t count) const {
+      return way < 0 ? Range{range[1] - count + 1, range[1]} : Range{range[0], range[0] + count - 1};
+    }
+    /// Returns when the box comes to a cell beyond those of a block, where it meets some of these and goes on to all
+    /// cells of `met` (W5).
+    [[nodiscard]] double comes_beyond(const Range& block, const Range& met, double size) const {
       if (std::fabs(way) < 0x1p-300) {
-        return static_cast<double>(range[1] - range[0]) < count ? std::numeric_limits<double>::infinity() : 0;
+        return block[0] <= met[0] && met[1] <= block[1] ? std::numeric_limits<double>::infinity() : 0;
       }
-      if (way < 0) return ((static_cast<double>(range[1] + 1) - count) * size + reach - start) * inverse;
-      return ((static_cast<double>(range[0]) + count) * size - reach - start) * inverse;
+      if (way < 0) return (static_cast<double>(block[0]) * size + reach - start) * inverse;
+      return (static_cast<double>(block[1] + 1) * size - reach - start) * inverse;
     }
     /// Returns the first and the last top cell that the box meets during some times. `inverse_size` is one over the
     /// number of finest cells along a top cell, which is a power of two.
-    [[nodiscard]] std::array<std::int64_t, 2> range(const Times& times, double inverse_size) const {
+    [[nodiscard]] Range range(const Times& times, double inverse_size) const {
       const double a = start + way * times.enters;
       const double b = start + way * times.leaves;
       // Numbers below -1 count as -1, so the conversion, which cuts off, rounds down.
@@ -133,93 +149,126 @@ class SweptWalk {
     return true;
   }
 
-  /// Goes through the top cells, slab by slab along the longest way, and row by row in each slab.
-  void walk_top(const GridFrame& frame, const std::array<Axis, 3>& axes) {
-    std::array<std::size_t, 3> order = {2, 1, 0};
-    for (std::size_t i = 1; i < 3; ++i) {
-      if (std::fabs(axes[order[i]].way) > std::fabs(axes[order[0]].way)) std::swap(order[0], order[i]);
+  /// The axes in the order in which the walk goes through the top cells of a frame. It goes along the way on each axis.
+  struct TopOrder {
+    TopOrder(const GridFrame& frame, const std::array<Axis, 3>& axes) : frame(frame), axes(axes) {
+      for (std::size_t i = 1; i < 3; ++i) {
+        if (std::fabs(axes[order[i]].way) > std::fabs(axes[order[0]].way)) std::swap(order[0], order[i]);
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (axes[i].way < 0) octant |= 1U << i;
+      }
     }
-    const Axis& outer = axes[order[0]];
-    const Axis& middle = axes[order[1]];
-    const Axis& inner = axes[order[2]];
+    [[nodiscard]] const Axis& outer() const { return axes[order[0]]; }   ///< It goes from slab to slab on this axis.
+    [[nodiscard]] const Axis& middle() const { return axes[order[1]]; }  ///< It goes from row to row.
+    [[nodiscard]] const Axis& inner() const { return axes[order[2]]; }   ///< It goes along a row.
+
+    const GridFrame& frame;
+    const std::array<Axis, 3>& axes;
+    std::array<std::size_t, 3> order = {2, 1, 0};
+    std::uint32_t octant = 0;  ///< The octant of the way.
+  };
+
+  /// A block of top cells.
+  struct Block {
+    Range slabs = {0, -1};
+    Range rows = {0, -1};
+    Range columns = {0, -1};
+
+    [[nodiscard]] bool has_no_cells() const {
+      return slabs[0] > slabs[1] || rows[0] > rows[1] || columns[0] > columns[1];
+    }
+    /// Returns true if another block is a part of this one.
+    [[nodiscard]] bool has(const Block& other) const {
+      const auto has_range = [](const Range& range, const Range& part) {
+        return range[0] <= part[0] && part[1] <= range[1];
+      };
+      return has_range(slabs, other.slabs) && has_range(rows, other.rows) && has_range(columns, other.columns);
+    }
+  };
+
+  /// Goes through the top cells, slab by slab along the longest way. Leaves out slabs in which all cells that the box
+  /// meets are empty (W5).
+  void walk_top(const GridFrame& frame, const std::array<Axis, 3>& axes) {
+    const TopOrder top(frame, axes);
+    const Axis& outer = top.outer();
     const double size = frame.division;
     const double inverse_size = 1 / size;
-    const auto [first, last] = outer.range({0, std::min(1.0, visitor_.limit())}, inverse_size);
-    for (std::int64_t count = last - first + 1, step = 0; step < count && !visitor_.is_done(); ++step) {
-      const std::int64_t i = outer.way < 0 ? last - step : first + step;
-      const Times in_slab = outer.during(static_cast<double>(i) * size, static_cast<double>(i + 1) * size);
-      if (is_late(in_slab)) continue;
-      const auto rows = middle.range(in_slab, inverse_size);
-      const std::array<std::int64_t, 2> slabs = {outer.way < 0 ? first : i, outer.way < 0 ? i : last};
-      const double empty_until = empty_from(frame, axes, order, slabs, rows, inner.range(in_slab, inverse_size));
-      if (empty_until > std::min(1.0, visitor_.limit())) return;
-      if (empty_until > in_slab.enters) {
-        const std::int64_t next = outer.first_of(outer.range({empty_until, empty_until}, inverse_size));
-        const std::int64_t next_step = outer.way < 0 ? last - next : next - first;
-        if (next_step > step) {
-          step = next_step - 1;
-          continue;
-        }
-      }
-      for (std::int64_t j = rows[0]; j <= rows[1]; ++j) {
-        const Times in_row =
-            middle.during(static_cast<double>(j) * size, static_cast<double>(j + 1) * size).within(in_slab);
-        if (is_late(in_row)) continue;
-        walk_row(frame, axes, {order[0], order[1], order[2]}, {i, j}, in_row, inner.range(in_row, inverse_size));
-        if (visitor_.is_done()) return;
-      }
+    const Range slabs = outer.range(until_limit(), inverse_size);
+    Block empty;  // The last block of empty cells.
+    for (std::int64_t step = 0; step <= slabs[1] - slabs[0] && !visitor_.is_done(); ++step) {
+      const std::int64_t slab = outer.cell(slabs, step);
+      const Times in_slab = outer.during_cell(slab, size).within(until_limit());
+      if (in_slab.is_empty()) continue;
+      const Block met = {
+          {slab, slab}, top.middle().range(in_slab, inverse_size), top.inner().range(in_slab, inverse_size)};
+      if (met.has_no_cells() || empty.has(met)) continue;
+      empty = walk_slab(top, met, in_slab);
+      if (empty.has_no_cells()) continue;
+      const double until =
+          std::min({outer.comes_beyond(empty.slabs, slabs, size), top.middle().comes_beyond(empty.rows, met.rows, size),
+                    top.inner().comes_beyond(empty.columns, met.columns, size)});
+      if (until > until_limit().leaves) return;
+      const std::int64_t next = outer.cell(outer.range({until, until}, inverse_size), 0);
+      step = std::max(step, outer.number(slabs, next) - 1);
     }
   }
 
-  /// Returns a time before which all cells are empty that the box meets in the first of these slabs and after it, or 0.
-  /// It begins to meet that slab in these rows and columns (W5).
-  [[nodiscard]] double empty_from(const GridFrame& frame, const std::array<Axis, 3>& axes,
-                                  const std::array<std::size_t, 3>& order, const std::array<std::int64_t, 2>& slabs,
-                                  const std::array<std::int64_t, 2>& rows,
-                                  const std::array<std::int64_t, 2>& columns) const {
-    if (rows[0] > rows[1] || columns[0] > columns[1]) return 0;
-    const std::array<const std::array<std::int64_t, 2>*, 3> ranges = {&slabs, &rows, &columns};
-    std::size_t index = frame.first_top;
-    std::uint32_t octant = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Axis& axis = axes[order[k]];
-      index += static_cast<std::size_t>(axis.first_of(*ranges[k])) * axis.pitch;
-      if (axis.way < 0) octant |= 1U << order[k];
+  /// Goes through a slab of top cells, row by row. The box meets its cells `met` during some times. If all of them are
+  /// empty, returns a block of empty cells that begins with the first of them along the way and has them all. Else it
+  /// returns a block without cells (W5).
+  Block walk_slab(const TopOrder& top, const Block& met, const Times& in_slab) {
+    std::int64_t depth = CellWord::max_distance;
+    std::int64_t row = 0;
+    std::int64_t columns = std::numeric_limits<std::int64_t>::max();
+    while (row <= met.rows[1] - met.rows[0]) {
+      const std::int64_t index = top.middle().cell(met.rows, row);
+      const Times in_row = top.middle().during_cell(index, top.frame.division).within(in_slab);
+      EmptyRow empty = {0, 0};
+      if (!is_late(in_row)) empty = walk_row(top, {met.slabs[0], index}, in_row, met.columns);
+      if (visitor_.is_done()) return {};
+      // The next rows are empty, too, where the cubes of this one are.
+      row += std::max<std::int64_t>(empty.edge, 1);
+      depth = std::min(depth, empty.edge);
+      columns = std::min(columns, empty.columns);
     }
-    visitor_.count_cell();
-    const CellWord word = grid_.all_top()[index];
-    if (!word.is_empty()) return 0;
-    double until = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < 3; ++k) {
-      until = std::min(until, axes[order[k]].comes_beyond(*ranges[k], word.distance(octant), frame.division));
-    }
-    return until;
+    if (depth == 0) return {};
+    return {top.outer().first_cells(met.slabs, depth), top.middle().first_cells(met.rows, row),
+            top.inner().first_cells(met.columns, columns)};
   }
 
-  /// Goes through a row of top cells.
-  void walk_row(const GridFrame& frame, const std::array<Axis, 3>& axes, const std::array<std::size_t, 3>& order,
-                const std::array<std::int64_t, 2>& row, const Times& in_row, const std::array<std::int64_t, 2>& range) {
+  /// What is known of the cells of a row, if all that the box meets are empty.
+  struct EmptyRow {
+    std::int64_t edge;  ///< The minimum edge of the cubes of empty cells in the row. It is 0 if some cell is not empty.
+    std::int64_t columns;  ///< The number of columns that these cubes have along the way.
+  };
+
+  /// Goes through a row of top cells. The row has a slab and a number in the slab.
+  EmptyRow walk_row(const TopOrder& top, const std::array<std::int64_t, 2>& row, const Times& in_row,
+                    const Range& columns) {
+    const auto& [frame, axes, order, octant] = top;
     const CellWord* const words = grid_.all_top().data() + frame.first_top;
-    const auto base = static_cast<std::size_t>(row[0]) * axes[order[0]].pitch +
-                      static_cast<std::size_t>(row[1]) * axes[order[1]].pitch;
-    const Axis& inner = axes[order[2]];
-    for (std::int64_t k = range[0]; k <= range[1]; ++k) {
+    const auto base =
+        static_cast<std::size_t>(row[0]) * top.outer().pitch + static_cast<std::size_t>(row[1]) * top.middle().pitch;
+    EmptyRow empty = {CellWord::max_distance, 0};
+    while (empty.columns <= columns[1] - columns[0]) {
+      const std::int64_t column = top.inner().cell(columns, empty.columns);
       visitor_.count_cell();
-      const CellWord word = words[base + static_cast<std::size_t>(k) * inner.pitch];
-      if (word.is_empty()) {
-        // The cells from here on along the row are in the cube of empty cells of octant 0.
-        k += word.distance(0) - 1;
-        continue;
-      }
+      const CellWord word = words[base + static_cast<std::size_t>(column) * top.inner().pitch];
+      const std::int64_t edge = word.is_empty() ? word.distance(octant) : 0;
+      empty.edge = std::min(empty.edge, edge);
+      empty.columns += std::max<std::int64_t>(edge, 1);
+      if (word.is_empty()) continue;
       std::array<double, 3> low = {};
       low[order[0]] = static_cast<double>(row[0]) * frame.division;
       low[order[1]] = static_cast<double>(row[1]) * frame.division;
-      low[order[2]] = static_cast<double>(k) * frame.division;
-      const Times times = inner.during(low[order[2]], low[order[2]] + frame.division).within(in_row);
+      low[order[2]] = static_cast<double>(column) * frame.division;
+      const Times times = top.inner().during_cell(column, frame.division).within(in_row);
       if (is_late(times)) continue;
       walk_cell(axes, word, low, frame.division, times);
-      if (visitor_.is_done()) return;
+      if (visitor_.is_done()) break;
     }
+    return empty;
   }
 
   /// Goes through a cell that is not empty, from the low corner on.
@@ -303,6 +352,8 @@ class SweptWalk {
     }
   }
 
+  /// Returns the times that count.
+  [[nodiscard]] Times until_limit() const { return {0, std::min(1.0, visitor_.limit())}; }
   /// Returns true if the box comes too late, or never. What it enters after the limit does not count (W3).
   [[nodiscard]] bool is_late(const Times& times) const { return times.is_empty() || times.enters > visitor_.limit(); }
 

@@ -110,6 +110,63 @@ TYPED_TEST(ColliderBoxes, FindWhatBruteForceFindsInMeshesThatAreHardForGrids) {
   ASSERT_NO_FATAL_FAILURE(compare(far, "far"));
 }
 
+/// So fine a grid that a box of half its width has more cells on an edge than a cube of empty cells can have.
+constexpr GridOptions fine_grid = {.resolution = {48, 48, 48}};
+
+// Few tiny triangles far from each other, so that boxes of all extents come through empty space first.
+TYPED_TEST(ColliderBoxes, FindWhatIsBehindEmptySpaceWithAnyExtents) {
+  using Scalar = TypeParam;
+  Random random(11);
+  for (std::size_t i = 0; i < case_count(10); ++i) {
+    const auto mesh = scattered_triangles<Scalar>(16, Scalar(0.001), random);
+    std::vector<SweptBox<Scalar>> boxes;
+    while (boxes.size() < 200) {
+      const auto vector = [&]() -> Vector3<Scalar> {
+        const Scalar x = random.symmetric<Scalar>();
+        const Scalar y = random.symmetric<Scalar>();
+        return {x, y, random.symmetric<Scalar>()};
+      };
+      Vector3<Scalar> half = vector().cwiseAbs();
+      for (Scalar& x : half) x = std::ldexp(x, -static_cast<int>(random.below(6)));
+      const Vector3<Scalar> start = 2 * vector();
+      // Now and then it stays on an axis.
+      Vector3<Scalar> step = 3 * vector();
+      for (Scalar& x : step) x = random.one_in(4) ? 0 : x;
+      boxes.push_back({start, start + step, half});
+    }
+    ASSERT_NO_FATAL_FAILURE(compare_with_brute_force(mesh.view(), boxes, by_judge, "scattered", fine_grid));
+  }
+}
+
+/// Returns how many cells a box with half the width of the grid comes to on some step. Only the ends of the grid have
+/// triangles.
+template <typename Scalar>
+std::uint64_t cells_on_step(const Vector3<Scalar>& step) {
+  GeneratedMesh<Scalar> mesh;
+  for (const Scalar far : {Scalar{-24}, Scalar{24}}) {
+    const Scalar near = far * Scalar(0.99);
+    mesh.add({{far, far, far}, {near, far, far}, {far, near, far}});
+  }
+  const Collider<Scalar> collider(mesh.view(), {.grid = fine_grid});
+  QueryStatistics statistics;
+  const Vector3<Scalar> half(12, 12, 12);
+  EXPECT_FALSE(collider.any_hit(SweptBox<Scalar>{-step / 2, step / 2, half}, {}, &statistics));
+  return statistics.cells;
+}
+
+// Row by row, and slab by slab, these boxes would come to thousands of cells.
+TYPED_TEST(ColliderBoxes, LeapOverEmptyCellsThoughTheyAreWiderThanTheLeaps) {
+  using Scalar = TypeParam;
+  const Vector3<Scalar> along(0, 0, 20);
+  const Vector3<Scalar> askew(3, -2, 20);
+  const Vector3<Scalar> diagonal(-20, 20, 20);
+  const Vector3<Scalar> no_step(0, 0, 0);
+  EXPECT_LT(cells_on_step<Scalar>(along), 40U);
+  EXPECT_LT(cells_on_step<Scalar>(askew), 40U);
+  EXPECT_LT(cells_on_step<Scalar>(diagonal), 100U);
+  EXPECT_LT(cells_on_step<Scalar>(no_step), 20U);
+}
+
 TYPED_TEST(ColliderBoxes, FindAllThatIsThereFromAfarAndWithAnySize) {
   using Scalar = TypeParam;
   Random random(9);

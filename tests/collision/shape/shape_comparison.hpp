@@ -38,8 +38,8 @@ std::vector<ShapeHit<Scalar>> brute_force(const TriangleMeshView<Scalar>& mesh, 
 /// Asks a collider of the mesh about shapes in every way, and compares with brute force.
 template <typename Shape, typename Scalar, typename ComesBefore>
 void compare_with_brute_force(const TriangleMeshView<Scalar>& mesh, const std::vector<Shape>& shapes,
-                              const ComesBefore& comes_before, const std::string& what) {
-  const Collider<Scalar> collider(mesh);
+                              const ComesBefore& comes_before, const std::string& what, const GridOptions& grid = {}) {
+  const Collider<Scalar> collider(mesh, {.grid = grid});
   std::vector<ShapeHit<Scalar>> firsts(shapes.size());
   std::vector<std::uint8_t> blocked(shapes.size());
   collider.first_hits(shapes, firsts);
