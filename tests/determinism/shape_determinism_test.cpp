@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -37,6 +40,56 @@ class ShapeDeterminism : public testing::Test {
 };
 TYPED_TEST_SUITE(ShapeDeterminism, Scalars, ScalarNames);
 
+/// The hard shapes of one kind, with their options, and what single queries answer. A batch has shapes of one kind.
+template <typename Shape, typename Scalar>
+class ShapesOfOneKind {
+ public:
+  explicit ShapesOfOneKind(const HardShapes<Scalar>& hard) {
+    const Collider<Scalar> collider = hard.hard.collider();
+    for (std::size_t id = 0; id < hard.shapes.size(); ++id) {
+      const auto* const shape = std::get_if<Shape>(&hard.shapes[id]);
+      if (shape == nullptr) continue;
+      shapes_.push_back(*shape);
+      options_.push_back(ShapeAnswers<Scalar>::options_of(id));
+      firsts_.push_back(collider.first_hit(*shape, options_.back()).value_or(ShapeHit<Scalar>{}));
+    }
+  }
+
+  void expect_same_of_batches(const Collider<Scalar>& collider, const std::optional<Executor>& executor = {}) const {
+    std::vector<ShapeHit<Scalar>> hits(shapes_.size());
+    std::vector<std::uint8_t> blocked(shapes_.size());
+    const ShapeBatchOptions<Scalar> batch = {.path_options = options_, .executor = executor};
+    collider.first_hits(shapes_, hits, batch);
+    collider.any_hits(shapes_, blocked, batch);
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      EXPECT_EQ(hits[i], firsts_[i]) << hex_text(shapes_[i]) << ": " << hex_text(hits[i]) << " or "
+                                     << hex_text(firsts_[i]);
+      EXPECT_EQ(blocked[i] != 0, firsts_[i].triangle != no_triangle) << hex_text(shapes_[i]);
+    }
+  }
+
+ private:
+  std::vector<Shape> shapes_;
+  std::vector<ShapeQueryOptions<Scalar>> options_;
+  std::vector<ShapeHit<Scalar>> firsts_;
+};
+
+/// The hard shapes, kind by kind.
+template <typename Scalar>
+struct ShapesByKind {
+  explicit ShapesByKind(const HardShapes<Scalar>& hard) : balls(hard), boxes(hard), capsules(hard) {}
+
+  void expect_same_of_batches(const Collider<Scalar>& collider, const std::optional<Executor>& executor = {}) const {
+    balls.expect_same_of_batches(collider, executor);
+    boxes.expect_same_of_batches(collider, executor);
+    capsules.expect_same_of_batches(collider, executor);
+  }
+
+  ShapesOfOneKind<SweptSphere<Scalar>, Scalar> balls;
+  ShapesOfOneKind<SweptBox<Scalar>, Scalar> boxes;
+  ShapesOfOneKind<SweptCapsule<Scalar>, Scalar> capsules;
+};
+
 TYPED_TEST(ShapeDeterminism, answers_are_the_published_ones) {
   const ShapeAnswers<TypeParam> answers(this->hard.hard.collider(), this->hard.shapes);
   EXPECT_EQ(answers.hash(), published_shape_hash<TypeParam>);
@@ -66,24 +119,23 @@ TYPED_TEST(ShapeDeterminism, answers_are_the_same_in_every_grid) {
   this->expect_same(this->hard.hard.collider({.resolution = {3, 2, 4}, .crowded = 3}), shapes);
 }
 
-TYPED_TEST(ShapeDeterminism, answers_are_the_same_in_batches_on_any_number_of_threads) {
-  using Scalar = TypeParam;
-  const Collider<Scalar> collider = this->hard.hard.collider();
-  // A batch has shapes of one kind.
-  std::vector<SweptSphere<Scalar>> balls;
-  std::vector<ShapeHit<Scalar>> expected;
-  for (const SweptShape<Scalar>& shape : this->hard.shapes) {
-    const auto* const ball = std::get_if<SweptSphere<Scalar>>(&shape);
-    if (ball == nullptr) continue;
-    balls.push_back(*ball);
-    expected.push_back(collider.first_hit(*ball).value_or(ShapeHit<Scalar>{}));
+TYPED_TEST(ShapeDeterminism, batches_are_the_same_as_single_queries_on_every_instruction_set) {
+  const ShapesByKind<TypeParam> shapes(this->hard);
+  for (const std::int64_t target : instruction_sets()) {
+    SCOPED_TRACE(name_of_instruction_set(target));
+    const ForcedInstructionSet forced(target);
+    shapes.expect_same_of_batches(this->hard.hard.collider());
+    // In large cells, more shapes are small enough to walk in lanes.
+    shapes.expect_same_of_batches(this->hard.hard.collider({.resolution = {3, 2, 4}}));
   }
-  ASSERT_GT(balls.size(), 400U);
+}
+
+TYPED_TEST(ShapeDeterminism, batches_are_the_same_on_any_number_of_threads) {
+  const ShapesByKind<TypeParam> shapes(this->hard);
   for (const std::size_t count : {1U, 2U, 3U, 8U}) {
+    SCOPED_TRACE(std::to_string(count) + " threads");
     const Threads threads(count);
-    std::vector<ShapeHit<Scalar>> hits(balls.size());
-    collider.first_hits(balls, hits, {.executor = Executor(threads)});
-    EXPECT_EQ(hits, expected) << count << " threads";
+    shapes.expect_same_of_batches(this->hard.hard.collider(), Executor(threads));
   }
 }
 
