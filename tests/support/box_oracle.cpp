@@ -219,6 +219,22 @@ Feature feature_of(const Vec& weights) {
   return no_c ? Feature::edge_ab : no_a ? Feature::edge_bc : no_b ? Feature::edge_ca : Feature::face;
 }
 
+SweptTruth truth_of(const Pair& pair) {
+  const std::optional<mpq_class> t = first_time(pair);
+  if (!t) return {};
+  const Weighted touched = touched_point(pair, *t).value();
+  const auto number = [](const mpq_class& x) { return OneRootNumber{x.get_num(), 0, 0, x.get_den()}; };
+  // (P - Q t)² = 0 at t = P/Q.
+  const mpz_class& p = t->get_num();
+  const mpz_class& q = t->get_den();
+  return {true,
+          *t == 0,
+          {q * q, -p * q, p * p},
+          number(touched.weights[1]),
+          number(touched.weights[2]),
+          feature_of(touched.weights)};
+}
+
 }  // namespace
 
 template <typename Scalar>
@@ -238,22 +254,17 @@ std::optional<std::string> find_error(const SweptBox<Scalar>& box, const Triangl
   return std::nullopt;
 }
 
+SweptTruth truth_of(const WholeBoxPair& pair) {
+  const auto rational = [](const WholeVector& x) { return Vec{x[0], x[1], x[2]}; };
+  return truth_of(Pair{rational(pair.start),
+                       rational(pair.step),
+                       rational(pair.half_extents),
+                       {rational(pair.corners[0]), rational(pair.corners[1]), rational(pair.corners[2])}});
+}
+
 template <typename Scalar>
 SweptTruth truth_of(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle) {
-  const Pair pair = convert(box, triangle);
-  const std::optional<mpq_class> t = first_time(pair);
-  if (!t) return {};
-  const Weighted touched = touched_point(pair, *t).value();
-  const auto number = [](const mpq_class& x) { return OneRootNumber{x.get_num(), 0, 0, x.get_den()}; };
-  // (P - Q t)² = 0 at t = P/Q.
-  const mpz_class& p = t->get_num();
-  const mpz_class& q = t->get_den();
-  return {true,
-          *t == 0,
-          {q * q, -p * q, p * p},
-          number(touched.weights[1]),
-          number(touched.weights[2]),
-          feature_of(touched.weights)};
+  return truth_of(convert(box, triangle));
 }
 
 template <typename Scalar>

@@ -20,7 +20,7 @@
 #include "surehit/scene_query_options.hpp"
 #include "surehit/scene_shape_hit.hpp"
 #include "surehit/scene_shape_options.hpp"
-#include "surehit/swept_sphere.hpp"
+#include "surehit/swept_shape.hpp"
 #include "surehit/triangle.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 
@@ -59,9 +59,9 @@ class SceneOracle {
                                                 const SceneQueryOptions<Scalar>& options = {},
                                                 const Filter& filter = {}) const;
 
-  /// Says what is wrong with the hits of a moving ball, which are to be all of them in order. Returns nothing if they
-  /// are right in every field.
-  [[nodiscard]] std::optional<std::string> find_error(const SweptSphere<Scalar>& sphere,
+  /// Says what is wrong with the hits of a moving shape, which are to be all of them in order. Returns nothing if they
+  /// are right in every field. `swept_truth` judges each pair.
+  [[nodiscard]] std::optional<std::string> find_error(const SweptShape<Scalar>& shape,
                                                       const SceneShapeQueryOptions<Scalar>& options,
                                                       const std::vector<SceneShapeHit<Scalar>>& hits) const;
 

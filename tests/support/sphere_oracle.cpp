@@ -182,10 +182,23 @@ std::optional<std::string> find_error_of_point(const RationalPair& exact, const 
   return std::nullopt;
 }
 
+template <typename Scalar>
+mpf_class first_time(const RationalPair& pair) {
+  const Float tiny = tiny_number<Scalar>();
+  return first_time(to_floats(pair), tiny).value();
+}
+
+template <typename Scalar>
+bool is_before(const mpf_class& x, const mpf_class& y) {
+  return x < y - tiny_number<Scalar>() * x;
+}
+
 }  // namespace
 
 template <typename Scalar>
-std::optional<std::string> find_error(const RationalPair& pair, const std::optional<ShapeHit<Scalar>>& answer) {
+std::optional<std::string> find_error(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
+                                      const std::optional<ShapeHit<Scalar>>& answer) {
+  const RationalPair pair = rational(sphere, triangle);
   if (distance_until(pair, 1) > pair.rr) {
     return answer ? std::optional<std::string>("a hit, but they do not touch") : std::nullopt;
   }
@@ -198,25 +211,6 @@ std::optional<std::string> find_error(const RationalPair& pair, const std::optio
     if (const auto error = find_error_of_t(pair, answer->t)) return error;
   }
   return find_error_of_point(pair, *answer);
-}
-
-template <typename Scalar>
-std::optional<std::string> find_error(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle,
-                                      const std::optional<ShapeHit<Scalar>>& answer) {
-  return find_error(rational(sphere, triangle), answer);
-}
-
-bool touches_until(const RationalPair& pair, const mpq_class& t) { return distance_until(pair, t) <= pair.rr; }
-
-template <typename Scalar>
-mpf_class first_time(const RationalPair& pair) {
-  const Float tiny = tiny_number<Scalar>();
-  return first_time(to_floats(pair), tiny).value();
-}
-
-template <typename Scalar>
-bool is_before(const mpf_class& x, const mpf_class& y) {
-  return x < y - tiny_number<Scalar>() * x;
 }
 
 template <typename Scalar>
@@ -251,9 +245,6 @@ bool comes_before(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& x, 
                                                            const Vector3<Scalar>&, double);                          \
   template std::optional<std::string> find_error_of_normal(const SweptSphere<Scalar>&, const Triangle<Scalar>&,      \
                                                            const ShapeHit<Scalar>&, const Vector3<Scalar>&, double); \
-  template std::optional<std::string> find_error(const RationalPair&, const std::optional<ShapeHit<Scalar>>&);       \
-  template mpf_class first_time<Scalar>(const RationalPair&);                                                        \
-  template bool is_before<Scalar>(const mpf_class&, const mpf_class&);                                               \
   template bool comes_before(const SweptSphere<Scalar>&, const Triangle<Scalar>&, const Triangle<Scalar>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

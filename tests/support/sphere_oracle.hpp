@@ -21,22 +21,6 @@ struct PairOf {
 /// In rationals, it may be a placed triangle, and a ball as an instance sees it that moves.
 using RationalPair = PairOf<mpq_class>;
 
-/// Whether the ball touches the triangle in [0, t].
-[[nodiscard]] bool touches_until(const RationalPair& pair, const mpq_class& t);
-
-/// Says what is wrong with an answer about such a pair, as the next function does.
-template <typename Scalar>
-[[nodiscard]] std::optional<std::string> find_error(const RationalPair& pair,
-                                                    const std::optional<ShapeHit<Scalar>>& answer);
-
-/// The t of the first contact in floats of so many bits that only ties are not certain. The ball must touch the
-/// triangle.
-template <typename Scalar>
-[[nodiscard]] mpf_class first_time(const RationalPair& pair);
-/// Whether one such t is certainly before another one.
-template <typename Scalar>
-[[nodiscard]] bool is_before(const mpf_class& x, const mpf_class& y);
-
 /// Says what is wrong with an answer about a moving ball and a triangle, or returns nothing if it is right in every
 /// field. All numbers must be finite, and the radius must not be negative.
 ///

@@ -14,7 +14,7 @@
 namespace surehit::test {
 namespace {
 
-using Vec = std::array<mpz_class, 3>;
+using Vec = WholeVector;
 
 Vec difference(const Vec& x, const Vec& y) {
   return {mpz_class(x[0] - y[0]), mpz_class(x[1] - y[1]), mpz_class(x[2] - y[2])};
@@ -36,22 +36,13 @@ Vec cross(const Vec& x, const Vec& y) {
   return result;
 }
 
-/// A capsule and a triangle in whole numbers of one unit. A ball is a capsule with a half axis of zero.
-struct WholePair {
-  Vec start;
-  Vec step;
-  Vec half_axis;
-  std::array<Vec, 3> corners;
-  mpz_class rr;
-
-  [[nodiscard]] bool has_axis() const { return half_axis != Vec{0, 0, 0}; }
-  [[nodiscard]] Vec normal() const {
-    return cross(difference(corners[1], corners[0]), difference(corners[2], corners[0]));
-  }
-};
+bool has_axis(const WholeCapsulePair& pair) { return pair.half_axis != Vec{0, 0, 0}; }
+Vec normal_of(const WholeCapsulePair& pair) {
+  return cross(difference(pair.corners[1], pair.corners[0]), difference(pair.corners[2], pair.corners[0]));
+}
 
 template <typename Scalar>
-WholePair whole_pair(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
+WholeCapsulePair whole_pair(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
   const std::array<DyadicVector, 6> points = {dyadic(capsule.start), dyadic(capsule.end), dyadic(capsule.half_axis),
                                               dyadic(triangle.a),    dyadic(triangle.b),  dyadic(triangle.c)};
   const Dyadic radius(double{capsule.radius});
@@ -118,7 +109,7 @@ struct Vertex {
 /// Its parts are valid for as long as it is there.
 class PartLister {
  public:
-  explicit PartLister(const WholePair& pair) : pair_(pair), n_(pair.normal()) {
+  explicit PartLister(const WholeCapsulePair& pair) : pair_(pair), n_(normal_of(pair)) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       places_[corner].fill(pair.corners[corner]);
       for (std::size_t i = 0; i < 3; ++i) {
@@ -131,13 +122,13 @@ class PartLister {
   [[nodiscard]] std::vector<Part> parts() const {
     std::vector<Part> all;
     all.reserve(20);  // Two faces, nine edges, six corners and three parallelograms.
-    const std::vector<int> sides = pair_.has_axis() ? std::vector<int>{-1, 1} : std::vector<int>{0};
+    const std::vector<int> sides = has_axis(pair_) ? std::vector<int>{-1, 1} : std::vector<int>{0};
     for (const int side : sides) {
       if (has_area()) all.push_back(face(side));
       for (const auto& [from, to] : edges()) all.push_back(edge({from, side}, {to, side}));
       for (const std::size_t corner : corners()) all.push_back(single({corner, side}));
     }
-    if (!pair_.has_axis()) return all;
+    if (!has_axis(pair_)) return all;
     for (const auto& [from, to] : edges()) {
       if (normal_of_parallelogram(from, to) != Vec{0, 0, 0}) all.push_back(parallelogram(from, to));
     }
@@ -234,7 +225,7 @@ class PartLister {
     return {{rate * rate, rate * height, height * height - pair_.rr * nn}, nn, shares};
   }
 
-  const WholePair& pair_;
+  const WholeCapsulePair& pair_;
   Vec n_;
   std::array<std::array<Vec, 3>, 3>
       places_;  ///< The places of each corner: at an end, in the middle, at the other end.
@@ -264,10 +255,10 @@ struct AxisInTriangle {
   mpz_class whole = 0;
 };
 
-AxisInTriangle axis_in_triangle(const WholePair& pair) {
+AxisInTriangle axis_in_triangle(const WholeCapsulePair& pair) {
   AxisInTriangle axis;
-  if (!pair.has_axis()) return axis;
-  const Vec n = pair.normal();
+  if (!has_axis(pair)) return axis;
+  const Vec n = normal_of(pair);
   if (n != Vec{0, 0, 0}) {
     if (dot(n, pair.half_axis) != 0) return axis;
     const Vec to_b = difference(pair.corners[1], pair.corners[0]);
@@ -332,8 +323,8 @@ SweptTruth truth_at(const QuadraticRoot& t, const Touched& touched) {
 }
 
 /// What is true if the core crosses the triangle at the start, in one point.
-std::optional<SweptTruth> truth_across(const WholePair& pair) {
-  const Vec n = pair.normal();
+std::optional<SweptTruth> truth_across(const WholeCapsulePair& pair) {
+  const Vec n = normal_of(pair);
   mpz_class rate = dot(n, pair.half_axis);
   if (rate == 0) return std::nullopt;
   const Vec w = difference(pair.start, pair.corners[0]);
@@ -354,7 +345,7 @@ std::optional<SweptTruth> truth_across(const WholePair& pair) {
 }
 
 /// What is true if they touch at the start. Then the nearest point is the touched one.
-std::optional<SweptTruth> truth_at_start(const WholePair& pair, const std::vector<Part>& parts) {
+std::optional<SweptTruth> truth_at_start(const WholeCapsulePair& pair, const std::vector<Part>& parts) {
   std::optional<SweptTruth> truth = truth_across(pair);
   if (!truth) {
     const QuadraticRoot zero;
@@ -384,9 +375,7 @@ bool is_in_range(const QuadraticRoot& root) {
 
 }  // namespace
 
-template <typename Scalar>
-SweptTruth truth_of(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
-  const WholePair pair = whole_pair(capsule, triangle);
+SweptTruth truth_of(const WholeCapsulePair& pair) {
   const PartLister lister(pair);
   const std::vector<Part> parts = lister.parts();
   if (const auto at_start = truth_at_start(pair, parts)) return *at_start;
@@ -414,6 +403,11 @@ SweptTruth truth_of(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>&
   Touched touched = touched_of(*first);
   move_toward_centre(axis_in_triangle(pair), first_t, touched);
   return truth_at(root, touched);
+}
+
+template <typename Scalar>
+SweptTruth truth_of(const SweptCapsule<Scalar>& capsule, const Triangle<Scalar>& triangle) {
+  return truth_of(whole_pair(capsule, triangle));
 }
 
 template <typename Scalar>
@@ -445,9 +439,10 @@ std::optional<std::string> find_error(const SweptTruth& truth, const std::option
   return std::nullopt;
 }
 
-#define SUREHIT_INSTANTIATE(Scalar)                                                  \
-  template SweptTruth truth_of(const SweptSphere<Scalar>&, const Triangle<Scalar>&); \
-  template ShapeHit<Scalar> rounded_hit(const SweptTruth&);                          \
+#define SUREHIT_INSTANTIATE(Scalar)                                                   \
+  template SweptTruth truth_of(const SweptSphere<Scalar>&, const Triangle<Scalar>&);  \
+  template SweptTruth truth_of(const SweptCapsule<Scalar>&, const Triangle<Scalar>&); \
+  template ShapeHit<Scalar> rounded_hit(const SweptTruth&);                           \
   template std::optional<std::string> find_error(const SweptTruth&, const std::optional<ShapeHit<Scalar>>&);
 SUREHIT_INSTANTIATE(float)
 SUREHIT_INSTANTIATE(double)

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <gmpxx.h>
+
+#include <array>
 #include <optional>
 #include <string>
 
@@ -21,6 +24,30 @@ struct SweptTruth {
   OneRootNumber v = {};
   Feature feature = Feature::face;
 };
+
+using WholeVector = std::array<mpz_class, 3>;
+
+/// A moving capsule and a triangle in whole numbers of one unit. A ball is a capsule with a half axis of zero. The
+/// triangle may be a placed one, and the step that which an instance sees.
+struct WholeCapsulePair {
+  WholeVector start;
+  WholeVector step;
+  WholeVector half_axis;
+  std::array<WholeVector, 3> corners;
+  mpz_class rr;  ///< The square of the radius.
+};
+
+/// The same for a moving box.
+struct WholeBoxPair {
+  WholeVector start;
+  WholeVector step;
+  WholeVector half_extents;
+  std::array<WholeVector, 3> corners;
+};
+
+/// Returns what is true of such a pair, as the next functions do.
+[[nodiscard]] SweptTruth truth_of(const WholeCapsulePair& pair);
+[[nodiscard]] SweptTruth truth_of(const WholeBoxPair& pair);
 
 /// Returns what is true of a moving ball and a triangle. All numbers must be finite, and the radius must not be
 /// negative. Call it in the default floating-point environment.
