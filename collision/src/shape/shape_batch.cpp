@@ -145,6 +145,8 @@ class ShapeLanes {
     Visitor& visitor = slots_[lane]->visitor;
     visitor.visit_near(job_words_[list], jobs_[list], std::span(near_).subspan(first, last - first));
     shorten(lane, visitor);
+    // The rest of the list does not count once the walk has ended, and the filter of the shape is gone.
+    if ((walking_ >> lane & 1) == 0) jobs_[list].last = jobs_[list].from;
     return last;
   }
   void shorten(std::size_t lane, const Visitor& visitor) {

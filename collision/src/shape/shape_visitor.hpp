@@ -161,7 +161,7 @@ struct KeepFirst {
     if (first && !narrowphase.comes_before(candidate, *first)) return;
     if (query.filter != nullptr && !query.accepts(narrowphase.hit(candidate))) return;
     first = candidate;
-    limit = candidate.contact.t_upper;
+    limit = std::min(limit, candidate.contact.t_upper);
   }
   /// Returns true if a triangle cannot be the first one, whatever its contact is.
   [[nodiscard]] bool passes_over(std::uint32_t id) const {
