@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "collision/painted_stack.hpp"
@@ -146,7 +148,16 @@ TYPED_TEST(SceneStack, of_moving_shapes) {
     measure([&] { static_cast<void>(scene.first_hit(shape)); });
     measure([&] { static_cast<void>(scene.any_hit(shape, {.max_t = Scalar(0.5), .culling = Culling::back})); });
     measure([&] { scene.all_hits(shape, hits); });
-    if (!hits.empty()) measure([&] { static_cast<void>(scene.last_free_t(shape, hits.back())); });
+    std::vector<SceneShapeHit<Scalar>> first(1);
+    std::vector<std::uint8_t> blocked(1);
+    const auto ask_batch = [&](const auto& one) {
+      measure([&] { scene.first_hits(std::span(&one, 1), first); });
+      measure([&] { scene.any_hits(std::span(&one, 1), blocked); });
+    };
+    std::visit(ask_batch, shape);
+    if (hits.empty()) return;
+    measure([&] { static_cast<void>(scene.last_free_t(shape, hits.back())); });
+    measure([&] { static_cast<void>(scene.last_free_point(shape, hits.front())); });
   };
   for (const auto& [start, end] : this->segments()) {
     for (const Scalar size : {this->huge / 3, Scalar(0.25), this->tiny, Scalar(0)}) {

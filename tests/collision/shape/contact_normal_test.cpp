@@ -2,20 +2,24 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "support/box_families.hpp"
 #include "support/capsule_families.hpp"
 #include "support/capsule_oracle.hpp"
 #include "support/case_count.hpp"
 #include "support/exact_oracle.hpp"
+#include "support/nearest_points.hpp"
 #include "support/random.hpp"
 #include "support/sphere_families.hpp"
 #include "support/sphere_oracle.hpp"
+#include "support/swept_truth.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/intersect.hpp"
 
@@ -66,29 +70,100 @@ TYPED_TEST(ContactNormal, LeadsFromTheTouchedPointToTheCoreOfACapsule) {
   }
 }
 
-// Along the normal, all of the triangle is below all of the box.
-TYPED_TEST(ContactNormal, SeparatesABoxFromTheTriangle) {
-  using Scalar = TypeParam;
-  for (const BoxFamily family : {BoxFamily::general, BoxFamily::small_integers}) {
-    Random random(7 + static_cast<std::uint64_t>(family));
-    std::size_t tested = 0;
-    for (std::size_t i = 0; i < case_count(4 * this->count); ++i) {
-      const auto [box, triangle] = draw_box_pair<Scalar>(family, random);
-      const auto hit = intersect(box, triangle);
-      const Vector3d normal = contact_normal(box, triangle).template cast<double>();
-      if (!hit || hit->started_touching) continue;
-      ASSERT_NEAR(normal.norm(), 1, this->allowed * 2);
-      const Vector3d start = box.start.template cast<double>();
-      const Vector3d centre = start + double{hit->t} * (box.end.template cast<double>() - start);
-      const double reach = normal.cwiseAbs().dot(box.half_extents.template cast<double>());
-      const double size = centre.norm() + reach + (box.end - box.start).template cast<double>().norm();
-      for (const auto* corner : {&triangle.a, &triangle.b, &triangle.c}) {
-        ASSERT_GE(normal.dot(centre - corner->template cast<double>()), reach - size * 8 * this->allowed)
-            << name_of(family) << ", case " << i;
-      }
-      ++tested;
+using oracle::operator-;
+
+/// A box and a triangle in rationals, with the centre of the box at some t.
+struct RationalBox {
+  using Point = oracle::Vec<mpq_class>;
+
+  template <typename Scalar>
+  RationalBox(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle, const mpq_class& t)
+      : half(oracle::vector_of<mpq_class>(box.half_extents)),
+        corners{oracle::vector_of<mpq_class>(triangle.a), oracle::vector_of<mpq_class>(triangle.b),
+                oracle::vector_of<mpq_class>(triangle.c)} {
+    const Point start = oracle::vector_of<mpq_class>(box.start);
+    centre = oracle::along(start, t, Point(oracle::vector_of<mpq_class>(box.end) - start));
+  }
+
+  /// Returns how deep the box is in the triangle along m, times its length: so far does it have to move out.
+  [[nodiscard]] mpq_class depth(const Point& m) const {
+    mpq_class reach = 0;
+    for (std::size_t i = 0; i < 3; ++i) reach += abs(m[i]) * half[i];
+    mpq_class top = oracle::dot(m, Point(corners[0] - centre));
+    for (const Point& corner : corners) top = std::max(top, oracle::dot(m, Point(corner - centre)));
+    return top + reach;
+  }
+  /// Returns more than what `depth` is off by if each component of m is off by 1.
+  [[nodiscard]] mpq_class size() const {
+    mpq_class sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum += half[i];
+      for (const Point& corner : corners) sum += abs(mpq_class(corner[i] - centre[i]));
     }
-    EXPECT_GE(tested, case_count(4 * this->count) / 10) << name_of(family);
+    return sum;
+  }
+  /// Returns the directions of the sides of B1. Some may be zero.
+  [[nodiscard]] std::vector<Point> directions() const {
+    const std::array<Point, 3> axes = {Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}};
+    std::vector<Point> all(axes.begin(), axes.end());
+    all.push_back(oracle::cross(Point(corners[1] - corners[0]), Point(corners[2] - corners[0])));
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (const Point& axis : axes) all.push_back(oracle::cross(Point(corners[(i + 1) % 3] - corners[i]), axis));
+    }
+    return all;
+  }
+
+  Point half;
+  std::array<Point, 3> corners;
+  Point centre;
+};
+
+// At the exact t, all of the triangle is below all of the box along the normal.
+TYPED_TEST(ContactNormal, SeparatesABoxFromTheTriangle) {
+  for (const BoxFamily family : all_box_families) {
+    Random random(7 + static_cast<std::uint64_t>(family));
+    for (std::size_t i = 0; i < case_count(this->count); ++i) {
+      const auto [box, triangle] = draw_box_pair<TypeParam>(family, random);
+      const auto hit = intersect(box, triangle);
+      const Vector3<TypeParam> normal = contact_normal(box, triangle);
+      if (!hit) {
+        ASSERT_TRUE(normal.isZero(0)) << name_of(family) << ", case " << i;
+        continue;
+      }
+      if (hit->started_touching) continue;
+      ASSERT_NEAR(normal.template cast<double>().norm(), 1, this->allowed * 2) << name_of(family) << ", case " << i;
+      const QuadraticRoot t = truth_of(box, triangle).t;
+      mpq_class exact_t(-t.b, t.a);
+      exact_t.canonicalize();
+      const RationalBox pair(box, triangle, exact_t);
+      ASSERT_LE(pair.depth(oracle::vector_of<mpq_class>(normal)), this->allowed * pair.size())
+          << name_of(family) << ", case " << i;
+    }
+  }
+}
+
+// No other direction leads out of the triangle sooner.
+TYPED_TEST(ContactNormal, IsTheShortestWayOutForABoxThatStartsTouching) {
+  for (const BoxFamily family : all_box_families) {
+    Random random(11 + static_cast<std::uint64_t>(family));
+    for (std::size_t i = 0; i < case_count(this->count / 5); ++i) {
+      const auto [box, triangle] = draw_box_pair<TypeParam>(family, random);
+      const auto hit = intersect(box, triangle);
+      if (!hit || !hit->started_touching) continue;
+      const RationalBox pair(box, triangle, 0);
+      const Vector3<TypeParam> normal = contact_normal(box, triangle);
+      ASSERT_NEAR(normal.template cast<double>().norm(), 1, this->allowed * 2) << name_of(family) << ", case " << i;
+      const mpq_class found = pair.depth(oracle::vector_of<mpq_class>(normal)) - this->allowed * pair.size();
+      if (found <= 0) continue;
+      for (auto m : pair.directions()) {
+        const mpq_class square = oracle::dot(m, m);
+        for (int side = 0; side < 2; ++side) {
+          const mpq_class depth = pair.depth(m);
+          ASSERT_LE(found * found * square, depth * depth) << name_of(family) << ", case " << i;
+          for (mpq_class& x : m) x = -x;
+        }
+      }
+    }
   }
 }
 
