@@ -113,12 +113,12 @@ TYPED_TEST(ColliderBoxes, FindWhatBruteForceFindsInMeshesThatAreHardForGrids) {
 /// So fine a grid that a box of half its width has more cells on an edge than a cube of empty cells can have.
 constexpr GridOptions fine_grid = {.resolution = {48, 48, 48}};
 
-// Few tiny triangles far from each other, so that boxes of all extents come through empty space first.
+// Tiny triangles far from each other, so that boxes of all extents come through empty space first.
 TYPED_TEST(ColliderBoxes, FindWhatIsBehindEmptySpaceWithAnyExtents) {
   using Scalar = TypeParam;
   Random random(11);
   for (std::size_t i = 0; i < case_count(10); ++i) {
-    const auto mesh = scattered_triangles<Scalar>(16, Scalar(0.001), random);
+    const auto mesh = scattered_triangles<Scalar>(60, Scalar(0.001), random);
     std::vector<SweptBox<Scalar>> boxes;
     while (boxes.size() < 200) {
       const auto vector = [&]() -> Vector3<Scalar> {
