@@ -105,7 +105,7 @@ void add_limits(CLI::App& command, QueryRequest& request) {
                       "Leave out the hits on this side of a triangle; back and front also leave out those in its "
                       "plane, which are edge_on");
   command.add_flag("--ignore-start-contact", request.ignore_start_contact,
-                   "Leave out the triangles that hold the path's start");
+                   "Leave out the triangles that hold the path's start, or that a shape touches there");
   command.add_flag("--ignore-end-contact", request.ignore_end_contact,
                    "Leave out the triangles that hold the end of the segment");
 }
@@ -372,7 +372,7 @@ Work describe_program(CLI::App& app) {
 }  // namespace
 
 int run_query_program(int argc, char** argv) noexcept {
-  return run_program("surehit-query", "Asks exactly where straight paths meet triangles.", argc, argv,
+  return run_program("surehit-query", "Asks exactly where straight paths and moving shapes meet triangles.", argc, argv,
                      describe_program);
 }
 
