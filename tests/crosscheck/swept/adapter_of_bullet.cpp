@@ -12,6 +12,7 @@
 #include <BulletCollision/CollisionShapes/btTriangleMesh.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include "swept_input.hpp"
@@ -44,7 +45,15 @@ std::unique_ptr<btConvexShape> shape_of(const swept::Input& input, btQuaternion&
   return std::make_unique<btCapsuleShape>(size(3), 2 * first.length());
 }
 
+/// Bullet would round the numbers of such a case, and then answer another one.
+void refuse_doubles(const swept::Input& input) {
+  if (input.scalar == "float" || sizeof(btScalar) == sizeof(double)) return;
+  std::fputs("Bullet computes in float here, and cannot answer cases of doubles\n", stderr);
+  std::exit(1);
+}
+
 std::string ask(const swept::Input& input) {
+  refuse_doubles(input);
   btTriangleMesh triangles;
   triangles.addTriangle(vector(input.corners[0]), vector(input.corners[1]), vector(input.corners[2]));
   btBvhTriangleMeshShape mesh(&triangles, true);

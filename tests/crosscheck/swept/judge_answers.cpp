@@ -51,6 +51,7 @@ struct Answer {
   bool hits = false;
   double t = 0;
   std::string feature;  ///< empty if the engine does not say
+  bool has_weights = false;
   double u = 0;
   double v = 0;
 };
@@ -60,17 +61,19 @@ Answer read_answer(const std::string& line, const std::string& where) {
   std::string kind;
   words >> kind;
   if (kind != "hit" && kind != "miss") throw example::InputError(where + ": '" + line + "' is no answer");
-  Answer answer{kind == "hit", 0, "", 0, 0};
+  Answer answer;
+  answer.hits = kind == "hit";
   if (!answer.hits) return answer;
   std::string word;
   words >> word;
   answer.t = number(word, where);
-  if (!(words >> answer.feature)) return answer;
-  for (double* const x : {&answer.u, &answer.v}) {
-    word.clear();
-    words >> word;
-    *x = number(word, where);
-  }
+  words >> answer.feature;
+  if (!(words >> word)) return answer;
+  answer.has_weights = true;
+  answer.u = number(word, where);
+  word.clear();
+  words >> word;
+  answer.v = number(word, where);
   return answer;
 }
 
@@ -107,10 +110,11 @@ void judge(const swept::Input& input, const Truth& truth, const Answer& answer, 
     return;
   }
   const bool is_float = input.scalar == "float";
-  const bool is_part_exact = answer.feature == truth.feature && answer.u == (is_float ? truth.u_float : truth.u) &&
-                             answer.v == (is_float ? truth.v_float : truth.v);
-  const bool is_exact = answer.t == (is_float ? truth.t_float : truth.t) && (answer.feature.empty() || is_part_exact);
-  row.inexact += is_exact ? 0 : 1;
+  const bool is_t_exact = answer.t == (is_float ? truth.t_float : truth.t);
+  const bool is_part_exact = answer.feature.empty() || answer.feature == truth.feature;
+  const bool are_weights_exact = !answer.has_weights || (answer.u == (is_float ? truth.u_float : truth.u) &&
+                                                         answer.v == (is_float ? truth.v_float : truth.v));
+  row.inexact += is_t_exact && is_part_exact && are_weights_exact ? 0 : 1;
   const double error = std::fabs(answer.t - truth.t);
   if (truth.kind == "hit") row.max_error = std::max(row.max_error, std::isnan(error) ? INFINITY : error);
 }
