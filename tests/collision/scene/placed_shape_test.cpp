@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "collision/filter/coordinate_changes.hpp"
 #include "exact_matrix.hpp"
 #include "support/case_count.hpp"
 #include "support/random.hpp"
@@ -170,6 +172,60 @@ TYPED_TEST(PlacedShapeOf, HoldsTheExactShape) {
   EXPECT_GT(near_anchor, 0.01);
   EXPECT_GT(in_mesh, 0.01);
   testing::Test::RecordProperty("shares", testing::PrintToString(std::array{near_anchor, in_mesh}));
+}
+
+/// Returns a case with another number. Its matrix has an inverse.
+template <typename Scalar>
+Case<Scalar> changed(const Case<Scalar>& drawn, Random& random) {
+  for (;;) {
+    Case<Scalar> next = drawn;
+    std::vector<Scalar*> numbers;
+    const auto add = [&](auto& matrix) {
+      for (Eigen::Index i = 0; i < matrix.size(); ++i) numbers.push_back(matrix.data() + i);
+    };
+    add(next.placement.pose.linear);
+    add(next.placement.pose.translation);
+    if (next.placement.moves) add(next.placement.motion);
+    add(next.sphere.start);
+    add(next.sphere.end);
+    for (auto& corner : next.corners) add(corner);
+    Scalar& number = *numbers[random.below(numbers.size())];
+    number = changed_coordinate(random, number);
+    // No entry of a pose may be smaller.
+    if (number != 0 && std::fabs(number) < Scalar(0x1p-60F)) continue;
+    if (exact_determinant(Pose<Scalar>(next.placement.pose)) == 0) continue;
+    next.set_exact();
+    if (PlacedShape(next.sphere, next.placement, next.frame, next.share).is_usable()) return next;
+  }
+}
+
+// A ball without a radius has nothing but what is there for errors.
+TYPED_TEST(PlacedShapeOf, HoldsTheExactShapeWhereHillClimbingMakesTheErrorsWorst) {
+  Random random(8);
+  const auto near_anchor = [](const Case<TypeParam>& drawn) {
+    return share_near_anchor(drawn, PlacedShape(drawn.sphere, drawn.placement, drawn.frame, drawn.share));
+  };
+  const auto in_mesh = [](const Case<TypeParam>& drawn) { return share_in_mesh(drawn, drawn.sphere, 0); };
+  const auto climb = [&](const char* name, const auto& share_of_case) {
+    double worst = 0;
+    for (int start = 0; start < 10; ++start) {
+      auto best = draw_case<TypeParam>(random);
+      best.sphere.radius = 0;
+      double best_share = share_of_case(best);
+      for (std::size_t step = case_count(300); step > 0; --step) {
+        const auto next = changed(best, random);
+        if (const double share = share_of_case(next); share > best_share) {
+          best = next;
+          best_share = share;
+        }
+      }
+      worst = std::max(worst, best_share);
+    }
+    testing::Test::RecordProperty(std::string("worst_share_") + name, std::to_string(worst));
+    EXPECT_LT(worst, 1) << name;
+  };
+  climb("near_anchor", near_anchor);
+  climb("in_mesh", in_mesh);
 }
 
 TYPED_TEST(PlacedShapeOf, HoldsAShapeThatGoesAPartOfTheWayWithItsInstance) {
