@@ -99,8 +99,8 @@ class SweptWalk {
     [[nodiscard]] Range first_cells(const Range& range, std::int64_t count) const {
       return way < 0 ? Range{range[1] - count + 1, range[1]} : Range{range[0], range[0] + count - 1};
     }
-    /// Returns when the box comes to a cell beyond those of a block, where it meets some of these and goes on to all
-    /// cells of `met` (W5).
+    /// Returns when the box comes beyond a block, which begins with the first cell along the way (W5). On an axis
+    /// without a way, that is never if the block has all cells that the box meets.
     [[nodiscard]] double comes_beyond(const Range& block, const Range& met, double size) const {
       if (std::fabs(way) < 0x1p-300) {
         return block[0] <= met[0] && met[1] <= block[1] ? std::numeric_limits<double>::infinity() : 0;
