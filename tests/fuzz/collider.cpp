@@ -1,10 +1,11 @@
 // A mesh of up to 64 triangles, built at any settings or rebuilt, and a few paths: all that the collider answers,
-// against brute force in rationals.
+// against brute force in rationals. Moving shapes on the same ways: against each pair of a shape and a triangle.
 
 #include "surehit/collider.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <sstream>
@@ -20,7 +21,9 @@
 #include "support/pair_families.hpp"
 #include "support/pair_text.hpp"
 #include "support/same_bits.hpp"
+#include "support/shape_text.hpp"
 #include "support/small_meshes.hpp"
+#include "surehit/intersect.hpp"
 
 namespace surehit::test {
 namespace {
@@ -74,6 +77,7 @@ class ColliderCase {
     check_batch<Segment<Scalar>>(collider, oracle, PathKind::segment);
     check_batch<Ray<Scalar>>(collider, oracle, PathKind::ray);
     check_batch<Line<Scalar>>(collider, oracle, PathKind::line);
+    check_shapes(collider);
   }
 
  private:
@@ -136,6 +140,66 @@ class ColliderCase {
            hex_text(expected[i]) + "\nanswered: " + hex_text(hits[i]) + ", blocked: " + std::to_string(blocked[i]));
     }
     if (statistics.paths != 2 * batch_size) tell("a batch counts its paths as " + std::to_string(statistics.paths));
+  }
+
+  /// Asks about moving shapes on the ways of the segments, and compares with the pairs of a shape and a triangle.
+  void check_shapes(const Collider<Scalar>& collider) const {
+    Random sizes(mesh_.triangles.size());
+    for (const Path<Scalar>& path : mesh_.paths) {
+      if (path.kind != PathKind::segment || !path.start.allFinite() || !path.toward.allFinite()) continue;
+      const Scalar length = (path.toward / 2 - path.start / 2).cwiseAbs().maxCoeff();
+      const auto size = [&] {
+        return sizes.one_in(4) ? Scalar{0} : std::ldexp(length, -static_cast<int>(sizes.below(8)));
+      };
+      const Scalar first = size();
+      switch (sizes.below(3)) {
+        case 0:
+          check_shape(collider, SweptSphere<Scalar>{path.start, path.toward, first});
+          break;
+        case 1:
+          check_shape(collider, SweptBox<Scalar>{path.start, path.toward, {size(), first, size()}});
+          break;
+        default:
+          check_shape(collider, SweptCapsule<Scalar>{path.start, path.toward, {first, size(), -size()}, size()});
+      }
+    }
+  }
+  template <typename Shape>
+  void check_shape(const Collider<Scalar>& collider, const Shape& shape) const {
+    ShapeQueryOptions<Scalar> options;
+    options.max_t = options_.max_t;
+    options.culling = options_.culling;
+    options.mask = options_.mask;
+    options.ignored_triangle = options_.ignored_triangle;
+    options.ignore_start_contact = options_.ignore_start_contact;
+    std::vector<ShapeHit<Scalar>> expected;
+    for (std::uint32_t id = 0; id < mesh_.triangles.size(); ++id) {
+      const std::uint32_t mask = masks_.empty() ? ~std::uint32_t{0} : masks_[id];
+      if ((mask & options.mask) == 0 || id == options.ignored_triangle) continue;
+      auto hit = intersect(shape, mesh_.view().triangle(id), options);
+      if (!hit) continue;
+      hit->triangle = id;
+      expected.push_back(*hit);
+    }
+    const auto expect = [&](bool is_right, const char* query) {
+      if (!is_right) tell(hex_text(shape) + ": " + query + " differs from the pairs");
+    };
+    std::vector<ShapeHit<Scalar>> all;
+    collider.all_hits(shape, all, options);
+    const ShapeHit<Scalar> first = all.empty() ? ShapeHit<Scalar>{} : all.front();
+    expect(std::is_sorted(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.t < y.t; }), "the order");
+    std::sort(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.triangle < y.triangle; });
+    expect(all == expected, "all_hits");
+    expect(collider.first_hit(shape, options).value_or(ShapeHit<Scalar>{}) == first, "first_hit");
+    expect(collider.any_hit(shape, options) == !expected.empty(), "any_hit");
+    constexpr std::size_t count = 9;  // One more than a batch of shapes has lanes.
+    const std::vector<Shape> many(count, shape);
+    std::vector<ShapeHit<Scalar>> hits(count);
+    std::vector<std::uint8_t> blocked(count, 2);
+    collider.first_hits(many, hits, {.options = options});
+    collider.any_hits(many, blocked, {.options = options});
+    expect(hits == std::vector(count, first), "first_hits");
+    expect(blocked == std::vector<std::uint8_t>(count, expected.empty() ? 0 : 1), "any_hits");
   }
 
   void tell(const std::string& difference) const {
