@@ -147,6 +147,11 @@ class SceneShapesTest(unittest.TestCase):
                  "no instance with index 3"),
                 (lambda: scene.contact_normal(ball, hit._replace(triangle=1)), surehit.OutOfRange, "no triangle 1"),
                 (lambda: scene.contact_normal((0, 0, 0), hit), TypeError, "must be a moving shape, and not tuple"),
+                (lambda: scene.contact_point(tile.first_hit(ball)), AttributeError, "no attribute 'instance'"),
+                (lambda: scene.last_free_point(surehit.Segment((2, 1, 3), (2, 1, -5)), tile.first_hit(
+                    surehit.Segment((2, 1, 3), (2, 1, -5)))), AttributeError, "no attribute 'instance'"),
+                (lambda: surehit.contact_normal(surehit.Segment((2, 1, 3), (2, 1, -5)), TILE), TypeError,
+                 "must be a moving shape, and not Segment"),
                 (lambda: scene.first_hit(ball, min_t=0), TypeError, "there is no option min_t"),
                 (lambda: scene.first_hits([ball]), TypeError, "Lines or moving shapes, and not list"),
                 (lambda: scene.first_hit(surehit.SweptSphere((0, 0, 0), (0, 0, 1), np.float64(0.1))), ValueError,

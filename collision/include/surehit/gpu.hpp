@@ -257,7 +257,7 @@ class GpuCollider {
   ///
   /// Fails too if a buffer is null or too small, if its part begins at a bad place, or if both parts overlap. The host
   /// does not go on without the device. After a failure, what comes after the first `finished` hits has no meaning. If
-  /// the device was lost, both buffers must stay until the device is closed.
+  /// the device was lost, even if the batch throws, both buffers must stay until the device is closed.
   GpuBatchResult first_hits(const GpuPaths& paths, const GpuBufferPart& hits, const BatchOptionsf& options = {},
                             const GpuBatchOptions& gpu = {}) const;
   /// Sets a word of 32 bits for each path: to 1 if it has a hit, and to 0 otherwise. All else is as in `first_hits`.

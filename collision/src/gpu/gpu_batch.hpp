@@ -73,14 +73,15 @@ class GpuBatch {
       for (std::size_t i = 0; i < count; ++i) paths_.copy(first + i, numbers + 6 * i);
     }
     const std::size_t limits = write_limits(state_, slot, paths_.kind(), options_, first, count);
-    ++statistics_.dispatches;
     const GpuCopy there[] = {copy_of(slot.host_paths, slot.paths, count * sizeof(float[6])),
                              copy_of(slot.host_limits, slot.limits, limits * sizeof(PathLimits))};
     const GpuDispatch dispatch = {wants_first ? State::first_task : State::any_task,
                                   pushed_words(paths_.kind(), !options_.path_options.empty(), count, false)};
     const GpuCopy back = copy_of(slot.answers, slot.host_answers, count * sizeof(DeviceAnswer));
     state_.device->bind(slot, state_.mesh->buffers(), {slot.paths.get()}, {slot.answers.get()});
-    return state_.device->submit(slot, there, &dispatch, {&back, 1});
+    auto error = state_.device->submit(slot, there, &dispatch, {&back, 1});
+    if (!error) ++statistics_.dispatches;
+    return error;
   }
 
   void finish(GpuSlot& slot, std::size_t first) {

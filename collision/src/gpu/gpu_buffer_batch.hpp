@@ -60,6 +60,8 @@ class GpuBufferBatch {
           device_, state_.mesh, count_, result.finished,
           [&](GpuSlot& slot, std::size_t first) { return begin(slot, first); },
           [&](GpuSlot& slot, std::size_t first) { return finish(slot, first); });
+      // Whatever failed first, the device may still use the buffers.
+      if (result.error && device_.is_lost) result.error = GpuDeviceState::lost();
     }
     result.is_complete = !result.error && result.finished == count_;
     if (gpu_.statistics != nullptr) add(statistics_, *gpu_.statistics);
@@ -94,7 +96,6 @@ class GpuBufferBatch {
     }
     const std::size_t limits = write_limits(state_, slot, paths_.kind, options_, first, count);
     std::memset(slot.host_list.data(), 0, sizeof(ListedCounts));
-    ++statistics_.dispatches;
     const GpuCopy there[] = {copy_of(slot.host_limits, slot.limits, limits * sizeof(PathLimits)),
                              copy_of(slot.host_list, slot.list, sizeof(ListedCounts))};
     const GpuDispatch dispatch = {wants_first ? State::first_task : State::any_task,
@@ -102,7 +103,9 @@ class GpuBufferBatch {
     const GpuCopy back =
         copy_of(slot.list, slot.host_list, sizeof(ListedCounts) + std::min(count, listed_at_once) * sizeof(ListedPath));
     device_.bind(slot, state_.mesh->buffers(), paths, answers_from(first));
-    return device_.submit(slot, there, &dispatch, {&back, 1}, waits_for_all);
+    auto error = device_.submit(slot, there, &dispatch, {&back, 1}, waits_for_all);
+    if (!error) ++statistics_.dispatches;
+    return error;
   }
 
   std::optional<GpuError> finish(GpuSlot& slot, std::size_t first) {

@@ -112,6 +112,8 @@ struct GpuDeviceState {
   std::string name;
   bool is_adopted = false;            ///< True if the caller has opened the device, and closes it.
   std::atomic<bool> is_lost = false;  ///< Nothing more is asked of a device that was lost.
+  /// Returns the error of a device that was lost.
+  [[nodiscard]] static GpuError lost();
   /// The slots of all batches and uploads under way, and a few that are free.
   std::vector<std::unique_ptr<GpuSlotPair>> pairs;
   static constexpr std::ptrdiff_t max_free_pairs = 4;
@@ -120,6 +122,8 @@ struct GpuDeviceState {
   /// Makes the slots of a pair.
   [[nodiscard]] std::optional<GpuError> make(GpuSlotPair& pair) const;
   [[nodiscard]] std::optional<GpuError> make(GpuSlot& slot, const GpuSlotPair& pair) const;
+  /// Waits until work has ended. It waits longer than two minutes only while the device ends work of other batches.
+  [[nodiscard]] VkResult wait_for_end(const GpuSlot& slot);
   /// Waits for work after a failure. A device that cannot be waited for counts as lost.
   void abandon(GpuSlot& slot) noexcept;
   /// Closes the device, so that another one can be opened. Returns false if it has not returned from its work, and must
@@ -138,17 +142,16 @@ struct GpuDeviceState {
   /// Computes the cases of `rounding_check.hpp`.
   [[nodiscard]] std::optional<GpuError> round(GpuSlot& slot, std::span<const RoundingCase> cases,
                                               std::span<RoundingResult> results);
-  /// Returns the error of a device that was lost.
-  [[nodiscard]] static GpuError lost();
   /// Returns the error of a result, and notes that the device was lost.
   [[nodiscard]] std::optional<GpuError> noted(VkResult result, const char* what);
 
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   std::uint32_t family_ = 0;
   VkQueue queue_ = VK_NULL_HANDLE;
-  std::mutex queue_mutex_;   ///< Held while work is given to the queue.
-  std::mutex pairs_mutex_;   ///< Held while slots are taken or given back.
-  std::mutex scenes_mutex_;  ///< Held while what scenes need is made.
+  std::atomic<std::uint64_t> ended_ = 0;  ///< The number of times that work was seen to end.
+  std::mutex queue_mutex_;                ///< Held while work is given to the queue.
+  std::mutex pairs_mutex_;                ///< Held while slots are taken or given back.
+  std::mutex scenes_mutex_;               ///< Held while what scenes need is made.
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::array<VkPipeline, gpu_task_count> pipelines_ = {};

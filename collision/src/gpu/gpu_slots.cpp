@@ -126,16 +126,25 @@ std::optional<GpuError> GpuDeviceState::make(GpuSlot& slot, const GpuSlotPair& p
 std::optional<GpuError> GpuDeviceState::wait(GpuSlot& slot) {
   if (is_lost) return lost();
   const char* const what = "while a batch was under way";
-  if (auto error = noted(vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes), what)) return error;
+  if (auto error = noted(wait_for_end(slot), what)) return error;
   slot.is_under_way = false;
   const VkResult reset = vulkan.ResetFences(device, 1, &slot.fence);
   if (reset != VK_SUCCESS) is_lost = true;  // The next wait would end before the work does.
   return noted(reset, what);
 }
 
+VkResult GpuDeviceState::wait_for_end(const GpuSlot& slot) {
+  for (;;) {
+    const std::uint64_t before = ended_;
+    const VkResult result = vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes);
+    if (result == VK_SUCCESS) ++ended_;
+    if (result != VK_TIMEOUT || is_lost || ended_ == before) return result;
+  }
+}
+
 void GpuDeviceState::abandon(GpuSlot& slot) noexcept {
   if (is_lost) return;
-  VkResult result = vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, two_minutes);
+  VkResult result = wait_for_end(slot);
   slot.is_under_way = result != VK_SUCCESS;
   if (result == VK_SUCCESS) result = vulkan.ResetFences(device, 1, &slot.fence);
   if (result != VK_SUCCESS) is_lost = true;
@@ -144,6 +153,7 @@ void GpuDeviceState::abandon(GpuSlot& slot) noexcept {
 bool GpuDeviceState::has_returned() noexcept {
   bool has = true;
   for (const auto& pair : pairs) {
+    if (pair->device == nullptr) return false;  // It was forgotten.
     for (const GpuSlot& slot : pair->slots) {
       if (!slot.is_under_way) continue;
       const VkResult result = vulkan.WaitForFences(device, 1, &slot.fence, VK_TRUE, one_second);

@@ -36,8 +36,9 @@ std::optional<ShapeHit<Scalar>> intersect_shape(const Shape& shape, const Triang
 ///     The sum of the products is below 4: 1 ulp. The last sum is kept below 2: half an ulp. The products are below 4
 ///     together. If one reaches 2 and the other is below 1, they are off by 1.25 ulp, and 1 ulp if neither reaches 2.
 ///     If the other reaches 1, they are off by 1.5 ulp, but a difference reaches 3. Then |a| reaches 1, so the last sum
-///     is one of whole ulps, and exact. In all cases, that is 3.75 ulp at most. Among denormals, sums are exact, and a
-///     product is off by half an ulp. What a quarter of a denormal loses is nothing beside 2^1020.
+///     is one of whole ulps, and exact. In all cases, that is 3.75 ulp at most. Below 2^-1021, sums that stay
+///     below it are exact, and a product below 2^-1022 is off by half an ulp: that is 3.5 ulp at most. What a quarter
+///     of a denormal loses is nothing beside 2^1020.
 template <typename Scalar>
 Scalar weighted(Scalar a, Scalar b, Scalar c, const ShapeHit<Scalar>& hit) {
   const auto [low, high] = std::minmax({double{a}, double{b}, double{c}});

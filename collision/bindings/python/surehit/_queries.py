@@ -198,13 +198,13 @@ class Queries(Generic[PathHit, TouchHit]):
 
     def _struct_of_touch(self, hit: Any) -> Any:
         struct = self._shapes.kind.Hit(hit.t, hit.u, hit.v, hit.triangle, int(hit.feature), hit.started_touching)
-        if not isinstance(hit, ShapeHit):
+        if hasattr(struct, "instance") or not isinstance(hit, ShapeHit):
             struct.instance.index, struct.instance.generation = hit.instance
         return struct
 
     def _struct_of_hit(self, hit: Any) -> Any:
         struct = self._paths.kind.Hit(hit.t, hit.u, hit.v, hit.triangle, int(hit.side))
-        if not isinstance(hit, Hit):
+        if hasattr(struct, "instance") or not isinstance(hit, Hit):
             struct.instance.index, struct.instance.generation = hit.instance
         return struct
 

@@ -64,6 +64,8 @@ def contact_normal(shape: SweptShape, triangle: ArrayLike, dtype: DTypeLike | No
     Each component is within 8 ulp(1) of the true one in double, and within 1 in float. In a scene, ask
     ``Scene.contact_normal``.
     """
+    if not isinstance(shape, SweptShape):
+        raise TypeError(f"the shape must be a moving shape, and not {type(shape).__name__}")
     layouts = layouts_of(wished_dtype(triangle) if dtype is None else dtype)
     result = np.empty(3, layouts.dtype)
     check(function(f"triangle{layouts.suffix}_shape_contact_normal")(

@@ -120,7 +120,8 @@ class _Instances(Queries[SceneHit, SceneShapeHit]):
         """Returns the touched point of a hit of a moving shape, where the instance is at the hit's t.
 
         Each coordinate is the exact one for the t, u and v of the hit, rounded once. They are rounded too, so each adds
-        at most half an ulp of 1: u and v times a placed edge, and t times the motion.
+        at most half an ulp of 1: u and v times a placed edge, and t times the motion. Fails if the instance was removed
+        since the last commit.
         """
         point = np.empty(3, self.dtype)
         check(self._function("shape_contact_point")(self._handle, byref(self._struct_of_touch(hit)),

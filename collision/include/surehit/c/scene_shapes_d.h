@@ -80,7 +80,7 @@ SUREHIT_C_API surehit_status surehit_scened_shape_last_free_point(const surehit_
 /// each adds at most half an ulp of 1: u and v times a placed edge, and t times the motion.
 ///
 /// `hit` must be one of the hits in this scene. Fails with `SUREHIT_STALE_ID` if its instance is not there, or was
-/// removed since the last commit. Allocates nothing.
+/// removed since the last commit. The point is zero if the instance is not committed yet. Allocates nothing.
 SUREHIT_C_API surehit_status surehit_scened_shape_contact_point(const surehit_scened* scene,
                                                                 const surehit_scene_shape_hitd* hit,
                                                                 surehit_vector3d* point);
