@@ -325,6 +325,7 @@ void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<con
   }
   refit(boxes);
   built_cost_ = cost_;
+  built_scale_ = scale_;
   built_count_ = instances.size();
   exchanged_ = 0;
 }

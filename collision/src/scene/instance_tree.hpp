@@ -62,7 +62,10 @@ class InstanceTree {
   /// Returns the box of all instances, in the scene's unit of length.
   [[nodiscard]] const InstanceBox& box() const { return box_; }
   /// Returns true if the boxes have grown so much that a new tree would be faster.
-  [[nodiscard]] bool is_worn() const { return cost_ > 1.5 * built_cost_; }
+  [[nodiscard]] bool is_worn() const {
+    const double unit = built_scale_ / scale_;  // Costs are surfaces in the frame of their time.
+    return cost_ * unit * unit > 1.5 * built_cost_;
+  }
   [[nodiscard]] std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node); }
 
  private:
@@ -77,8 +80,9 @@ class InstanceTree {
   Double4 origin_ = {};
   double scale_ = 1;
   InstanceBox box_ = {};
-  double cost_ = 0;              ///< The sum of the surfaces of all boxes, over that of the first one.
+  double cost_ = 0;              ///< The sum of the surfaces of all boxes.
   double built_cost_ = 0;        ///< The same when the tree was built.
+  double built_scale_ = 1;       ///< The scale when the tree was built.
   std::size_t built_count_ = 0;  ///< The number of instances when the tree was built.
   std::size_t exchanged_ = 0;    ///< The number of instances that came or went since then.
 };

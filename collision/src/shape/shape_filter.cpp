@@ -389,6 +389,7 @@ template <typename Scalar>
 HWY_INLINE std::size_t find_near(std::span<ShapeList<Scalar>> lists, std::span<NearTriangles> near) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < lists.size(); ++i) {
+    if (lists[i].from >= lists[i].last) continue;  // The filter of a shape that is done is gone.
     with_lanes(*lists[i].filter, [&]<typename Lanes>(Lanes, const auto& numbers)
                                      HWY_ATTR { Lanes::find_near(numbers, lists[i], i, near, count); });
   }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "support/random.hpp"
@@ -179,6 +180,20 @@ TEST_F(InstanceExchange, exchanged_instances_wear_the_tree_where_their_boxes_do)
   expect_all_are_in_their_boxes();
   EXPECT_TRUE(tree.is_worn());
   EXPECT_FALSE(tree.has_room_for(1));
+}
+
+TEST_F(InstanceExchange, far_instance_does_not_hide_how_worn_the_others_are) {
+  for (int i = 0; i < 1000; ++i) add({1.0 * i, 0, 0}, {i + 1.0, 1, 1});
+  build();
+  const std::vector<InstanceBox> in_order = boxes;
+  for (std::size_t i = 1000; i > 1; --i) std::swap(boxes[i - 1], boxes[random.below(i)]);
+  ASSERT_TRUE(exchange({}, {add({1e6, 0, 0}, {1e6 + 1, 1, 1})}));
+  expect_all_are_in_their_boxes();
+  EXPECT_TRUE(tree.is_worn());
+  // Without it, the tree is as it was built.
+  std::copy(in_order.begin(), in_order.end(), boxes.begin());
+  ASSERT_TRUE(exchange({1000}, {}));
+  EXPECT_FALSE(tree.is_worn());
 }
 
 TEST_F(InstanceExchange, way_down_that_becomes_too_long_is_told) {
