@@ -1,5 +1,3 @@
-#include "scene/instance_tree.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/instance_tree.hpp"
 #include "support/random.hpp"
 
 namespace surehit::detail {
