@@ -35,7 +35,7 @@ class HardProp {
     questions.options = asked_options<Scalar>();
     while (questions.all.size() < question_count) {
       const Path<Scalar> path = draw(questions.all.size() % families);
-      questions.all.push_back({path, random_.one_in(4) ? std::size_t{1} + random_.below(2) : std::size_t{0}});
+      questions.all.push_back({path, random_.one_in(4) ? 1 + static_cast<std::size_t>(random_.below(2)) : 0});
     }
   }
 
