@@ -370,7 +370,7 @@ bool InstanceTree::put_in(std::uint32_t instance, const InstanceBox& box) {
   }
   std::uint32_t at = 0;
   std::uint32_t turn = instance;  // Where nothing tells children apart, each gets as many instances.
-  for (std::size_t depth = 0; depth + 1 < max_depth; ++depth, turn /= width) {
+  for (std::size_t depth = 0; depth + 1 < max_depth; ++depth, turn /= std::uint32_t{width}) {
     Node& node = nodes_[at];
     const std::size_t count = child_count(node);
     if (count < width) {
