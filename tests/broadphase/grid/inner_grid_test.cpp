@@ -156,7 +156,7 @@ TYPED_TEST(InnerGrid, lists_what_ends_at_its_planes) {
     const Vector3<TypeParam> corner = Vector3<TypeParam>::Constant(-edge * static_cast<TypeParam>(size / 2));
     const auto mesh = joined(level, placed<TypeParam>(lattice_cube<TypeParam>(size), edge, corner));
     const Grid grid = this->grid_of(mesh);
-    EXPECT_EQ(grid.inner_frames().size(), 1U);
+    EXPECT_FALSE(grid.inner_frames().empty());
     this->expect_well_formed(grid);
     this->expect_complete_and_tight(mesh, grid);
   }
