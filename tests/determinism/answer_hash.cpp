@@ -66,9 +66,9 @@ bool shape_answers_are_published(const char* name, bool few) {
 
 }  // namespace
 
-/// The answers to the hard questions, about the hard prop, about the hard scene and about the hard shapes, and the
-/// bytes of the first three, of a library that somebody else has compiled. With `--few`, a sixteenth of the answers but
-/// those about the prop, where nothing is optimized.
+/// Hashes what a library answers that somebody else has compiled: to the hard questions, and about the hard prop, scene
+/// and shapes. The bytes of all but the shapes are hashed too. With `--few`, where nothing is optimized, it asks a
+/// sixteenth of all but the prop's questions.
 int main(int argc, char** argv) {
   const bool few = argc == 2 && std::string_view(argv[1]) == "--few";
   if (argc > 1 && !few) {

@@ -173,8 +173,8 @@ class SUREHIT_API SceneQueries {
                                                 const SceneShapeQueryOptions<Scalar>& options = {},
                                                 Scalar* share = nullptr) const noexcept;
 
-  /// Returns the touched point of a hit, where the instance is at `hit.t`. With the corners of the mesh, the pose (M,
-  /// m) and the motion d, it is M (a + u (b - a) + v (c - a)) + m + t d.
+  /// Returns the touched point of a hit, where the instance is at `hit.t`. This is M (a + u (b - a) + v (c - a)) + m +
+  /// t d. The corners a, b and c are those of the mesh, M and m are the pose, and d is the motion.
   ///
   /// Each coordinate is the exact one for the t, u and v of the hit, rounded once to nearest. They are rounded too, so
   /// each adds at most half an ulp of 1: u and v times a placed edge, and t times the motion.

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "caller_buffer.hpp"
+#include "faulty_vulkan.hpp"
 #include "gpu/device_answers.hpp"
 #include "gpu_answers.hpp"
 
@@ -35,6 +37,46 @@ inline void fill(const CallerBuffer& buffer, std::size_t offset, const PathSpanf
     paths.copy(i, numbers);
     std::memcpy(buffer.data() + offset + i * sizeof numbers, numbers, sizeof numbers);
   }
+}
+
+/// Segments in a buffer of the caller's, and another one with room for their hits.
+template <typename HitInBuffer>
+struct SegmentsInBuffers {
+  SegmentsInBuffers(const GpuDevice& device, const std::vector<Segmentf>& segments)
+      : vulkan(device.handles()),
+        given(vulkan, segments.size() * sizeof(float[6])),
+        hits(vulkan, segments.size() * sizeof(HitInBuffer)),
+        paths{PathKind::segment, segments.size(), given.part()} {
+    fill(given, 0, segments);
+  }
+
+  const CallerVulkan vulkan;
+  const CallerBuffer given;
+  const CallerBuffer hits;
+  const GpuPaths paths;
+};
+
+/// Lets each work of two dispatches fail in turn, and expects that batches tell how many answers there are. The works
+/// are the dispatches, what fetches a long list, and what writes the host's answers.
+template <typename HitInBuffer, typename OnGpu>
+void expect_failures_of_works_are_told(const GpuDevice& device, const OnGpu& on_gpu,
+                                       const std::vector<Segmentf>& segments) {
+  const SegmentsInBuffers<HitInBuffer> in_buffers(device, segments);
+  auto& submit_of_device = detail::GpuDeviceState::of(device)->vulkan.QueueSubmit;
+  submit = std::exchange(submit_of_device, no_submit);
+  submit_result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  for (int works = 0; works < 6; ++works) {
+    calls_left = works;
+    const GpuBatchResult result =
+        on_gpu.first_hits(in_buffers.paths, in_buffers.hits.part(), {}, {.goes_on_without_device = true});
+    EXPECT_FALSE(result);
+    ASSERT_TRUE(result.error) << works;
+    EXPECT_EQ(result.error->reason, GpuError::Reason::out_of_memory);
+    EXPECT_EQ(result.finished, works < 4 ? 0U : 1U << 16) << works;
+  }
+  calls_left = 6;
+  EXPECT_TRUE(on_gpu.first_hits(in_buffers.paths, in_buffers.hits.part()));
+  submit_of_device = submit;
 }
 
 /// Asks with paths and answers in buffers of the caller's, and expects the bits of the host. Both begin behind 256

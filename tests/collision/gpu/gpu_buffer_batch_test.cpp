@@ -190,38 +190,15 @@ TEST_F(GpuGroundTest, bad_buffers_are_refused_with_the_reason) {
   EXPECT_EQ(GpuCollider().first_hits({PathKind::ray, 100, front}, back).error->reason, Reason::not_updated);
 }
 
-/// Each work of the device may fail: the dispatches, what fetches a long list, and what writes the host's answers.
 TEST_F(GpuGroundTest, a_device_that_fails_says_how_many_answers_there_are) {
   const GpuCollider on_gpu(device, collider);
-  const std::vector<Segmentf> paths = draw(70'000, 4);
-  const CallerVulkan vulkan(device.handles());
-  const CallerBuffer given(vulkan, paths.size() * sizeof(float[6]));
-  fill(given, 0, paths);
-  const CallerBuffer hits(vulkan, paths.size() * sizeof(DeviceHit));
-  const GpuPaths gpu_paths = {PathKind::segment, paths.size(), given.part()};
-  submit = std::exchange(state().vulkan.QueueSubmit, no_submit);
-  submit_result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  for (int works = 0; works < 6; ++works) {
-    calls_left = works;
-    const GpuBatchResult result = on_gpu.first_hits(gpu_paths, hits.part(), {}, {.goes_on_without_device = true});
-    EXPECT_FALSE(result);
-    ASSERT_TRUE(result.error) << works;
-    EXPECT_EQ(result.error->reason, Reason::out_of_memory);
-    EXPECT_EQ(result.finished, works < 4 ? 0U : 1U << 16) << works;
-  }
-  calls_left = 6;
-  EXPECT_TRUE(on_gpu.first_hits(gpu_paths, hits.part()));
-  state().vulkan.QueueSubmit = submit;
+  expect_failures_of_works_are_told<DeviceHit>(device, on_gpu, draw(70'000, 4));
 }
 
 /// Lists that no sound device writes: too long, with a path twice, and with a path that was not asked about.
 TEST_F(GpuGroundTest, faulty_lists_of_a_device_are_refused) {
   const GpuCollider on_gpu(device, collider);
-  const CallerVulkan vulkan(device.handles());
-  const std::vector<Segmentf> paths = draw(200, 4);
-  const CallerBuffer given(vulkan, paths.size() * sizeof(float[6]));
-  fill(given, 0, paths);
-  const CallerBuffer hits(vulkan, paths.size() * sizeof(DeviceHit));
+  const SegmentsInBuffers<DeviceHit> in_buffers(device, draw(200, 4));
   faulty = &state();
   wait_for = std::exchange(state().vulkan.WaitForFences, changed_list);
   const auto set = [](std::size_t word, std::uint32_t value) {
@@ -235,7 +212,7 @@ TEST_F(GpuGroundTest, faulty_lists_of_a_device_are_refused) {
       }};
   for (const auto& odd : odd_lists) {
     change = odd;
-    const GpuBatchResult result = on_gpu.first_hits({PathKind::segment, paths.size(), given.part()}, hits.part());
+    const GpuBatchResult result = on_gpu.first_hits(in_buffers.paths, in_buffers.hits.part());
     ASSERT_TRUE(result.error);
     EXPECT_EQ(result.error->reason, Reason::failed);
     EXPECT_EQ(result.error->what(), device.name() + " has listed paths that it was not given");

@@ -148,28 +148,9 @@ TEST_F(GpuSceneGroundTest, what_cannot_be_asked_is_refused) {
   EXPECT_EQ(on_gpu.any_hits(paths, hits).error->reason, Reason::not_updated);
 }
 
-/// Each work of the device may fail: the dispatches, what fetches a long list, and what writes the host's answers.
 TEST_F(GpuSceneGroundTest, a_device_that_fails_says_how_many_answers_there_are) {
   const GpuScene on_gpu(device, scene.snapshot());
-  const std::vector<Segmentf> paths = draw(70'000, 2);
-  const CallerVulkan vulkan(device.handles());
-  const CallerBuffer given(vulkan, paths.size() * sizeof(float[6]));
-  fill(given, 0, paths);
-  const CallerBuffer hits(vulkan, paths.size() * sizeof(DeviceSceneHit));
-  const GpuPaths gpu_paths = {PathKind::segment, paths.size(), given.part()};
-  submit = std::exchange(state().vulkan.QueueSubmit, no_submit);
-  submit_result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  for (const int works : {1, 3, 5}) {
-    calls_left = works;
-    const GpuBatchResult result = on_gpu.first_hits(gpu_paths, hits.part(), {}, {.goes_on_without_device = true});
-    EXPECT_FALSE(result);
-    ASSERT_TRUE(result.error) << works;
-    EXPECT_EQ(result.error->reason, Reason::out_of_memory);
-    EXPECT_EQ(result.finished, works < 4 ? 0U : 1U << 16) << works;
-  }
-  calls_left = 6;
-  EXPECT_TRUE(on_gpu.first_hits(gpu_paths, hits.part()));
-  state().vulkan.QueueSubmit = submit;
+  expect_failures_of_works_are_told<DeviceSceneHit>(device, on_gpu, draw(70'000, 2));
 }
 
 /// A list may name any triangle, because the host answers the whole path. It may not name a path twice.
@@ -187,11 +168,8 @@ TEST_F(GpuSceneGroundTest, faulty_lists_of_a_device_change_no_answer) {
   change = [](std::byte* list) {
     std::memcpy(list + first_listed, list + first_listed + sizeof(detail::ListedPath), sizeof(std::uint32_t));
   };
-  const CallerVulkan vulkan(device.handles());
-  const CallerBuffer given(vulkan, paths.size() * sizeof(float[6]));
-  fill(given, 0, paths);
-  const CallerBuffer hits(vulkan, paths.size() * sizeof(DeviceSceneHit));
-  const GpuBatchResult result = on_gpu.first_hits({PathKind::segment, paths.size(), given.part()}, hits.part());
+  const SegmentsInBuffers<DeviceSceneHit> in_buffers(device, paths);
+  const GpuBatchResult result = on_gpu.first_hits(in_buffers.paths, in_buffers.hits.part());
   ASSERT_TRUE(result.error);
   EXPECT_EQ(result.error->reason, Reason::failed);
   state().vulkan.WaitForFences = wait_for;

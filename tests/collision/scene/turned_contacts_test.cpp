@@ -78,7 +78,7 @@ struct GrazedEdge {
 TYPED_TEST(TurnedContacts, of_what_grazes_an_edge_are_right) {
   using Scalar = TypeParam;
   Random random(53);
-  const std::size_t cases = case_count(150);
+  const std::size_t cases = std::max<std::size_t>(case_count(150), 50);  // A few might all touch the rounded triangle.
   std::size_t lost = 0;
   for (std::size_t i = 0; i < cases; ++i) {
     const GrazedEdge<Scalar> edge(random);
@@ -120,9 +120,7 @@ TYPED_TEST(TurnedContacts, of_what_grazes_an_edge_are_right) {
       lost += contact_normal<Scalar>(seen, scene.triangle(id, 0)).isZero(0) ? 1 : 0;
     }
   }
-  if (cases >= 50) {
-    EXPECT_GT(lost, cases / 4);
-  }
+  EXPECT_GT(lost, cases / 4);
 }
 
 /// Returns a shape in double.

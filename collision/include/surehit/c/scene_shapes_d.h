@@ -73,8 +73,8 @@ SUREHIT_C_API surehit_status surehit_scened_shape_last_free_point(const surehit_
                                                                   const surehit_scene_shape_filterd* filter,
                                                                   surehit_vector3d* point);
 
-/// Sets `point` to the touched point of a hit, where the instance is at the hit's t. With the corners of the mesh, the
-/// pose (M, m) and the motion d, it is M (a + u (b - a) + v (c - a)) + m + t d.
+/// Sets `point` to the touched point of a hit, where the instance is at the hit's t. This is M (a + u (b - a) +
+/// v (c - a)) + m + t d. The corners a, b and c are those of the mesh, M and m are the pose, and d is the motion.
 ///
 /// Each coordinate is the exact one for the t, u and v of the hit, rounded once to nearest. They are rounded too, so
 /// each adds at most half an ulp of 1: u and v times a placed edge, and t times the motion.
