@@ -21,4 +21,8 @@ void append_big_endian(Number number, std::string& bytes) {
   std::reverse(bytes.end() - sizeof(Number), bytes.end());
 }
 
+/// The same two as objects, which a test may take as an argument.
+inline constexpr auto little_endian = [](auto number, std::string& bytes) { append_little_endian(number, bytes); };
+inline constexpr auto big_endian = [](auto number, std::string& bytes) { append_big_endian(number, bytes); };
+
 }  // namespace surehit::test

@@ -10,6 +10,7 @@
 #include "append_bytes.hpp"
 #include "error_of.hpp"
 #include "mutations.hpp"
+#include "ply_lines.hpp"
 #include "sample_polygons.hpp"
 #include "with_line_ends.hpp"
 
@@ -22,9 +23,6 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 using Floats = std::vector<std::array<float, 3>>;
 using Faces = std::vector<std::uint32_t>;
 using Warnings = std::vector<std::string>;
-
-const std::string vertex_lines = "property float x\nproperty float y\nproperty float z\n";
-const std::string face_line = "property list uchar int vertex_indices\n";
 
 std::string header(const std::string& format, std::uint64_t vertices, std::uint64_t faces) {
   return "ply\nformat " + format + " 1.0\nelement vertex " + std::to_string(vertices) + "\n" + vertex_lines +
@@ -71,9 +69,6 @@ std::string busy_binary_square(const std::string& format, Append append) {
   append(std::int32_t{9}, bytes);
   return bytes;
 }
-
-const auto little_endian = [](auto number, std::string& bytes) { append_little_endian(number, bytes); };
-const auto big_endian = [](auto number, std::string& bytes) { append_big_endian(number, bytes); };
 
 std::string ascii_text_of(const SampleFace& face) {
   std::string text = header("ascii", face.vertices.size(), 1);
@@ -251,116 +246,6 @@ TEST(ReadPly, keeps_a_last_byte_that_is_a_control_z) {
   const std::string little = with_last(0x1a000000, "binary_little_endian", little_endian);
   ASSERT_EQ(little.back(), '\x1a');
   EXPECT_EQ(error_in(little), "face 0: vertex index 436207616 is out of range, there are 27 vertices");
-}
-
-const std::string strip_list = "property list int int vertex_indices\n";
-
-/// A file of the corners of a strip of unit squares, and of the strips.
-std::string ascii_strips(const std::string& strips, std::size_t count = 1) {
-  return "ply\nformat ascii 1.0\nelement vertex 6\n" + vertex_lines + "element tristrips " + std::to_string(count) +
-         "\n" + strip_list + "end_header\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n" + strips;
-}
-
-template <typename Append>
-std::string binary_strips(const std::vector<std::int32_t>& strip, const std::string& format, Append append) {
-  std::string bytes = "ply\nformat " + format + " 1.0\nelement vertex 6\n" + vertex_lines + "element tristrips 1\n" +
-                      strip_list + "end_header\n";
-  for (const auto& [x, y] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}, {2, 0}, {2, 1}}) {
-    append(static_cast<float>(x), bytes);
-    append(static_cast<float>(y), bytes);
-    append(0.0f, bytes);
-  }
-  append(static_cast<std::int32_t>(strip.size()), bytes);
-  for (const std::int32_t corner : strip) append(corner, bytes);
-  return bytes;
-}
-
-TEST(ReadPly, reads_strips_of_triangles) {
-  struct Case {
-    std::vector<std::int32_t> strip;
-    Triangles triangles;
-  };
-  const Case cases[] = {
-      {{0, 1, 2}, {{0, 1, 2}}},
-      // Every second triangle is turned, so all look the same way.
-      {{0, 1, 2, 3, 4, 5}, {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}},
-      // -1 begins anew, with a triangle that is not turned.
-      {{0, 1, 2, 3, -1, 2, 3, 4, 5}, {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}},
-      {{0, 1, 2, -1, 3, 4, 5, -1}, {{0, 1, 2}, {3, 4, 5}}},
-      {{-1, -1, 0, 1, 2, -1, -1, 5}, {{0, 1, 2}}},
-      {{0, 1, -1, 2, 3, 4}, {{2, 3, 4}}},
-      // Stitches: corners named twice lead on, and count on.
-      {{0, 1, 2, 2, 3, 3, 4, 5}, {{0, 1, 2}, {4, 3, 5}}},
-      {{0, 1, 2, 2, 3, 4, 5}, {{0, 1, 2}, {3, 2, 4}, {3, 4, 5}}},
-      {{0, 1, 0, 2}, {{0, 1, 2}}},
-      {{0, 0, 1, 2}, {{1, 0, 2}}},
-      {{}, {}},
-      {{0, 1}, {}},
-      {{0, 1, 1, 1, 0}, {}},
-  };
-  for (const auto& [strip, triangles] : cases) {
-    std::string line = std::to_string(strip.size());
-    for (const std::int32_t corner : strip) line += " " + std::to_string(corner);
-    for (const Mesh<float>& mesh : {read_ply<float>(ascii_strips(line)),
-                                    read_ply<float>(binary_strips(strip, "binary_little_endian", little_endian)),
-                                    read_ply<float>(binary_strips(strip, "binary_big_endian", big_endian))}) {
-      EXPECT_EQ(mesh.triangles, triangles) << line;
-      EXPECT_TRUE(mesh.faces.empty()) << line;
-      EXPECT_EQ(mesh.face_count(), triangles.size()) << line;
-      EXPECT_EQ(mesh.warnings, triangles.empty() ? Warnings{example::no_triangles} : Warnings{}) << line;
-    }
-  }
-}
-
-TEST(ReadPly, lets_all_triangles_of_a_strip_look_the_same_way) {
-  const Mesh<float> mesh = read_ply<float>(ascii_strips("6 0 1 2 3 4 5"));
-  const Colliderf collider(mesh.view());
-  for (const float x : {0.25f, 0.75f, 1.25f, 1.75f}) {
-    const auto hit = collider.first_hit(Segmentf{{x, 0.5f, -1}, {x, 0.5f, 1}});
-    ASSERT_TRUE(hit) << x;
-    EXPECT_EQ(hit->side, Side::front) << x;
-  }
-}
-
-TEST(ReadPly, reads_several_strips_and_faces_beside_them) {
-  EXPECT_EQ(read_ply<float>(ascii_strips("3 0 1 2\n4 2 3 4 5\n", 2)).triangles,
-            (Triangles{{0, 1, 2}, {2, 3, 4}, {4, 3, 5}}));
-  const std::string vertices = "0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n";
-  const std::string start = "ply\nformat ascii 1.0\nelement vertex 6\n" + vertex_lines;
-  const std::string faces = "element face 1\n" + face_line;
-  const std::string strips = "element tristrips 1\n" + strip_list;
-  const Mesh<float> faces_first =
-      read_ply<float>(start + faces + strips + "end_header\n" + vertices + "4 0 2 3 1\n4 2 3 4 5\n");
-  EXPECT_EQ(faces_first.triangles, (Triangles{{0, 2, 3}, {0, 3, 1}, {2, 3, 4}, {4, 3, 5}}));
-  EXPECT_EQ(faces_first.faces, (Faces{0, 0, 1, 2}));
-  EXPECT_EQ(faces_first.face_count(), 3u);
-  const Mesh<float> strips_first =
-      read_ply<float>(start + strips + faces + "end_header\n" + vertices + "4 2 3 4 5\n4 0 2 3 1\n");
-  EXPECT_EQ(strips_first.triangles, (Triangles{{2, 3, 4}, {4, 3, 5}, {0, 2, 3}, {0, 3, 1}}));
-  EXPECT_EQ(strips_first.faces, (Faces{0, 1, 2, 2}));
-  EXPECT_EQ(strips_first.face_of(1), 1u);
-  // An element of no faces needs no list beside strips.
-  EXPECT_EQ(
-      read_ply<float>(start + "element face 0\n" + strips + "end_header\n" + vertices + "3 0 1 2\n").triangles.size(),
-      1u);
-}
-
-TEST(ReadPly, names_the_strip_of_an_error) {
-  EXPECT_EQ(error_in(ascii_strips("4 0 1 2 6\n")),
-            "line 16: tristrips 0: vertex index 6 is out of range, there are 6 vertices");
-  EXPECT_EQ(error_in(ascii_strips("3 0 1 2\n4 -1 0 -2 1\n", 2)),
-            "line 17: tristrips 1: vertex index -2 is out of range, there are 6 vertices");
-  EXPECT_EQ(error_in(ascii_strips("4 0 1 2\n")), "line 16: tristrips 0: the line ends too early");
-  EXPECT_EQ(error_in(ascii_strips("3 0 1 2 3\n")), "line 16: tristrips 0: '3' is more than the header announces");
-  EXPECT_EQ(error_in(ascii_strips("")), "line 15: tristrips 0: the file ends too early");
-  EXPECT_EQ(error_in(binary_strips({0, 1, 6}, "binary_big_endian", big_endian)),
-            "tristrips 0: vertex index 6 is out of range, there are 6 vertices");
-  EXPECT_EQ(error_in(binary_strips({0, 1, 2, -1, -2}, "binary_little_endian", little_endian)),
-            "tristrips 0: vertex index -2 is out of range, there are 6 vertices");
-  const std::string cut = binary_strips({0, 1, 2}, "binary_little_endian", little_endian);
-  EXPECT_EQ(error_in(cut.substr(0, cut.size() - 1)), "tristrips 0: the file ends too early");
-  EXPECT_EQ(error_in("ply\nformat ascii 1.0\nelement vertex 0\n" + vertex_lines + "element tristrips 1\nend_header\n"),
-            "line 8: the element tristrips has no list 'vertex_indices' of integers");
 }
 
 TEST(ReadPly, reads_a_file_of_no_faces) {
@@ -576,15 +461,12 @@ TEST(ReadPly, takes_no_memory_on_the_word_of_a_list) {
 
 TEST(ReadPly, makes_an_error_or_a_mesh_of_any_text) {
   expect_error_or_sound_mesh(ascii_square, read_ply<float>);
-  expect_error_or_sound_mesh(with_line_ends(ascii_strips("8 0 1 2 -1 2 3 4 5\n\x1a"), "\r"), read_ply<double>);
   expect_error_or_sound_mesh(ascii_text_of(placed(wall_plane, keyholed_wall)), read_ply<float>);
 }
 
 TEST(ReadPly, makes_an_error_or_a_mesh_of_any_bytes) {
   expect_error_or_sound_mesh(busy_binary_square("binary_little_endian", little_endian), read_ply<float>);
   expect_error_or_sound_mesh(busy_binary_square("binary_big_endian", big_endian), read_ply<double>);
-  expect_error_or_sound_mesh(binary_strips({0, 1, 2, 3, -1, 3, 4, 5}, "binary_big_endian", big_endian),
-                             read_ply<float>);
   expect_error_or_sound_mesh(little_endian_bytes_of(placed(wall_plane, keyholed_wall)), read_ply<double>);
 }
 

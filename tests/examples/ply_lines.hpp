@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace surehit::test {
+
+// The properties of a header that most PLY files have.
+inline const std::string vertex_lines = "property float x\nproperty float y\nproperty float z\n";
+inline const std::string face_line = "property list uchar int vertex_indices\n";
+
+}  // namespace surehit::test
