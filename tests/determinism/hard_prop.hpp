@@ -6,7 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "questions.hpp"
+#include "hard_mesh.hpp"
+#include "lattice.hpp"
 #include "support/random.hpp"
 
 namespace surehit::test {
@@ -23,7 +24,7 @@ inline constexpr std::uint64_t published_prop_hash<double> = 0xad708742bfcc1f36u
 /// times smaller again. So the grid has an inner grid, and this has one too. With them come 1,000 questions, the same
 /// on every platform. Points are drawn as whole numbers, and no step from these to a Scalar rounds.
 template <typename Scalar>
-class HardProp {
+class HardProp : public HardMesh<Scalar> {
  public:
   static constexpr std::size_t question_count = 1'000;
 
@@ -39,24 +40,12 @@ class HardProp {
     }
   }
 
-  [[nodiscard]] TriangleMeshView<Scalar> view() const { return {vertices, triangles}; }
-  [[nodiscard]] Collider<Scalar> collider() const {
-    Collider<Scalar> result;
-    if (!result.try_build(view(), {{}, masks})) return {};
-    return result;
-  }
-
-  std::vector<std::array<Scalar, 3>> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> masks;
-  Questions<Scalar> questions;
+  using HardMesh<Scalar>::masks;
+  using HardMesh<Scalar>::questions;
+  using HardMesh<Scalar>::triangles;
 
  private:
-  using Point = std::array<std::int64_t, 3>;
-  /// Drawn in braces, which are evaluated from left to right.
-  struct LatticeSegment {
-    Point start, end;
-  };
+  using Point = LatticePoint;
   /// The cube around a point, up to `reach` away on each axis.
   struct Part {
     Point middle;
@@ -70,37 +59,20 @@ class HardProp {
   static constexpr Part prop = {{300'000 * unit, -170'000 * unit, 70'000 * unit}, unit << 12};
   static constexpr Part inlay = {{301'300 * unit, -171'700 * unit, 69'100 * unit}, unit << 5};
 
-  /// Exact: no coordinate is larger than three times the level's reach.
-  static Vector3<Scalar> scalars(const Point& point) {
-    constexpr Scalar spacing = Scalar{1} / static_cast<Scalar>(unit << 16);
-    const auto scalar = [](std::int64_t x) { return static_cast<Scalar>(x) * spacing; };
-    return {scalar(point[0]), scalar(point[1]), scalar(point[2])};
-  }
-  static Point sum(const Point& left, const Point& right) {
-    return {left[0] + right[0], left[1] + right[1], left[2] + right[2]};
-  }
-  static Point reflected(const Point& point, const Point& centre) {
-    return {2 * centre[0] - point[0], 2 * centre[1] - point[1], 2 * centre[2] - point[2]};
-  }
+  static constexpr Scalar spacing = Scalar{1} / static_cast<Scalar>(unit << 16);
 
-  Point offset(std::int64_t reach) {
-    const auto draw = [&] { return random_.between(-reach, reach); };
-    return {draw(), draw(), draw()};
-  }
-  Point within(const Part& part) { return sum(part.middle, offset(part.reach)); }
+  /// Exact: no coordinate is larger than three times the level's reach.
+  static Vector3<Scalar> scalars(const Point& point) { return test::scalars(point, spacing); }
+
+  Point within(const Part& part) { return sum(part.middle, draw_lattice_point(random_, part.reach)); }
   Point anywhere() {
     constexpr std::array<Part, 3> parts = {level, prop, inlay};
     return within(parts[random_.below(3)]);
   }
 
-  void add(const std::array<Point, 3>& corners) {
-    const auto first = static_cast<std::uint32_t>(vertices.size());
-    for (const Point& corner : corners) {
-      const Vector3<Scalar> vertex = scalars(corner);
-      vertices.push_back({vertex[0], vertex[1], vertex[2]});
-    }
-    triangles.push_back({first, first + 1, first + 2});
-    lattice_.push_back(corners);
+  void add(const LatticeTriangle& triangle) {
+    lattice_.push_back(triangle);
+    this->add_corners({scalars(triangle[0]), scalars(triangle[1]), scalars(triangle[2])});
   }
   void add_level() {
     constexpr std::int64_t squares = 8;
@@ -120,18 +92,18 @@ class HardProp {
     for (int i = 0; i < count; ++i) {
       const std::int64_t step = i % 2 == 0 ? 1 : part.reach / 8;
       const auto corner = [&] {
-        Point point = offset(part.reach / step / 8);
+        Point point = draw_lattice_point(random_, part.reach / step / 8);
         for (std::int64_t& x : point) x *= step;
         return point;
       };
-      Point around = offset(part.reach / step / 2);
+      Point around = draw_lattice_point(random_, part.reach / step / 2);
       for (std::size_t axis = 0; axis < 3; ++axis) around[axis] = around[axis] * step + part.middle[axis];
       add({around, sum(around, corner()), sum(around, corner())});
     }
   }
 
   Point vertex() {
-    const std::array<Point, 3>& corners = lattice_[random_.below(lattice_.size())];
+    const LatticeTriangle& corners = lattice_[random_.below(lattice_.size())];
     return corners[random_.below(3)];
   }
   /// A point of an edge, or as near to it as the lattice comes.
@@ -144,15 +116,7 @@ class HardProp {
   Path<Scalar> any_kind(const LatticeSegment& segment) {
     const Vector3<Scalar> start = scalars(segment.start);
     const Vector3<Scalar> end = scalars(segment.end);
-    const Vector3<Scalar> direction = {end[0] - start[0], end[1] - start[1], end[2] - start[2]};
-    switch (random_.below(5)) {
-      case 0:
-        return Ray<Scalar>{start, direction};
-      case 1:
-        return Line<Scalar>{start, direction};
-      default:
-        return Segment<Scalar>{start, end};
-    }
+    return path_of_any_kind<Scalar>(random_, start, end, end - start);
   }
   Path<Scalar> through(const Point& aim) {
     const Point start = anywhere();
@@ -190,7 +154,7 @@ class HardProp {
   }
 
   Random random_{20261127};
-  std::vector<std::array<Point, 3>> lattice_;
+  std::vector<LatticeTriangle> lattice_;
 };
 
 }  // namespace surehit::test

@@ -8,7 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "questions.hpp"
+#include "hard_mesh.hpp"
+#include "lattice.hpp"
 #include "support/random.hpp"
 
 namespace surehit::test {
@@ -32,7 +33,7 @@ inline constexpr std::uint64_t published_hash_of_few<double> = 0x62162969c7fc932
 /// A mesh of 1,000 triangles and 10,000 questions that are hard for it, the same on every platform. Points are those of
 /// a lattice, drawn as whole numbers. No step from these to a Scalar rounds.
 template <typename Scalar>
-class HardQuestions {
+class HardQuestions : public HardMesh<Scalar> {
  public:
   static constexpr std::size_t question_count = 10'000;
 
@@ -52,26 +53,13 @@ class HardQuestions {
     }
   }
 
-  [[nodiscard]] TriangleMeshView<Scalar> view() const { return {vertices, triangles}; }
-  [[nodiscard]] Collider<Scalar> collider(const GridOptions& grid = {}) const {
-    Collider<Scalar> result;
-    if (!result.try_build(view(), {grid, masks})) return {};
-    return result;
-  }
-
-  std::vector<std::array<Scalar, 3>> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> masks;
-  Questions<Scalar> questions;
+  using HardMesh<Scalar>::masks;
+  using HardMesh<Scalar>::questions;
+  using HardMesh<Scalar>::triangles;
 
  private:
   using Bits = std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>;
-  using Point = std::array<std::int64_t, 3>;
-  using LatticeTriangle = std::array<Point, 3>;
-  /// Drawn in braces, which are evaluated from left to right; arguments are in any order.
-  struct LatticeSegment {
-    Point start, end;
-  };
+  using Point = LatticePoint;
 
   static constexpr std::uint64_t families = 14;
   /// The lattice is finer than that of float by this many bits, so significands are as full.
@@ -81,10 +69,7 @@ class HardQuestions {
   static constexpr std::uint32_t ground_cells = 16;
 
   /// Exact: a mesh is within 2 `reach`, what is reflected in it within 8 and a difference within 16, 2^21 for float.
-  static Vector3<Scalar> scalars(const Point& point) {
-    const auto scalar = [](std::int64_t x) { return static_cast<Scalar>(x) * spacing; };
-    return {scalar(point[0]), scalar(point[1]), scalar(point[2])};
-  }
+  static Vector3<Scalar> scalars(const Point& point) { return test::scalars(point, spacing); }
   static Vector3<Scalar> times(const Vector3<Scalar>& point, Scalar factor) {
     return {point[0] * factor, point[1] * factor, point[2] * factor};
   }
@@ -107,18 +92,9 @@ class HardQuestions {
     }
     return result;
   }
-  static Point difference(const Point& left, const Point& right) {
-    return {left[0] - right[0], left[1] - right[1], left[2] - right[2]};
-  }
-  static Point reflected(const Point& point, const Point& centre) {
-    return difference(centre, difference(point, centre));
-  }
 
-  Point within(std::int64_t limit) {
-    const auto draw = [&] { return random_.between(-limit, limit); };
-    return {draw(), draw(), draw()};
-  }
-  /// Of the ground and its copies, whose coordinates are multiples of 4, so that quarters are exact.
+  Point within(std::int64_t limit) { return draw_lattice_point(random_, limit); }
+  /// Returns one from the ground or its copies. Their coordinates are multiples of 4, so quarters are exact.
   LatticeTriangle coarse_triangle() { return lattice_[random_.below(coarse_)]; }
   LatticeTriangle any_triangle() { return lattice_[random_.below(lattice_.size())]; }
   Point vertex() {
@@ -138,12 +114,7 @@ class HardQuestions {
 
   void add(const LatticeTriangle& triangle) {
     lattice_.push_back(triangle);
-    add({scalars(triangle[0]), scalars(triangle[1]), scalars(triangle[2])});
-  }
-  void add(const std::array<Vector3<Scalar>, 3>& corners) {
-    const auto first = static_cast<std::uint32_t>(vertices.size());
-    for (const Vector3<Scalar>& corner : corners) vertices.push_back({corner[0], corner[1], corner[2]});
-    triangles.push_back({first, first + 1, first + 2});
+    this->add_corners({scalars(triangle[0]), scalars(triangle[1]), scalars(triangle[2])});
   }
 
   /// 512 with common edges, of four heights, so that many neighbours lie in one plane.
@@ -154,8 +125,7 @@ class HardQuestions {
       for (std::uint32_t x = 0; x <= ground_cells; ++x) {
         points.push_back(
             {(x - std::int64_t{8}) * step, (y - std::int64_t{8}) * step, random_.between(-1, 2) * step / 4});
-        const Vector3<Scalar> vertex = scalars(points.back());
-        vertices.push_back({vertex[0], vertex[1], vertex[2]});
+        this->add_vertex(scalars(points.back()));
       }
     }
     for (std::uint32_t y = 0; y < ground_cells; ++y) {
@@ -197,18 +167,13 @@ class HardQuestions {
   }
   /// 16 about the origin, less than 64 of the least numbers wide.
   void add_denormal() {
-    for (int i = 0; i < 16; ++i) add({denormals(within(32)), denormals(within(32)), denormals(within(32))});
+    for (int i = 0; i < 16; ++i) {
+      this->add_corners({denormals(within(32)), denormals(within(32)), denormals(within(32))});
+    }
   }
 
   Path<Scalar> any_kind(const Vector3<Scalar>& start, const Vector3<Scalar>& end, const Vector3<Scalar>& direction) {
-    switch (random_.below(5)) {
-      case 0:
-        return Ray<Scalar>{start, direction};
-      case 1:
-        return Line<Scalar>{start, direction};
-      default:
-        return Segment<Scalar>{start, end};
-    }
+    return path_of_any_kind<Scalar>(random_, start, end, direction);
   }
   Path<Scalar> any_kind(const LatticeSegment& segment) {
     const auto& [start, end] = segment;
