@@ -48,13 +48,6 @@ class SceneContacts : public SceneMeaning<Scalar> {
     const auto [a, b, c] = judged.oracle.corners(id, triangle);
     return {a, b, c, exact(judged.scene.motion(id))};
   }
-
-  /// A ball above (1/4, 1/4), from one height to another.
-  static SweptSphere<Scalar> falling(Scalar from, Scalar to, Scalar radius) {
-    return {{SceneMeaning<Scalar>::quarter, SceneMeaning<Scalar>::quarter, from},
-            {SceneMeaning<Scalar>::quarter, SceneMeaning<Scalar>::quarter, to},
-            radius};
-  }
 };
 TYPED_TEST_SUITE(SceneContacts, Scalars, ScalarNames);
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -28,6 +29,23 @@ class SceneMeaning : public testing::Test {
 
   /// Above (1/4, 1/4), from one height to another.
   static Segment<Scalar> across(Scalar from, Scalar to) { return through_stack<Scalar>(from, to); }
+
+  /// A ball above (1/4, 1/4), from one height to another.
+  static SweptSphere<Scalar> falling(Scalar from, Scalar to, Scalar radius) {
+    const auto [start, end] = across(from, to);
+    return {start, end, radius};
+  }
+
+  /// Adds five instances of one mesh, which is the unit triangle twice, and returns their ids in order.
+  std::vector<InstanceId> add_equal_triangles() {
+    GeneratedMesh<Scalar> twice;
+    for (int i = 0; i < 2; ++i) twice.add(unit_triangle<Scalar>());
+    const auto collider = std::make_shared<Collider<Scalar>>(twice.view());
+    std::vector<InstanceId> ids;
+    for (int i = 0; i < 5; ++i) ids.push_back(scene.add(collider));
+    std::sort(ids.begin(), ids.end());
+    return ids;
+  }
 
   static void expect_hit(const Answer& answer, Scalar t, Side side, InstanceId instance, std::uint32_t triangle = 0) {
     ASSERT_TRUE(answer);

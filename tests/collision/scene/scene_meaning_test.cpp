@@ -102,13 +102,8 @@ TYPED_TEST(SceneMeaning, t_is_rounded_once) {
 // "Among hits with equal exact t, the lowest instance id comes first, and then the lowest triangle id."
 
 TYPED_TEST(SceneMeaning, ties_go_by_instance_and_then_by_triangle) {
-  GeneratedMesh<TypeParam> twice;
-  for (int i = 0; i < 2; ++i) twice.add(unit_triangle<TypeParam>());
-  const auto collider = std::make_shared<Collider<TypeParam>>(twice.view());
-  std::vector<InstanceId> ids;
-  for (int i = 0; i < 5; ++i) ids.push_back(this->scene.add(collider));
+  const std::vector<InstanceId> ids = this->add_equal_triangles();
   this->scene.commit();
-  std::sort(ids.begin(), ids.end());
   const auto hits = this->all(this->across(1, -1));
   ASSERT_EQ(hits.size(), 10U);
   for (std::size_t i = 0; i < hits.size(); ++i) {

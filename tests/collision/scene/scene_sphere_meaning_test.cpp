@@ -22,11 +22,6 @@ class SceneSphereMeaning : public SceneMeaning<Scalar> {
   using Hits = std::vector<SceneShapeHit<Scalar>>;
   using Ball = SweptSphere<Scalar>;
 
-  /// A ball above (1/4, 1/4), from one height to another.
-  static Ball falling(Scalar from, Scalar to, Scalar radius) {
-    const Scalar x{0.25};
-    return {{x, x, from}, {x, x, to}, radius};
-  }
   Hits touched(const Ball& ball, const SceneShapeQueryOptions<Scalar>& options = {}) const {
     Hits hits;
     this->scene.all_hits(ball, hits, options);
@@ -135,11 +130,7 @@ TYPED_TEST(SceneSphereMeaning, culling_follows_the_placed_triangle) {
 // "Order, ids and options are those of paths."
 
 TYPED_TEST(SceneSphereMeaning, ties_go_by_instance_and_then_by_triangle) {
-  GeneratedMesh<TypeParam> twice;
-  for (int i = 0; i < 2; ++i) twice.add(unit_triangle<TypeParam>());
-  const auto collider = std::make_shared<Collider<TypeParam>>(twice.view());
-  std::vector<InstanceId> ids;
-  for (int i = 0; i < 5; ++i) ids.push_back(this->scene.add(collider));
+  const std::vector<InstanceId> ids = this->add_equal_triangles();
   this->scene.commit();
   for (const TypeParam from : {TypeParam{3}, TypeParam{1}}) {  // not touching at the start, and touching
     const auto hits = this->touched(this->falling(from, 0, 1));
