@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "collision/filter/on_every_instruction_set.hpp"
-#include "exact_matrix.hpp"
+#include "exact_path.hpp"
 #include "place_lanes_on_targets.hpp"
 #include "support/case_count.hpp"
 #include "support/random.hpp"
@@ -46,7 +46,7 @@ struct Case {
   void set_exact() {
     for (Eigen::Index i = 0; i < 3; ++i) matrix[static_cast<std::size_t>(i)] = exact(placement.pose.linear.row(i));
     inverse_matrix = inverse(matrix);
-    direction = path.has_end() ? exact(path.toward) - exact(path.start) : exact(path.toward);
+    direction = exact_direction(path);
     if (path.has_end()) direction = direction - mpq_class(double{share}) * exact(placement.motion);
   }
   /// Returns the path at t in the frame of the mesh.
@@ -55,27 +55,10 @@ struct Case {
   }
   /// Returns the part of the range in which the path is in the box.
   [[nodiscard]] std::optional<std::array<mpq_class, 2>> in_box() const {
-    std::optional<mpq_class> first;
-    std::optional<mpq_class> last;
-    if (range.first > -PathRange<Scalar>::infinity) first = double{range.first};
-    if (range.last < PathRange<Scalar>::infinity) last = double{range.last};
-    const ExactVector start = local_at(0);
-    const ExactVector way = inverse_matrix * direction;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const mpq_class low(box.low[static_cast<Eigen::Index>(axis)]);
-      const mpq_class high(box.high[static_cast<Eigen::Index>(axis)]);
-      if (way[axis] == 0) {
-        if (start[axis] < low || start[axis] > high) return std::nullopt;
-        continue;
-      }
-      mpq_class enters = (low - start[axis]) / way[axis];
-      mpq_class leaves = (high - start[axis]) / way[axis];
-      if (enters > leaves) std::swap(enters, leaves);
-      if (!first || *first < enters) first = enters;
-      if (!last || *last > leaves) last = leaves;
-    }
-    if (!first || !last || *first > *last) return std::nullopt;
-    return std::array{*first, *last};
+    const detail::InstanceBox sides = {{box.low[0], box.low[1], box.low[2]}, {box.high[0], box.high[1], box.high[2]}};
+    const auto inside = exact_range_in(sides, local_at(0), inverse_matrix * direction, range);
+    if (!inside || !inside->first || !inside->last) return std::nullopt;
+    return std::array{*inside->first, *inside->last};
   }
 };
 

@@ -8,13 +8,12 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "collision/filter/on_every_instruction_set.hpp"
-#include "exact_matrix.hpp"
+#include "exact_path.hpp"
 #include "support/case_count.hpp"
 #include "support/neighbour.hpp"
 #include "support/pair_text.hpp"
@@ -39,12 +38,6 @@ InstanceTree tree_around(const std::vector<InstanceBox>& boxes) {
   return tree;
 }
 
-/// The exact direction of a path.
-template <typename Scalar>
-ExactVector direction_of(const Path<Scalar>& path) {
-  return path.has_end() ? exact(path.toward) - exact(path.start) : exact(path.toward);
-}
-
 /// Some boxes, and a path that touches one of them.
 template <typename Scalar>
 struct Case {
@@ -55,28 +48,9 @@ struct Case {
   /// What is true of the path and a box.
   enum class Truth : std::uint8_t { miss, touch, meet };
   [[nodiscard]] Truth truth_of(const InstanceBox& box) const {
-    std::optional<mpq_class> first;
-    std::optional<mpq_class> last;
-    if (std::isfinite(range.first)) first = double{range.first};
-    if (std::isfinite(range.last)) last = double{range.last};
-    const ExactVector start = exact(path.start);
-    const ExactVector way = direction_of(path);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (const bool is_low : {true, false}) {
-        const double side = is_low ? box.low[axis] : box.high[axis];
-        if (!std::isfinite(side)) continue;
-        if (way[axis] == 0) {
-          if (is_low ? start[axis] < side : start[axis] > side) return Truth::miss;
-          continue;
-        }
-        const mpq_class t = (mpq_class(side) - start[axis]) / way[axis];
-        const bool enters = is_low == (way[axis] > 0);
-        if (enters && (!first || *first < t)) first = t;
-        if (!enters && (!last || *last > t)) last = t;
-      }
-    }
-    if (!first || !last || *first < *last) return Truth::meet;
-    return *first == *last ? Truth::touch : Truth::miss;
+    const auto met = exact_range_in(box, exact(path.start), exact_direction(path), range);
+    if (!met) return Truth::miss;
+    return met->first && met->last && *met->first == *met->last ? Truth::touch : Truth::meet;
   }
 };
 
@@ -154,7 +128,7 @@ class TreeWalk : public testing::Test {
     const PathRange<Scalar> range(path, QueryOptions<Scalar>{});
     const detail::ScenePath<Scalar> in_scene(path, range);
     const TreeCrossing crossing = tree_crossing(tree, in_scene, at.axis, at.plane);
-    const mpq_class way = direction_of(path)[at.axis];
+    const mpq_class way = exact_direction(path)[at.axis];
     if (way == 0 || !std::isfinite(crossing.near) || !std::isfinite(crossing.far)) return 0;
     const auto place = [&](float tau) {
       const mpq_class t = mpq_class(crossing.moved_t) + mpq_class(double{tau}) / mpq_class(crossing.inverse_unit);
