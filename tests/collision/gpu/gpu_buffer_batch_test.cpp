@@ -14,6 +14,8 @@
 #include "gpu/device_answers.hpp"
 #include "gpu/gpu_device_state.hpp"
 #include "gpu_answers.hpp"
+#include "segments_to_ground.hpp"
+#include "shared_gpu.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/pair_families.hpp"
@@ -28,18 +30,10 @@ using Reason = GpuError::Reason;
 using detail::DeviceHit;
 using detail::GpuDeviceState;
 
-class GpuBufferBatchTest : public testing::Test {
+class GpuBufferBatchTest : public SharedGpu {
  protected:
-  static void SetUpTestSuite() { device = any_gpu(); }
-  static void TearDownTestSuite() { device = GpuDevice(); }
-  void SetUp() override { SUREHIT_SKIP_WITHOUT(device); }
-
   GpuDeviceState& state() { return *GpuDeviceState::of(device); }
-
-  static GpuDevice device;
-  GpuStatistics statistics;
 };
-GpuDevice GpuBufferBatchTest::device;
 
 TEST_F(GpuBufferBatchTest, pairs_of_each_family) {
   for (const PairFamily family : all_pair_families) {
@@ -75,16 +69,8 @@ class GpuGroundTest : public GpuBufferBatchTest {
     ground = rough_ground<float>(20, 0.1F, random);
     collider = Colliderf(ground.view());
   }
-  /// One path in `share` is undecided.
   std::vector<Segmentf> draw(std::size_t count, std::uint64_t share) {
-    Random random(42);
-    std::vector<Segmentf> paths;
-    for (std::size_t i = 0; i < count; ++i) {
-      Vector3f end(random.symmetric<float>(), random.symmetric<float>(), random.unit<float>() - 0.5F);
-      if (random.one_in(share)) end = ground.vertices[random.below(ground.vertices.size())];
-      paths.push_back({{random.symmetric<float>(), random.symmetric<float>(), 1}, end});
-    }
-    return paths;
+    return draw_segments_to(ground, 1, count, share);
   }
   GeneratedMesh<float> ground;
   Colliderf collider;

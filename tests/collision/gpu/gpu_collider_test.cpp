@@ -9,7 +9,6 @@
 #include <limits>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #if defined(__SSE2__)
@@ -18,6 +17,7 @@
 
 #include "determinism/answers.hpp"
 #include "determinism/hard_questions.hpp"
+#include "from_two_threads.hpp"
 #include "gpu_answers.hpp"
 #include "level/level.hpp"
 #include "mesh_io/read_mesh.hpp"
@@ -25,7 +25,6 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/pair_families.hpp"
 #include "support/path_drawer.hpp"
-#include "support/threads.hpp"
 #include "surehit/intersect.hpp"
 
 namespace surehit::test {
@@ -436,20 +435,7 @@ TEST_F(GpuRoomTest, large_batches_of_several_threads) {
     const auto x = 3 * random.unit<float>();
     many.push_back({{x, 1, 4 * random.unit<float>() - 2}, {x, 1, 4 * random.unit<float>() - 2}});
   }
-  std::vector<Hitf> expected(many.size());
-  collider.first_hits(many, expected);
-  const auto ask = [&](GpuStatistics& counted) {
-    std::vector<Hitf> hits(many.size());
-    const Threads threads(2);
-    const Executor executor = threads;
-    EXPECT_TRUE(on_gpu.first_hits(many, hits, {.executor = executor}, {.statistics = &counted}));
-    EXPECT_EQ(hits, expected);
-    EXPECT_EQ(counted.dispatches, 3U);
-  };
-  GpuStatistics of_other;
-  std::thread other([&] { ask(of_other); });
-  ask(statistics);
-  other.join();
+  expect_same_from_two_threads(on_gpu, collider, many, 3);
 }
 
 }  // namespace

@@ -13,14 +13,15 @@
 #include "buffer_answers.hpp"
 #include "caller_buffer.hpp"
 #include "collision/scene/unit_scenes.hpp"
+#include "drawn_scene_paths.hpp"
 #include "faulty_vulkan.hpp"
 #include "gpu/device_answers.hpp"
 #include "gpu/gpu_device_state.hpp"
 #include "gpu_answers.hpp"
+#include "segments_to_ground.hpp"
+#include "shared_gpu.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
-#include "support/scene_drawer.hpp"
-#include "support/scene_path_drawer.hpp"
 #include "validation_layer.hpp"
 
 namespace surehit::test {
@@ -30,16 +31,9 @@ using Reason = GpuError::Reason;
 using detail::DeviceSceneHit;
 using detail::GpuDeviceState;
 
-class GpuSceneBufferTest : public testing::Test {
+class GpuSceneBufferTest : public SharedGpu {
  protected:
-  static void SetUpTestSuite() { device = any_gpu(); }
-  static void TearDownTestSuite() { device = GpuDevice(); }
-  void SetUp() override { SUREHIT_SKIP_WITHOUT(device); }
-
   GpuDeviceState& state() { return *GpuDeviceState::of(device); }
-
-  static inline GpuDevice device;
-  GpuStatistics statistics;
 };
 
 TEST_F(GpuSceneBufferTest, scenes_of_each_family) {
@@ -49,13 +43,7 @@ TEST_F(GpuSceneBufferTest, scenes_of_each_family) {
     for (std::size_t i = case_count(5); i > 0; --i) {
       const DrawnScene<float> drawn = draw_scene<float>(family, random);
       const JudgedScene<float> judged(drawn);
-      ScenePathDrawer<float> drawer(drawn, judged.oracle, judged.ids, random);
-      PathsOfKinds<SceneQueryOptionsf> paths;
-      for (int path_count = 0; path_count < 60; ++path_count) {
-        const Path<float> path = drawer.draw();
-        const auto hit = judged.scene.first_hit(path);
-        paths.add(path, hit && random.one_in(2) ? draw_scene_options(*hit, random) : SceneQueryOptionsf{});
-      }
+      const auto paths = draw_scene_paths(drawn, judged, random);
       const GpuScene on_gpu(device, judged.scene.snapshot());
       for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
         const auto& options = paths.options[static_cast<std::size_t>(kind)];
@@ -81,16 +69,8 @@ class GpuSceneGroundTest : public GpuSceneBufferTest {
     scene.set_motion(scene.add(collider, Posef::translated({-0.5F, 0, 0.5F})), {0, 0, 0.125F});
     scene.commit();
   }
-  /// One path in `share` ends in a vertex, and is mostly undecided.
   std::vector<Segmentf> draw(std::size_t count, std::uint64_t share) {
-    Random random(42);
-    std::vector<Segmentf> paths;
-    for (std::size_t i = 0; i < count; ++i) {
-      Vector3f end(random.symmetric<float>(), random.symmetric<float>(), random.unit<float>() - 0.5F);
-      if (random.one_in(share)) end = ground.vertices[random.below(ground.vertices.size())];
-      paths.push_back({{random.symmetric<float>(), random.symmetric<float>(), 0.375F}, end});
-    }
-    return paths;
+    return draw_segments_to(ground, 0.375F, count, share);
   }
   GeneratedMesh<float> ground;
   std::shared_ptr<Colliderf> collider;

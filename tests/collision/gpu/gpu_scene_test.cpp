@@ -7,31 +7,22 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "collision/scene/unit_scenes.hpp"
+#include "drawn_scene_paths.hpp"
+#include "from_two_threads.hpp"
 #include "gpu_answers.hpp"
+#include "shared_gpu.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
-#include "support/scene_drawer.hpp"
-#include "support/scene_path_drawer.hpp"
-#include "support/threads.hpp"
 
 namespace surehit::test {
 namespace {
 
 using Reason = GpuError::Reason;
 
-class GpuSceneTest : public testing::Test {
- protected:
-  static void SetUpTestSuite() { device = any_gpu(); }
-  static void TearDownTestSuite() { device = GpuDevice(); }
-  void SetUp() override { SUREHIT_SKIP_WITHOUT(device); }
-
-  static inline GpuDevice device;
-  GpuStatistics statistics;
-};
+class GpuSceneTest : public SharedGpu {};
 
 /// Asks about drawn scenes, whose paths and options are hard for them.
 class GpuSceneFamilies : public GpuSceneTest, public testing::WithParamInterface<SceneFamily> {};
@@ -43,13 +34,7 @@ TEST_P(GpuSceneFamilies, have_the_answers_of_the_host) {
   for (std::size_t i = case_count(40); i > 0; --i) {
     const DrawnScene<float> drawn = draw_scene<float>(GetParam(), random);
     const JudgedScene<float> judged(drawn);
-    ScenePathDrawer<float> drawer(drawn, judged.oracle, judged.ids, random);
-    PathsOfKinds<SceneQueryOptionsf> paths;
-    for (int path_count = 0; path_count < 60; ++path_count) {
-      const Path<float> path = drawer.draw();
-      const auto hit = judged.scene.first_hit(path);
-      paths.add(path, hit && random.one_in(2) ? draw_scene_options(*hit, random) : SceneQueryOptionsf{});
-    }
+    const auto paths = draw_scene_paths(drawn, judged, random);
     ASSERT_TRUE(on_gpu.try_upload(device, judged.scene.snapshot()));
     hits += paths.expect_same_as_host(on_gpu, judged.scene, &statistics);
     ASSERT_FALSE(HasFailure()) << "scene " << i;
@@ -231,20 +216,7 @@ TEST_F(GpuFieldTest, large_batches_of_several_threads) {
     const Vector3f start = drawn_point();
     many.push_back({start, start + 0.1F * drawn_point()});
   }
-  std::vector<SceneHitf> expected(many.size());
-  scene.first_hits(many, expected);
-  const auto ask = [&](GpuStatistics& counted) {
-    std::vector<SceneHitf> hits(many.size());
-    const Threads threads(2);
-    const Executor executor = threads;
-    EXPECT_TRUE(on_gpu.first_hits(many, hits, {.executor = executor}, {.statistics = &counted}));
-    EXPECT_EQ(hits, expected);
-    EXPECT_EQ(counted.dispatches, 2U);
-  };
-  GpuStatistics of_other;
-  std::thread other([&] { ask(of_other); });
-  ask(statistics);
-  other.join();
+  expect_same_from_two_threads(on_gpu, scene, many, 2);
 }
 
 }  // namespace
