@@ -10,7 +10,7 @@
 namespace surehit::test {
 
 /// A lane after `detail::LaneClip::clip_in_double`.
-struct DoubleClip {
+struct ClippedLane {
   bool is_inside;
   bool is_apart;
   double enters;
@@ -26,6 +26,6 @@ struct RangedPath {
 };
 
 /// Clips paths of one kind there, as many at a time as there are lanes. Returns nothing where there are no lanes.
-[[nodiscard]] std::vector<DoubleClip> clip_in_double(const Grid& grid, std::span<const RangedPath> paths);
+[[nodiscard]] std::vector<ClippedLane> clip_in_double(const Grid& grid, std::span<const RangedPath> paths);
 
 }  // namespace surehit::test

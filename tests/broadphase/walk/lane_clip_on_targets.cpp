@@ -1,8 +1,8 @@
-#include "double_clip_on_targets.hpp"
+#include "lane_clip_on_targets.hpp"
 
 // Compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "broadphase/walk/double_clip_on_targets.cpp"
+#define HWY_TARGET_INCLUDE "broadphase/walk/lane_clip_on_targets.cpp"
 #include <hwy/foreach_target.h>
 // Behind foreach_target.h.
 #include <hwy/highway.h>
@@ -19,11 +19,11 @@ HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
-std::vector<test::DoubleClip> clip_in_double(const Grid&, std::span<const test::RangedPath>) { return {}; }
+std::vector<test::ClippedLane> clip_in_double(const Grid&, std::span<const test::RangedPath>) { return {}; }
 #else
-std::vector<test::DoubleClip> clip_in_double(const Grid& grid, std::span<const test::RangedPath> paths) {
+std::vector<test::ClippedLane> clip_in_double(const Grid& grid, std::span<const test::RangedPath> paths) {
   const LaneClip lane_clip(grid.frame());
-  std::vector<test::DoubleClip> clips;
+  std::vector<test::ClippedLane> clips;
   for (std::size_t first = 0; first < paths.size(); first += hn::Lanes(FloatTag())) {
     const std::size_t count = std::min(hn::Lanes(FloatTag()), paths.size() - first);
     // Every other path alone, and then the others. What is in the other lanes must stay.
@@ -53,7 +53,7 @@ std::vector<test::DoubleClip> clip_in_double(const Grid& grid, std::span<const t
       }
     }
     for (std::size_t lane = 0; lane < count; ++lane) {
-      test::DoubleClip clip;
+      test::ClippedLane clip;
       clip.is_inside = (clipped.inside >> lane & 1) != 0;
       clip.is_apart = (clipped.apart >> lane & 1) != 0;
       clip.enters = kept[lane];
@@ -89,7 +89,7 @@ namespace surehit::test {
 
 using namespace detail;
 
-std::vector<DoubleClip> clip_in_double(const Grid& grid, std::span<const RangedPath> paths) {
+std::vector<ClippedLane> clip_in_double(const Grid& grid, std::span<const RangedPath> paths) {
   return HWY_DYNAMIC_DISPATCH(clip_in_double)(grid, paths);
 }
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "double_clip_on_targets.hpp"
+#include "lane_clip_on_targets.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/instruction_sets.hpp"
@@ -21,7 +21,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Lanes of doubles clip as `ClippedPath` does, in each bit. So its proof is theirs (L9).
-class DoubleClipTest : public testing::Test {
+class LaneClipTest : public testing::Test {
  protected:
   /// Returns the number of paths that lanes can walk.
   std::size_t expect_as_alone(const GeneratedMesh<double>& mesh, const GridOptions& options,
@@ -30,7 +30,7 @@ class DoubleClipTest : public testing::Test {
     std::size_t inside = 0;
     for (const std::int64_t target : instruction_sets()) {
       const ForcedInstructionSet forced(target);
-      const std::vector<DoubleClip> clips = clip_in_double(grid, paths);
+      const std::vector<ClippedLane> clips = clip_in_double(grid, paths);
       for (std::size_t i = 0; i < clips.size(); ++i) {
         SCOPED_TRACE(name_of_instruction_set(target) + ": " + hex_text(paths[i].path));
         inside += clips[i].is_inside;
@@ -41,7 +41,7 @@ class DoubleClipTest : public testing::Test {
   }
 
  private:
-  static void expect_same(const Grid& grid, const DoubleClip& clip, const RangedPath& ranged) {
+  static void expect_same(const Grid& grid, const ClippedLane& clip, const RangedPath& ranged) {
     const auto& [path, first_t, last_t] = ranged;
     const ClippedPath alone(grid, path, first_t, last_t);
     // What stands may be scaled by 1.
@@ -71,7 +71,7 @@ class DoubleClipTest : public testing::Test {
   }
 };
 
-TEST_F(DoubleClipTest, of_paths_of_every_kind_and_octant) {
+TEST_F(LaneClipTest, of_paths_of_every_kind_and_octant) {
   Random random(111);
   for (std::size_t i = case_count(40); i > 0 && !HasFailure(); --i) {
     const auto mesh = rough_ground<double>(6, 0.7, random);
@@ -105,7 +105,7 @@ TEST_F(DoubleClipTest, of_paths_of_every_kind_and_octant) {
   }
 }
 
-TEST_F(DoubleClipTest, leaves_what_must_be_scaled_apart) {
+TEST_F(LaneClipTest, leaves_what_must_be_scaled_apart) {
   Random random(112);
   const auto mesh = rough_ground<double>(6, 0.7, random);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -117,7 +117,7 @@ TEST_F(DoubleClipTest, leaves_what_must_be_scaled_apart) {
   const Grid grid(mesh.view(), box_of(mesh.view()), {.resolution = {9, 8, 5}, .crowded = 0});
   for (const std::int64_t target : instruction_sets()) {
     const ForcedInstructionSet forced(target);
-    const std::vector<DoubleClip> clips = clip_in_double(grid, paths);
+    const std::vector<ClippedLane> clips = clip_in_double(grid, paths);
     for (std::size_t i = 0; i < clips.size(); ++i) {
       // A segment that ends far away is not scaled if it is not too fast.
       const bool is_plain = i == 1;
