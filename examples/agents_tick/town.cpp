@@ -18,19 +18,19 @@ constexpr Opening shop_window = {4, 7, 0, 2.5f};
 
 template <typename Add>
 ColliderPointer collider_of(float edge, Add add) {
-  MeshBuilder builder(edge);
+  SolidBuilder builder(edge);
   add(builder);
   return std::make_shared<const Colliderf>(builder.take().view());
 }
 
 ColliderPointer wall_of(float length, std::vector<Opening> openings) {
-  return collider_of(1, [&](MeshBuilder& builder) {
+  return collider_of(1, [&](SolidBuilder& builder) {
     add_wall(builder, {Wall::Along::x, 0, 0, length, 0.25f, std::move(openings)}, storey);
   });
 }
 
 ColliderPointer box_of(const Point& low, const Point& high) {
-  return collider_of(1, [&](MeshBuilder& builder) { builder.add_box(low, high); });
+  return collider_of(1, [&](SolidBuilder& builder) { builder.add_box(low, high); });
 }
 
 /// The meshes of the town. The origin of each is on the ground.
@@ -41,14 +41,14 @@ struct Pieces {
   ColliderPointer glass = box_of({shop_window.from, -0.03125f, 0}, {shop_window.to, 0.03125f, shop_window.high});
   ColliderPointer crate = box_of({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 1});
   ColliderPointer shelf = box_of({-1, -0.25f, 0}, {1, 0.25f, 1.875f});
-  ColliderPointer pillar = collider_of(0.375f, [](MeshBuilder& b) { add_pillar(b, {0, 0, 0}, storey, 0.375f); });
-  ColliderPointer stairs = collider_of(2, [](MeshBuilder& b) { add_stairs(b, {-2, -1.5f, 0}, 4, 0.375f, 0.25f, 8); });
-  ColliderPointer railing = collider_of(4, [](MeshBuilder& b) { add_railing(b, {-3, 0, 0}, {3, 0, 0}, 1, 0.25f); });
-  ColliderPointer tree = collider_of(0.5f, [](MeshBuilder& b) {
+  ColliderPointer pillar = collider_of(0.375f, [](SolidBuilder& b) { add_pillar(b, {0, 0, 0}, storey, 0.375f); });
+  ColliderPointer stairs = collider_of(2, [](SolidBuilder& b) { add_stairs(b, {-2, -1.5f, 0}, 4, 0.375f, 0.25f, 8); });
+  ColliderPointer railing = collider_of(4, [](SolidBuilder& b) { add_railing(b, {-3, 0, 0}, {3, 0, 0}, 1, 0.25f); });
+  ColliderPointer tree = collider_of(0.5f, [](SolidBuilder& b) {
     b.add_round({0, 0, -0.25f}, 2.5f, 0.25f, 0.1875f);
     b.add_round({0, 0, 2.25f}, 3, 1.25f, 0.0625f);
   });
-  ColliderPointer ground = collider_of(10, [](MeshBuilder& b) {
+  ColliderPointer ground = collider_of(10, [](SolidBuilder& b) {
     b.add_parallelogram({0, 0, 0}, {Town::size, 0, 0}, {0, Town::size, 0});
   });
   ColliderPointer fence = wall_of(Town::size, {});

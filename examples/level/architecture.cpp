@@ -6,7 +6,7 @@ namespace surehit::example {
 namespace {
 
 /// The box that a wall fills between two positions along it and two heights.
-void add_wall_piece(MeshBuilder& builder, const Wall& wall, float from, float to, float low, float high) {
+void add_wall_piece(SolidBuilder& builder, const Wall& wall, float from, float to, float low, float high) {
   if (!(from < to && low < high)) return;
   const float half = wall.thickness / 2;
   if (wall.along == Wall::Along::x) {
@@ -18,7 +18,7 @@ void add_wall_piece(MeshBuilder& builder, const Wall& wall, float from, float to
 
 }  // namespace
 
-void add_wall(MeshBuilder& builder, const Wall& wall, float height) {
+void add_wall(SolidBuilder& builder, const Wall& wall, float height) {
   float from = wall.from;
   for (const Opening& opening : wall.openings) {
     add_wall_piece(builder, wall, from, opening.from, 0, height);
@@ -29,7 +29,7 @@ void add_wall(MeshBuilder& builder, const Wall& wall, float height) {
   add_wall_piece(builder, wall, from, wall.to, 0, height);
 }
 
-void add_pillar(MeshBuilder& builder, const Point& base_centre, float height, float radius) {
+void add_pillar(SolidBuilder& builder, const Point& base_centre, float height, float radius) {
   constexpr float plinth = 0.25f;
   const auto [x, y, z] = base_centre;
   const Point block = {2.5f * radius, 2.5f * radius, plinth};
@@ -38,7 +38,7 @@ void add_pillar(MeshBuilder& builder, const Point& base_centre, float height, fl
   builder.add_turned_box({x, y, z + height - plinth}, block, 1, 0);
 }
 
-void add_stairs(MeshBuilder& builder, const Point& low_corner, float width, float run, float rise, int steps) {
+void add_stairs(SolidBuilder& builder, const Point& low_corner, float width, float run, float rise, int steps) {
   const auto [x, y, z] = low_corner;
   for (int step = 0; step < steps; ++step) {
     const auto below = static_cast<float>(step);
@@ -46,7 +46,7 @@ void add_stairs(MeshBuilder& builder, const Point& low_corner, float width, floa
   }
 }
 
-void add_railing(MeshBuilder& builder, const Point& from, const Point& to, float height, float post_distance) {
+void add_railing(SolidBuilder& builder, const Point& from, const Point& to, float height, float post_distance) {
   constexpr float post = 0.0625f;
   constexpr float handrail = 0.09375f;
   const float dx = to[0] - from[0];

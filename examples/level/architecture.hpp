@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "level/mesh_builder.hpp"
+#include "level/solid_builder.hpp"
 
 namespace surehit::example {
 
@@ -26,16 +26,16 @@ struct Wall {
   std::vector<Opening> openings;  ///< in ascending order, apart from each other
 };
 
-void add_wall(MeshBuilder& builder, const Wall& wall, float height);
+void add_wall(SolidBuilder& builder, const Wall& wall, float height);
 
 /// A round pillar between a square base and a square head.
-void add_pillar(MeshBuilder& builder, const Point& base_centre, float height, float radius);
+void add_pillar(SolidBuilder& builder, const Point& base_centre, float height, float radius);
 
 /// A solid flight of steps that rises along +y from `low_corner`.
-void add_stairs(MeshBuilder& builder, const Point& low_corner, float width, float run, float rise, int steps);
+void add_stairs(SolidBuilder& builder, const Point& low_corner, float width, float run, float rise, int steps);
 
 /// Posts and a handrail in a straight line from one point of the floor to another; the far post is left to whatever
 /// follows.
-void add_railing(MeshBuilder& builder, const Point& from, const Point& to, float height, float post_distance);
+void add_railing(SolidBuilder& builder, const Point& from, const Point& to, float height, float post_distance);
 
 }  // namespace surehit::example

@@ -40,7 +40,7 @@ std::vector<Wall> inner_walls() {
   };
 }
 
-void add_walls(MeshBuilder& builder, bool furnished) {
+void add_walls(SolidBuilder& builder, bool furnished) {
   for (const auto& walls : {outer_walls(), inner_walls()}) {
     for (Wall wall : walls) {
       if (!furnished) std::erase_if(wall.openings, [](const Opening& opening) { return opening.low > 0; });
@@ -49,14 +49,14 @@ void add_walls(MeshBuilder& builder, bool furnished) {
   }
 }
 
-void add_hall(MeshBuilder& builder) {
+void add_hall(SolidBuilder& builder) {
   for (const float x : {31.5f, 41.5f}) {
     for (const float y : {20.5f, 24.75f, 29.0f}) add_pillar(builder, {x, y, 0}, storey, 0.375f);
   }
   add_stairs(builder, {34.5f, 31.125f, 0}, 4, 0.375f, 0.25f, 9);
 }
 
-void add_gallery(MeshBuilder& builder) {
+void add_gallery(SolidBuilder& builder) {
   constexpr float underside = 2;
   constexpr float deck = 2.25f;
   for (const float x : {29.0f, 32.5f, 40.5f, 44.0f}) add_pillar(builder, {x, 34.875f, 0}, underside, 0.1875f);
@@ -65,7 +65,7 @@ void add_gallery(MeshBuilder& builder) {
   add_railing(builder, {38.5f, 34.625f, deck}, {45.75f, 34.625f, deck}, 1, 0.1875f);
 }
 
-void add_balustrades(MeshBuilder& builder) {
+void add_balustrades(SolidBuilder& builder) {
   constexpr float apart = 0.25f;
   add_railing(builder, {41.5f, 25.375f, 0}, {41.5f, 28.375f, 0}, 1, apart);
   add_railing(builder, {31.5f, 25.375f, 0}, {31.5f, 28.375f, 0}, 1, apart);
@@ -77,7 +77,7 @@ void add_balustrades(MeshBuilder& builder) {
   add_railing(builder, {41.875f, 4.125f, 0}, {41.875f, 9.5f, 0}, 1, apart);
 }
 
-void add_furniture(MeshBuilder& builder) {
+void add_furniture(SolidBuilder& builder) {
   for (const float y : {39.25f, 41.0f, 42.75f}) builder.add_box({28, y, 0}, {30.5f, y + 0.5f, 1.75f});
   for (const float x : {37.5f, 39.5f, 43.5f}) builder.add_box({x, 40.5f, 0}, {x + 0.5f, 43.25f, 1.75f});
   const Point crate = {1, 1, 1};
@@ -93,7 +93,7 @@ void add_furniture(MeshBuilder& builder) {
   builder.add_turned_box({20.5f, 40.5f, 0}, {3, 1, 0.75f}, 0.6f, 0.8f);
 }
 
-void add_trees(MeshBuilder& builder, const Terrain& terrain) {
+void add_trees(SolidBuilder& builder, const Terrain& terrain) {
   constexpr std::array<std::array<float, 2>, 22> places = {{
       {4, 8},   {8, 20},  {5, 30},  {9, 39},  {3, 46},     {20, 4},  {26, 6},  {35, 1.5f}, {46, 5},  {52, 3},  {61, 8},
       {66, 14}, {63, 22}, {68, 27}, {64, 33}, {69.5f, 40}, {61, 47}, {50, 48}, {40, 50},   {30, 47}, {18, 49}, {10, 13},
@@ -109,7 +109,7 @@ void add_trees(MeshBuilder& builder, const Terrain& terrain) {
 
 Level build_level(const LevelOptions& options) {
   const bool furnished = options.detail >= 0.2f;
-  MeshBuilder builder(0.625f / options.detail);
+  SolidBuilder builder(0.625f / options.detail);
   const Terrain terrain({0, 0}, {72, 52}, {13, 4}, {59, 45}, -0.125f);
   add_walls(builder, furnished);
   add_hall(builder);

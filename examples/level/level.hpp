@@ -1,6 +1,6 @@
 #pragma once
 
-#include "level/mesh_builder.hpp"
+#include "level/solid_builder.hpp"
 
 namespace surehit::example {
 

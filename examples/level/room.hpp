@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "level/mesh_builder.hpp"
+#include "level/solid_builder.hpp"
 
 namespace surehit::example {
 

@@ -45,7 +45,7 @@ float Terrain::height_at(float x, float y) const {
   return plateau_height_ + wildness * (hills + bumps);
 }
 
-void Terrain::add_to(MeshBuilder& builder) const {
+void Terrain::add_to(SolidBuilder& builder) const {
   const std::uint32_t columns = builder.pieces(high_[0] - low_[0]);
   const std::uint32_t rows = builder.pieces(high_[1] - low_[1]);
   std::vector<Point> vertices;

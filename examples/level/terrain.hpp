@@ -1,6 +1,6 @@
 #pragma once
 
-#include "level/mesh_builder.hpp"
+#include "level/solid_builder.hpp"
 
 namespace surehit::example {
 
@@ -13,7 +13,7 @@ class Terrain {
 
   [[nodiscard]] float height_at(float x, float y) const;
   /// The heightfield of height_at.
-  void add_to(MeshBuilder& builder) const;
+  void add_to(SolidBuilder& builder) const;
 
  private:
   std::array<float, 2> low_;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "level/mesh_builder.hpp"
+#include "level/solid_builder.hpp"
 
 namespace surehit::example {
 
@@ -20,7 +20,7 @@ Vector3f Platform::position(std::uint32_t step) const {
 
 Mesh<float> Platform::mesh() const {
   constexpr float whole = 64;  // No box is cut into pieces.
-  MeshBuilder builder(whole);
+  SolidBuilder builder(whole);
   for (const Boxf& box : boxes) {
     builder.add_box({box.low.x(), box.low.y(), box.low.z()}, {box.high.x(), box.high.y(), box.high.z()});
   }

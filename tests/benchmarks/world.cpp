@@ -9,14 +9,14 @@
 #include <utility>
 
 #include "level/architecture.hpp"
-#include "level/mesh_builder.hpp"
+#include "level/solid_builder.hpp"
 #include "support/random.hpp"
 #include "uneven_scenes.hpp"
 
 namespace surehit::benchmark {
 namespace {
 
-using example::MeshBuilder;
+using example::SolidBuilder;
 using example::Wall;
 using test::Random;
 using Matrix3d = Eigen::Matrix3d;
@@ -64,7 +64,7 @@ void append(example::Mesh<float>& mesh, const example::Mesh<float>& other, const
 }
 
 /// Adds a house with a door, windows, two rooms and a flat roof.
-void add_house(MeshBuilder& builder, float width, float depth) {
+void add_house(SolidBuilder& builder, float width, float depth) {
   constexpr float height = 3;
   constexpr float thick = 0.25f;
   const float x = width / 2;
@@ -88,56 +88,56 @@ void add_house(MeshBuilder& builder, float width, float depth) {
 /// Builds what a town is made of: first the paving of a lot, then what stands on it alone, then what is small.
 std::vector<example::Mesh<float>> town_meshes(float detail) {
   std::vector<example::Mesh<float>> meshes;
-  const auto add = [&](const std::function<void(MeshBuilder&)>& build, float edge = 0.625f) {
-    MeshBuilder builder(edge / detail);
+  const auto add = [&](const std::function<void(SolidBuilder&)>& build, float edge = 0.625f) {
+    SolidBuilder builder(edge / detail);
     build(builder);
     meshes.push_back(builder.take());
   };
-  add([](MeshBuilder& b) { b.add_box({-12, -12, -0.25f}, {12, 12, 0}); }, 24);
+  add([](SolidBuilder& b) { b.add_box({-12, -12, -0.25f}, {12, 12, 0}); }, 24);
   constexpr std::array<std::array<float, 2>, 6> houses = {{{8, 10}, {10, 12}, {12, 9}, {14, 14}, {9, 16}, {18, 12}}};
-  for (const std::array<float, 2>& size : houses) add([&](MeshBuilder& b) { add_house(b, size[0], size[1]); });
-  add([](MeshBuilder& b) { b.add_round({0, 0, 0}, 14, 3, 2.5f); });
-  add([](MeshBuilder& b) {
+  for (const std::array<float, 2>& size : houses) add([&](SolidBuilder& b) { add_house(b, size[0], size[1]); });
+  add([](SolidBuilder& b) { b.add_round({0, 0, 0}, 14, 3, 2.5f); });
+  add([](SolidBuilder& b) {
     for (const float x : {-4.0f, 0.0f, 4.0f}) {
       for (const float y : {-3.0f, 3.0f}) add_pillar(b, {x, y, 0}, 4, 0.375f);
     }
     b.add_box({-5, -4, 4}, {5, 4, 4.25f});
   });
-  add([](MeshBuilder& b) { add_stairs(b, {-1, -2, 0}, 2, 0.375f, 0.25f, 12); });
-  add([](MeshBuilder& b) { add_railing(b, {-3, 0, 0}, {3, 0, 0}, 1, 0.25f); });
-  add([](MeshBuilder& b) {
+  add([](SolidBuilder& b) { add_stairs(b, {-1, -2, 0}, 2, 0.375f, 0.25f, 12); });
+  add([](SolidBuilder& b) { add_railing(b, {-3, 0, 0}, {3, 0, 0}, 1, 0.25f); });
+  add([](SolidBuilder& b) {
     b.add_box({-4, -1, 1}, {4, 1, 1.25f});
     add_railing(b, {-4, -0.875f, 1.25f}, {4, -0.875f, 1.25f}, 1, 0.5f);
     add_railing(b, {-4, 0.875f, 1.25f}, {4, 0.875f, 1.25f}, 1, 0.5f);
   });
-  add([](MeshBuilder& b) { b.add_box({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 1}); });
-  add([](MeshBuilder& b) {
+  add([](SolidBuilder& b) { b.add_box({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 1}); });
+  add([](SolidBuilder& b) {
     b.add_turned_box({0, 0, 0}, {1, 1, 1}, 0.8f, 0.6f);
     b.add_turned_box({1.375f, 0.75f, 0}, {1, 1, 1}, 0.96f, 0.28f);
     b.add_turned_box({0.625f, 0.375f, 1}, {1, 1, 1}, 0.6f, 0.8f);
   });
-  add([](MeshBuilder& b) {
+  add([](SolidBuilder& b) {
     b.add_box({-1, -0.5f, 0.75f}, {1, 0.5f, 0.8125f});
     for (const float x : {-0.9375f, 0.875f}) {
       for (const float y : {-0.4375f, 0.375f}) b.add_box({x, y, 0}, {x + 0.0625f, y + 0.0625f, 0.75f});
     }
   });
-  add([](MeshBuilder& b) {
+  add([](SolidBuilder& b) {
     b.add_box({-1, -0.25f, 0.4375f}, {1, 0.25f, 0.5f});
     b.add_box({-1, 0.1875f, 0.5f}, {1, 0.25f, 1});
     for (const float x : {-0.9375f, 0.8125f}) b.add_box({x, -0.1875f, 0}, {x + 0.125f, 0.1875f, 0.4375f});
   });
-  add([](MeshBuilder& b) {
+  add([](SolidBuilder& b) {
     b.add_round({0, 0, 0}, 2.5f, 0.25f, 0.1875f);
     b.add_round({0, 0, 2.25f}, 3, 1.25f, 0.0625f);
   });
-  add([](MeshBuilder& b) { add_wall(b, {x_axis, 0, -4, 4, 0.25f, {{-0.625f, 0.625f, 0, 2}}}, 2.25f); });
-  add([](MeshBuilder& b) {
+  add([](SolidBuilder& b) { add_wall(b, {x_axis, 0, -4, 4, 0.25f, {{-0.625f, 0.625f, 0, 2}}}, 2.25f); });
+  add([](SolidBuilder& b) {
     b.add_round({0, 0, 0}, 0.875f, 0.75f, 0.75f);
     for (const float x : {-0.75f, 0.625f}) b.add_box({x, -0.0625f, 0.875f}, {x + 0.125f, 0.0625f, 2});
     b.add_box({-1, -0.5f, 2}, {1, 0.5f, 2.0625f});
   });
-  add([](MeshBuilder& b) { b.add_round({0, 0, 0}, 1, 0.375f, 0.375f); });
+  add([](SolidBuilder& b) { b.add_round({0, 0, 0}, 1, 0.375f, 0.375f); });
   return meshes;
 }
 
@@ -173,7 +173,7 @@ World forest(float detail) {
   constexpr double apart = 4;
   World world;
   const auto pieces = std::max(2u, static_cast<std::uint32_t>(20 * std::sqrt(detail)));
-  MeshBuilder trunk(0.5f / std::sqrt(detail));
+  SolidBuilder trunk(0.5f / std::sqrt(detail));
   trunk.add_round({0, 0, -2}, 2, 0.25f, 0.25f);
   world.meshes.push_back(trunk.take());
   append(world.meshes.front(), bumpy_ball(1.5, pieces), {0, 0, 0.75f});
@@ -193,7 +193,7 @@ World forest(float detail) {
 World bricks(float detail) {
   constexpr double size = 100;
   World world;
-  MeshBuilder box(1);
+  SolidBuilder box(1);
   box.add_box({-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f});
   world.meshes.push_back(box.take());
   Random random(3);

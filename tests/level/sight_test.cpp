@@ -32,7 +32,7 @@ TEST(Sight, everything_is_visible_in_an_empty_room) {
 }
 
 TEST(Sight, a_screen_hides_what_is_behind_it) {
-  MeshBuilder builder(1);
+  SolidBuilder builder(1);
   builder.add_box({2, low[1], low[2]}, {3, high[1], high[2]});
   Mesh<float> mesh = builder.take();
   const Mesh<float> room = build_room(low, high, {7, 5, 3});

@@ -8,7 +8,7 @@
 #include "character/clearance_check.hpp"
 #include "character/exact_capsule_sweep.hpp"
 #include "level/level.hpp"
-#include "level/mesh_builder.hpp"
+#include "level/solid_builder.hpp"
 
 namespace surehit::example {
 namespace {
@@ -48,7 +48,7 @@ class Walk {
 
 /// A floor from 0 to 16 on both axes, with boxes.
 Mesh<float> floor_with(const std::vector<std::array<Point, 2>>& boxes) {
-  MeshBuilder builder(16);
+  SolidBuilder builder(16);
   builder.add_parallelogram({0, 0, 0}, {16, 0, 0}, {0, 16, 0});
   for (const auto& [low, high] : boxes) builder.add_box(low, high);
   return builder.take();
@@ -56,7 +56,7 @@ Mesh<float> floor_with(const std::vector<std::array<Point, 2>>& boxes) {
 
 /// A plane that rises along x, by `rise` on each metre.
 Mesh<float> slope(float rise) {
-  MeshBuilder builder(1);
+  SolidBuilder builder(1);
   builder.add_parallelogram({0, 0, 0}, {16, 0, 16 * rise}, {0, 16, 0});
   return builder.take();
 }

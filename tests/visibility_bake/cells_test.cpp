@@ -25,7 +25,7 @@ TEST(Cells, are_in_the_middle_of_squares) {
 }
 
 TEST(Cells, have_headroom_and_are_not_inside_of_solids) {
-  MeshBuilder builder(1);
+  SolidBuilder builder(1);
   builder.add_box({0, 0, -1}, {4, 4, 0});
   builder.add_box({1, 1, 1.5f}, {2, 2, 5});       // hangs low
   builder.add_box({2, 2, 2}, {3, 3, 5});          // hangs high
@@ -44,7 +44,7 @@ TEST(Cells, have_headroom_and_are_not_inside_of_solids) {
 }
 
 TEST(Cells, are_not_on_steep_ground) {
-  MeshBuilder builder(1);
+  SolidBuilder builder(1);
   builder.add_parallelogram({0, 0, 0}, {4, 0, 0}, {0, 4, 8});
   builder.add_parallelogram({4, 0, 0}, {4, 0, 0}, {0, 4, 2});
   const Mesh<float> mesh = builder.take();
@@ -60,7 +60,7 @@ TEST(Cells, are_reached_by_walking) {
   const auto floors = find_floors(collider, options);
   const auto reached = reachable_floors(collider, floors, {0.4f, 0.4f, 0}, options);
   EXPECT_EQ(reached.size(), 32u) << "through the door to the other room, and not to the top of the wall";
-  MeshBuilder builder(1);
+  SolidBuilder builder(1);
   builder.add_box({0, 0, -1}, {8, 4, 0});
   builder.add_box({3.9f, 0, 0}, {4.1f, 4, 3});
   const Mesh<float> closed = builder.take();
@@ -69,7 +69,7 @@ TEST(Cells, are_reached_by_walking) {
 }
 
 TEST(Cells, climb_what_is_not_too_steep) {
-  MeshBuilder builder(1);
+  SolidBuilder builder(1);
   for (int i = 0; i < 4; ++i) {
     const auto x = static_cast<float>(i);
     builder.add_box({x, 0, -1}, {x + 1, 1, 0.75f * x});

@@ -56,7 +56,7 @@ TEST_F(PairPlanTest, eyes_are_in_their_cells) {
 }
 
 TEST_F(PairPlanTest, eyes_are_below_a_ceiling) {
-  MeshBuilder builder(1);
+  SolidBuilder builder(1);
   builder.add_box({0, 0, -1}, {8, 4, 0});
   builder.add_box({0, 0, 1.2f}, {4, 4, 1.4f});
   const Mesh<float> mesh = builder.take();

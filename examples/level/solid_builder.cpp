@@ -1,4 +1,4 @@
-#include "level/mesh_builder.hpp"
+#include "level/solid_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,16 +16,16 @@ float fraction(std::uint32_t part, std::uint32_t whole) { return static_cast<flo
 
 }  // namespace
 
-std::uint32_t MeshBuilder::pieces(float length) const {
+std::uint32_t SolidBuilder::pieces(float length) const {
   return std::max(1u, static_cast<std::uint32_t>(std::ceil(length / edge_)));
 }
 
-std::uint32_t MeshBuilder::add_vertex(const Point& vertex) {
+std::uint32_t SolidBuilder::add_vertex(const Point& vertex) {
   mesh_.vertices.push_back(vertex);
   return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
 }
 
-void MeshBuilder::add_quads(std::uint32_t first, std::uint32_t columns, std::uint32_t rows) {
+void SolidBuilder::add_quads(std::uint32_t first, std::uint32_t columns, std::uint32_t rows) {
   for (std::uint32_t row = 0; row < rows; ++row) {
     for (std::uint32_t column = 0; column < columns; ++column) {
       const std::uint32_t near = first + row * (columns + 1) + column;
@@ -42,7 +42,7 @@ void MeshBuilder::add_quads(std::uint32_t first, std::uint32_t columns, std::uin
   }
 }
 
-void MeshBuilder::add_parallelogram(const Point& origin, const Point& u, const Point& v) {
+void SolidBuilder::add_parallelogram(const Point& origin, const Point& u, const Point& v) {
   const std::uint32_t columns = pieces(length(u));
   const std::uint32_t rows = pieces(length(v));
   const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
@@ -54,12 +54,12 @@ void MeshBuilder::add_parallelogram(const Point& origin, const Point& u, const P
   add_quads(first, columns, rows);
 }
 
-void MeshBuilder::add_box(const Point& low, const Point& high) {
+void SolidBuilder::add_box(const Point& low, const Point& high) {
   const Point centre = {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]};
   add_turned_box(centre, {high[0] - low[0], high[1] - low[1], high[2] - low[2]}, 1, 0);
 }
 
-void MeshBuilder::add_turned_box(const Point& base_centre, const Point& size, float cosine, float sine) {
+void SolidBuilder::add_turned_box(const Point& base_centre, const Point& size, float cosine, float sine) {
   const Point x = {size[0] * cosine, size[0] * sine, 0};
   const Point y = {-size[1] * sine, size[1] * cosine, 0};
   const Point z = {0, 0, size[2]};
@@ -75,7 +75,7 @@ void MeshBuilder::add_turned_box(const Point& base_centre, const Point& size, fl
   add_parallelogram(low_y, {-y[0], -y[1], 0}, z);
 }
 
-MeshBuilder::Circle MeshBuilder::circle(float radius) const {
+SolidBuilder::Circle SolidBuilder::circle(float radius) const {
   Circle directions = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   // Halving the angles takes a square root; sines would differ between platforms.
   const auto deserved = static_cast<std::size_t>(std::min(4096.0f, 12 * radius / edge_ + 4));
@@ -95,7 +95,7 @@ MeshBuilder::Circle MeshBuilder::circle(float radius) const {
   return directions;
 }
 
-void MeshBuilder::add_disc(const Circle& circle, const Point& centre, float radius, bool faces_up) {
+void SolidBuilder::add_disc(const Circle& circle, const Point& centre, float radius, bool faces_up) {
   const std::uint32_t hub = add_vertex(centre);
   for (const auto& d : circle) add_vertex({centre[0] + radius * d[0], centre[1] + radius * d[1], centre[2]});
   const auto sides = static_cast<std::uint32_t>(circle.size());
@@ -106,7 +106,7 @@ void MeshBuilder::add_disc(const Circle& circle, const Point& centre, float radi
   }
 }
 
-void MeshBuilder::add_round(const Point& base_centre, float height, float bottom_radius, float top_radius) {
+void SolidBuilder::add_round(const Point& base_centre, float height, float bottom_radius, float top_radius) {
   const Circle directions = circle(std::max(bottom_radius, top_radius));
   const auto sides = static_cast<std::uint32_t>(directions.size());
   const std::uint32_t rows = pieces(height);
@@ -124,7 +124,7 @@ void MeshBuilder::add_round(const Point& base_centre, float height, float bottom
   add_disc(directions, {base_centre[0], base_centre[1], base_centre[2] + height}, top_radius, true);
 }
 
-void MeshBuilder::add_surface(const std::vector<Point>& vertices, std::uint32_t columns, std::uint32_t rows) {
+void SolidBuilder::add_surface(const std::vector<Point>& vertices, std::uint32_t columns, std::uint32_t rows) {
   const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
   mesh_.vertices.insert(mesh_.vertices.end(), vertices.begin(), vertices.end());
   add_quads(first, columns, rows);

@@ -15,9 +15,9 @@ using Point = std::array<float, 3>;
 ///
 /// Triangles wind so that normals point out of solids. Only + - * / and sqrt are used. IEEE 754 rounds each of them in
 /// one way, so every platform builds the same vertices to the bit.
-class MeshBuilder {
+class SolidBuilder {
  public:
-  explicit MeshBuilder(float edge) : edge_(edge) {}
+  explicit SolidBuilder(float edge) : edge_(edge) {}
 
   /// The parallelogram origin + s u + t v with s and t in [0, 1]; its normal points along u × v.
   void add_parallelogram(const Point& origin, const Point& u, const Point& v);
