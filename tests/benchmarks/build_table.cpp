@@ -24,9 +24,9 @@ void measure_builds(const Request& request, Report& report) {
   }
   MarkdownTable times(time_header, 1);
   MarkdownTable memory(memory_header, 1);
-  for (const Scene& scene : request.scenes) {
-    const Place place{"build", scene.name, scene.mesh.triangles.size()};
-    const std::vector<BuildResult> results = race_builds(entrants, scene.mesh.view(), build_rounds * request.rounds);
+  for (const NamedMesh& named : request.meshes) {
+    const Place place{"build", named.name, named.mesh.triangles.size()};
+    const std::vector<BuildResult> results = race_builds(entrants, named.mesh.view(), build_rounds * request.rounds);
     const BuildResult& ours = results.front();
     std::vector<std::string> time_cells = {place.mesh, std::to_string(place.triangles)};
     std::vector<std::string> memory_cells = time_cells;

@@ -17,11 +17,11 @@ using detail::GpuBuffer;
 using detail::GpuDeviceState;
 
 /// Segments of a set. A path batch would hold them in layouts that nobody asks for here.
-std::vector<Segmentf> draw_segments(PathSet set, const Scene& scene, std::size_t count) {
+std::vector<Segmentf> draw_segments(PathSet set, const NamedMesh& named, std::size_t count) {
   constexpr std::size_t at_once = 100'000;
   std::vector<Segmentf> all;
   for (std::uint64_t seed = 1; all.size() < count; ++seed) {
-    const PathBatch some = draw_paths(set, scene, std::min(at_once, count - all.size()), seed);
+    const PathBatch some = draw_paths(set, named, std::min(at_once, count - all.size()), seed);
     all.insert(all.end(), some.segments().begin(), some.segments().end());
   }
   all.resize(count);
@@ -121,14 +121,14 @@ void measure_gpu(const Request& request, Report& report) {
   }
   MarkdownTable table({"mesh", "paths", "question", "batch", "on the host", "with transfers", "in buffers", "left, %"},
                       3);
-  for (const Scene& scene : request.scenes) {
-    const Colliderf collider(scene.mesh.view());
+  for (const NamedMesh& named : request.meshes) {
+    const Colliderf collider(named.mesh.view());
     const GpuCollider on_gpu(device, collider);
     for (const PathSet set : request.sets) {
       for (const std::size_t count : request.gpu_paths) {
-        const std::vector<Segmentf> paths = draw_segments(set, scene, count);
+        const std::vector<Segmentf> paths = draw_segments(set, named, count);
         for (const Question question : {Question::closest_hit, Question::any_hit}) {
-          const Place place{"gpu", scene.name, scene.mesh.triangles.size(), name_of(set), name_of(question)};
+          const Place place{"gpu", named.name, named.mesh.triangles.size(), name_of(set), name_of(question)};
           add_row(place, count, race(device, on_gpu, collider, paths, question, request.rounds), table, report);
         }
       }

@@ -56,9 +56,9 @@ LoadTimes race_loads(const TriangleMeshViewf& mesh, std::size_t rounds) {
 
 void measure_loads(const Request& request, Report& report) {
   MarkdownTable table({"mesh", "triangles", "build ms", "load over build", "trusted load over build", "file MB"}, 1);
-  for (const Scene& scene : request.scenes) {
-    const Place place{"load", scene.name, scene.mesh.triangles.size()};
-    const LoadTimes result = race_loads(scene.mesh.view(), load_rounds * request.rounds);
+  for (const NamedMesh& named : request.meshes) {
+    const Place place{"load", named.name, named.mesh.triangles.size()};
+    const LoadTimes result = race_loads(named.mesh.view(), load_rounds * request.rounds);
     const Summary build = summary_of(result.build);
     const Summary load = summary_of(ratio(result.load, result.build));
     const Summary trusted_load = summary_of(ratio(result.trusted_load, result.build));

@@ -14,7 +14,7 @@
 #include "ratio_chart.hpp"
 #include "support/instruction_sets.hpp"
 #include "tables.hpp"
-#include "uneven_scenes.hpp"
+#include "uneven_meshes.hpp"
 #include "world.hpp"
 
 namespace surehit::benchmark {
@@ -130,19 +130,19 @@ void shrink(const CLI::App& app, Request& request) {
   request.detail = 0.05f;
 }
 
-void read_scenes(const Words& words, Request& request) {
-  if (is_among("level", words.meshes)) request.scenes.push_back(level_scene(words.quick ? 0.05f : 1));
+void read_meshes(const Words& words, Request& request) {
+  if (is_among("level", words.meshes)) request.meshes.push_back(level_mesh(words.quick ? 0.05f : 1));
   if (!words.folder.empty()) {
-    for (Scene& scene : scenes_in(words.folder, words.z_up, words.meshes)) {
-      request.scenes.push_back(std::move(scene));
+    for (NamedMesh& mesh : meshes_in(words.folder, words.z_up, words.meshes)) {
+      request.meshes.push_back(std::move(mesh));
     }
   }
   if (words.uneven) {
-    for (const std::string& name : uneven_scene_names()) {
-      if (is_among(name, words.meshes)) request.scenes.push_back(uneven_scene(name, words.quick ? 0.05f : 1));
+    for (const std::string& name : uneven_mesh_names()) {
+      if (is_among(name, words.meshes)) request.meshes.push_back(uneven_mesh(name, words.quick ? 0.05f : 1));
     }
   }
-  if (request.scenes.empty()) throw example::InputError("there is no mesh of that name");
+  if (request.meshes.empty()) throw example::InputError("there is no mesh of that name");
 }
 
 void choose(const Words& words, Request& request) {
@@ -200,7 +200,7 @@ example::Work describe_program(CLI::App& app) {
     if (words->quick) shrink(app, request);
     if (app.get_option("--core")->empty()) request.core = CorePin::allowed_cores().front();
     choose(*words, request);
-    read_scenes(*words, request);
+    read_meshes(*words, request);
     measure(*words, request);
     return example::success;
   };

@@ -12,7 +12,7 @@ using Draw = std::function<Segmentf(Random&)>;
 constexpr double short_length = 0.01;  // of the diagonal, as the next one
 constexpr double near_distance = 0.005;
 
-/// A point in the scene's box when that is inflated about its centre.
+/// A point in the mesh's box when that is inflated about its centre.
 class BoxPoints {
  public:
   BoxPoints(const Boxf& box, double inflation)
@@ -30,26 +30,26 @@ class BoxPoints {
 
 Segmentf rounded(const Vector3d& start, const Vector3d& end) { return {start.cast<float>(), end.cast<float>()}; }
 
-Draw long_draw(const Scene& scene) {
-  return [points = BoxPoints(scene.box(), 1.2)](Random& random) {
+Draw long_draw(const NamedMesh& named) {
+  return [points = BoxPoints(named.box(), 1.2)](Random& random) {
     const Vector3d start = points.draw(random);
     return rounded(start, points.draw(random));
   };
 }
 
-Draw short_draw(const Scene& scene) {
-  return [points = BoxPoints(scene.box(), 1), length = short_length * scene.diagonal()](Random& random) {
+Draw short_draw(const NamedMesh& named) {
+  return [points = BoxPoints(named.box(), 1), length = short_length * named.diagonal()](Random& random) {
     const Vector3d start = points.draw(random);
     return rounded(start, start + length * draw_direction(random));
   };
 }
 
 /// Draws one of the triangles at which paths may be drawn, all alike.
-Trianglef draw_triangle(const Scene& scene, Random& random) {
-  const TriangleMeshViewf mesh = scene.mesh.view();
+Trianglef draw_triangle(const NamedMesh& named, Random& random) {
+  const TriangleMeshViewf mesh = named.mesh.view();
   for (;;) {
     const Trianglef triangle = mesh.triangle(random.below(mesh.triangle_count()));
-    if (scene.draws_at(triangle)) return triangle;
+    if (named.draws_at(triangle)) return triangle;
   }
 }
 
@@ -64,28 +64,28 @@ Segmentf draw_near(const Vector3d& point, double diagonal, Random& random) {
   return rounded(start, start + short_length * diagonal * draw_direction(random));
 }
 
-Draw near_draw(const Scene& scene) {
-  const SurfacePoints surface(scene.mesh.view(), [&](const Trianglef& triangle) { return scene.draws_at(triangle); });
-  return [surface, diagonal = scene.diagonal()](Random& random) {
+Draw near_draw(const NamedMesh& named) {
+  const SurfacePoints surface(named.mesh.view(), [&](const Trianglef& triangle) { return named.draws_at(triangle); });
+  return [surface, diagonal = named.diagonal()](Random& random) {
     const Vector3d touched = surface.draw(random);
     return draw_near(touched, diagonal, random);
   };
 }
 
-Draw detail_draw(const Scene& scene) {
-  return [&scene, diagonal = scene.diagonal()](Random& random) {
-    const Vector3d touched = draw_in_triangle(draw_triangle(scene, random), random);
+Draw detail_draw(const NamedMesh& named) {
+  return [&named, diagonal = named.diagonal()](Random& random) {
+    const Vector3d touched = draw_in_triangle(draw_triangle(named, random), random);
     return draw_near(touched, diagonal, random);
   };
 }
 
-Draw sight_draw(const Scene& scene) {
-  return [floor = scene.floor(), eye = scene.eye, above = scene.upward(Scene::target_height * scene.diagonal())](
+Draw sight_draw(const NamedMesh& named) {
+  return [floor = named.floor(), eye = named.eye, above = named.upward(NamedMesh::target_height * named.diagonal())](
              Random& random) { return rounded(eye, floor.draw(random) + above); };
 }
 
-Vector3d draw_vertex_or_edge_point(const Scene& scene, Random& random) {
-  const Trianglef triangle = draw_triangle(scene, random);
+Vector3d draw_vertex_or_edge_point(const NamedMesh& named, Random& random) {
+  const Trianglef triangle = draw_triangle(named, random);
   const std::size_t which = random.below(3);
   const Vector3d a = corner_of(triangle, which);
   if (random.one_in(2)) return a;
@@ -93,30 +93,30 @@ Vector3d draw_vertex_or_edge_point(const Scene& scene, Random& random) {
   return between.cast<float>().cast<double>();
 }
 
-Draw edge_draw(const Scene& scene) {
-  return [points = BoxPoints(scene.box(), 1.2), &scene](Random& random) {
+Draw edge_draw(const NamedMesh& named) {
+  return [points = BoxPoints(named.box(), 1.2), &named](Random& random) {
     const Vector3d start = points.draw(random).cast<float>().cast<double>();
-    return rounded(start, 2 * draw_vertex_or_edge_point(scene, random) - start);
+    return rounded(start, 2 * draw_vertex_or_edge_point(named, random) - start);
   };
 }
 
-Vector3d draw_vertex_or_edge_middle(const Scene& scene, Random& random) {
-  const Trianglef triangle = draw_triangle(scene, random);
+Vector3d draw_vertex_or_edge_middle(const NamedMesh& named, Random& random) {
+  const Trianglef triangle = draw_triangle(named, random);
   const std::size_t which = random.below(3);
   const Vector3d a = corner_of(triangle, which);
   return random.one_in(2) ? a : Vector3d((a + corner_of(triangle, which + 1)) / 2);
 }
 
-Draw edge_end_draw(const Scene& scene) {
-  return [points = BoxPoints(scene.box(), 1.2), &scene](Random& random) {
+Draw edge_end_draw(const NamedMesh& named) {
+  return [points = BoxPoints(named.box(), 1.2), &named](Random& random) {
     const Vector3d start = points.draw(random);
-    return rounded(start, draw_vertex_or_edge_middle(scene, random));
+    return rounded(start, draw_vertex_or_edge_middle(named, random));
   };
 }
 
-Draw in_plane_draw(const Scene& scene) {
-  return [&scene, tilt = 1e-6 * scene.diagonal()](Random& random) {
-    const Trianglef triangle = draw_triangle(scene, random);
+Draw in_plane_draw(const NamedMesh& named) {
+  return [&named, tilt = 1e-6 * named.diagonal()](Random& random) {
+    const Trianglef triangle = draw_triangle(named, random);
     const Vector3d a = triangle.a.cast<double>();
     const Vector3d to_b = triangle.b.cast<double>() - a;
     const Vector3d to_c = triangle.c.cast<double>() - a;
@@ -136,12 +136,12 @@ Draw in_plane_draw(const Scene& scene) {
 }
 
 /// Paths between centres of cubes. On meshes that are not made of cubes, both ends are on a grid of powers of two.
-Draw cell_draw(const Scene& scene) {
+Draw cell_draw(const NamedMesh& named) {
   constexpr std::int64_t max_cells = 12;
   constexpr double cells_in_diagonal = 200;
   const double cell =
-      scene.cell > 0 ? scene.cell : std::exp2(std::round(std::log2(scene.diagonal() / cells_in_diagonal)));
-  return [points = BoxPoints(scene.box(), 1), cell](Random& random) {
+      named.cell > 0 ? named.cell : std::exp2(std::round(std::log2(named.diagonal() / cells_in_diagonal)));
+  return [points = BoxPoints(named.box(), 1), cell](Random& random) {
     const Vector3d first = (points.draw(random) / cell).array().floor();
     Vector3d last = first;
     for (int axis = 0; axis < 3; ++axis) last[axis] += static_cast<double>(random.between(-max_cells, max_cells));
@@ -150,10 +150,10 @@ Draw cell_draw(const Scene& scene) {
   };
 }
 
-Draw far_draw(const Scene& scene) {
-  const Boxf box = scene.box();
+Draw far_draw(const NamedMesh& named) {
+  const Boxf box = named.box();
   const Vector3d centre = (box.low.cast<double>() + box.high.cast<double>()) / 2;
-  return [points = BoxPoints(box, 1), centre, diagonal = scene.diagonal()](Random& random) {
+  return [points = BoxPoints(box, 1), centre, diagonal = named.diagonal()](Random& random) {
     const double distance = diagonal * std::pow(10.0, 1 + 2 * random.unit<double>());
     const Vector3d start = centre + distance * draw_direction(random);
     // A path that passes the mesh does so at a distance of a few diagonals.
@@ -165,30 +165,30 @@ Draw far_draw(const Scene& scene) {
   };
 }
 
-Draw draw_of(PathSet set, const Scene& scene) {
+Draw draw_of(PathSet set, const NamedMesh& named) {
   switch (set) {
     case PathSet::long_paths:
-      return long_draw(scene);
+      return long_draw(named);
     case PathSet::short_paths:
-      return short_draw(scene);
+      return short_draw(named);
     case PathSet::near_paths:
-      return near_draw(scene);
+      return near_draw(named);
     case PathSet::sight_paths:
-      return sight_draw(scene);
+      return sight_draw(named);
     case PathSet::edge_paths:
-      return edge_draw(scene);
+      return edge_draw(named);
     case PathSet::detail_paths:
-      return detail_draw(scene);
+      return detail_draw(named);
     case PathSet::edge_end_paths:
-      return edge_end_draw(scene);
+      return edge_end_draw(named);
     case PathSet::in_plane_paths:
-      return in_plane_draw(scene);
+      return in_plane_draw(named);
     case PathSet::cell_paths:
-      return cell_draw(scene);
+      return cell_draw(named);
     case PathSet::far_paths:
       break;
   }
-  return far_draw(scene);
+  return far_draw(named);
 }
 
 }  // namespace
@@ -199,8 +199,8 @@ std::string name_of(PathSet set) {
   return names[static_cast<std::size_t>(set)];
 }
 
-PathBatch draw_paths(PathSet set, const Scene& scene, std::size_t count, std::uint64_t seed) {
-  const Draw draw = draw_of(set, scene);
+PathBatch draw_paths(PathSet set, const NamedMesh& named, std::size_t count, std::uint64_t seed) {
+  const Draw draw = draw_of(set, named);
   Random random(seed);
   std::vector<Segmentf> segments;
   do {

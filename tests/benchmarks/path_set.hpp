@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "named_mesh.hpp"
 #include "path_batch.hpp"
-#include "scene.hpp"
 
 namespace surehit::benchmark {
 
@@ -31,15 +31,15 @@ inline constexpr std::array all_path_sets = {
 [[nodiscard]] std::string name_of(PathSet set);
 
 /// In random order, the same every time for the same seed; `count` is rounded up to whole octets.
-[[nodiscard]] PathBatch draw_paths(PathSet set, const Scene& scene, std::size_t count, std::uint64_t seed = 1);
+[[nodiscard]] PathBatch draw_paths(PathSet set, const NamedMesh& named, std::size_t count, std::uint64_t seed = 1);
 
 /// Paths to measure with, and others of the same set to warm up with: so many that they have met most of what the
 /// measured ones meet, in large meshes too.
 struct PathSample {
   static constexpr std::size_t warm_up_batches = 8;
 
-  PathSample(PathSet set, const Scene& scene, std::size_t count)
-      : paths(draw_paths(set, scene, count, 1)), warm_up(draw_paths(set, scene, warm_up_batches * count, 2)) {}
+  PathSample(PathSet set, const NamedMesh& named, std::size_t count)
+      : paths(draw_paths(set, named, count, 1)), warm_up(draw_paths(set, named, warm_up_batches * count, 2)) {}
 
   PathBatch paths;
   PathBatch warm_up;

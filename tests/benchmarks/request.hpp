@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "entrants.hpp"
+#include "named_mesh.hpp"
 #include "path_set.hpp"
-#include "scene.hpp"
 #include "sweep_entrants.hpp"
 #include "world_entrants.hpp"
 
@@ -21,7 +21,7 @@ struct Request {
   std::vector<std::size_t> gpu_paths = {100'000, 1'000'000, 10'000'000};
   std::string gpu_name;  ///< A part of the device's name, or nothing for the first that is no software.
   int core = 0;
-  std::vector<Scene> scenes;
+  std::vector<NamedMesh> meshes;
   std::vector<PathSet> sets;
   std::vector<Entrant> entrants;
   std::vector<std::string> worlds;

@@ -72,8 +72,8 @@ std::string text_of(double percent) { return short_number(percent) + "%"; }
 
 class SweepContest {
  public:
-  SweepContest(const Scene& scene, const std::vector<SweepEntrant>& entrants, const Request& request)
-      : scene_(scene), entrants_(entrants), request_(request) {
+  SweepContest(const NamedMesh& named, const std::vector<SweepEntrant>& entrants, const Request& request)
+      : named_(named), entrants_(entrants), request_(request) {
     for (const ShapeKind kind : request.shapes) {
       for (const SweepSet set : general_sweep_sets) add_samples(kind, set, false);
       for (const SweepSet set : close_sweep_sets) add_samples(kind, set, true);
@@ -86,7 +86,7 @@ class SweepContest {
     for (std::size_t i = 0; i < entrants_.size(); ++i) {
       const std::size_t entrant = (round + i) % entrants_.size();
       starters.emplace_back(entrant, entrants_[entrant].make());
-      starters.back().second->build(scene_.mesh.view());
+      starters.back().second->build(named_.mesh.view());
     }
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       for (const auto& [entrant, contender] : starters) {
@@ -105,7 +105,7 @@ class SweepContest {
     for (std::size_t entrant = 0; entrant < entrants_.size(); ++entrant) {
       if (entrants_[entrant].name() == segments) continue;
       const auto contender = entrants_[entrant].make();
-      contender->build(scene_.mesh.view());
+      contender->build(named_.mesh.view());
       for (std::size_t i = 0; i < rows_.size(); ++i) {
         const SweepBatch& sweeps = samples_[i].sweeps;
         std::vector<ShapeHitf> hits(std::min(sweeps.paths().size(), entrants_[entrant].max_sweeps));
@@ -128,17 +128,17 @@ class SweepContest {
   void add_samples(ShapeKind kind, SweepSet set, bool is_close) {
     if (!is_among(set, request_.sets)) return;
     for (const double percent : sizes_in_percent) {
-      const float size = short_size(percent / 100 * scene_.diagonal());
-      const PathBatch paths = draw_sweeps(set, scene_, size, request_.paths, 1);
-      const PathBatch warm_up = draw_sweeps(set, scene_, size, PathSample::warm_up_batches * request_.paths, 2);
+      const float size = short_size(percent / 100 * named_.diagonal());
+      const PathBatch paths = draw_sweeps(set, named_, size, request_.paths, 1);
+      const PathBatch warm_up = draw_sweeps(set, named_, size, PathSample::warm_up_batches * request_.paths, 2);
       samples_.emplace_back(kind, size, paths, warm_up);
       moved_.emplace_back();
       if (is_close) {
-        const double distance = moved_share * scene_.diagonal();
+        const double distance = moved_share * named_.diagonal();
         moved_.back().emplace(kind, size, moved_a_bit(paths, distance, 3), moved_a_bit(warm_up, distance, 4));
       }
       SweepRow row{
-          {"shapes", scene_.name, scene_.mesh.triangles.size(), name_of(set), name_of(kind) + ' ' + text_of(percent)},
+          {"shapes", named_.name, named_.mesh.triangles.size(), name_of(set), name_of(kind) + ' ' + text_of(percent)},
           {}};
       for (const SweepEntrant& entrant : entrants_) row.results.push_back({entrant.name(), entrant.is_ours()});
       rows_.push_back(std::move(row));
@@ -174,7 +174,7 @@ class SweepContest {
     }
   }
 
-  const Scene& scene_;
+  const NamedMesh& named_;
   const std::vector<SweepEntrant>& entrants_;
   const Request& request_;
   std::vector<SweepSample> samples_;
@@ -264,10 +264,10 @@ void show_wrong(const std::vector<SweepRow>& rows, const Report& report) {
 void measure_shapes(const Request& request, Report& report) {
   const std::vector<SweepEntrant>& entrants = request.sweep_entrants;
   std::vector<SweepRow> rows;
-  example::ProgressBar bar("shapes", request.scenes.size() * request.rounds);
+  example::ProgressBar bar("shapes", request.meshes.size() * request.rounds);
   std::size_t rounds = 0;
-  for (const Scene& scene : request.scenes) {
-    SweepContest contest(scene, entrants, request);
+  for (const NamedMesh& named : request.meshes) {
+    SweepContest contest(named, entrants, request);
     for (std::size_t round = 0; round < request.rounds; ++round) {
       contest.run_round(round);
       bar.show(++rounds);

@@ -58,17 +58,17 @@ SizeSeries level_series(std::size_t largest) {
                                 Size{1'000'000, 3.45f}, Size{3'000'000, 6.0f}, Size{10'000'000, 11.0f}};
   SizeSeries series{"level", {}};
   for (const Size& size : sizes) {
-    if (size.triangles <= largest) series.sizes.push_back([detail = size.detail] { return level_scene(detail); });
+    if (size.triangles <= largest) series.sizes.push_back([detail = size.detail] { return level_mesh(detail); });
   }
   return series;
 }
 
-SizeSeries subdivision_series(const Scene& scene, std::size_t largest) {
-  SizeSeries series{scene.name + " subdivided", {}};
+SizeSeries subdivision_series(const NamedMesh& named, std::size_t largest) {
+  SizeSeries series{named.name + " subdivided", {}};
   int times = 0;
-  for (std::size_t triangles = scene.mesh.triangles.size(); triangles <= largest; triangles *= 4, ++times) {
-    series.sizes.push_back([&scene, times] {
-      Scene finer = scene;
+  for (std::size_t triangles = named.mesh.triangles.size(); triangles <= largest; triangles *= 4, ++times) {
+    series.sizes.push_back([&named, times] {
+      NamedMesh finer = named;
       for (int i = 0; i < times; ++i) finer.mesh = subdivided(finer.mesh);
       return finer;
     });

@@ -50,22 +50,22 @@ class SizeTable {
     }
   }
 
-  void measure(const Scene& scene) {
-    const std::size_t triangles = scene.mesh.triangles.size();
+  void measure(const NamedMesh& named) {
+    const std::size_t triangles = named.mesh.triangles.size();
     triangles_.push_back(static_cast<double>(triangles));
     const std::size_t rounds = std::clamp<std::size_t>(request_.rounds * 300'000 / triangles, 1, request_.rounds);
     next_column_ = 0;
-    for (const BuildResult& result : race_builds(built_, scene.mesh.view(), rounds)) {
+    for (const BuildResult& result : race_builds(built_, named.mesh.view(), rounds)) {
       const auto bytes = static_cast<double>(result.memory_bytes);
       add(result.entrant->library, "", "build ms", 1e6, summary_of(result.nanoseconds));
       add(result.entrant->library, "", "MB", 1e6, summary_of(bytes));
     }
     constexpr std::array sets = {PathSet::long_paths, PathSet::short_paths, PathSet::near_paths};
     std::vector<PathSample> samples;
-    for (const PathSet set : sets) samples.emplace_back(set, scene, request_.paths);
+    for (const PathSet set : sets) samples.emplace_back(set, named, request_.paths);
     std::vector<Heat> heats;
     for (const PathSample& sample : samples) heats.push_back({Question::closest_hit, &sample});
-    const auto results = run_contest(asked_, scene.mesh.view(), heats, rounds, [] {});
+    const auto results = run_contest(asked_, named.mesh.view(), heats, rounds, [] {});
     for (std::size_t i = 0; i < sets.size(); ++i) {
       for (const Result& result : results[i]) {
         add(result.entrant->name(), name_of(sets[i]), "ns", 1, summary_of(result.nanoseconds));
@@ -121,8 +121,8 @@ class SizeTable {
 
 void measure_sizes(const Request& request, Report& report) {
   const auto fewest = std::min_element(
-      request.scenes.begin(), request.scenes.end(),
-      [](const Scene& x, const Scene& y) { return x.mesh.triangles.size() < y.mesh.triangles.size(); });
+      request.meshes.begin(), request.meshes.end(),
+      [](const NamedMesh& x, const NamedMesh& y) { return x.mesh.triangles.size() < y.mesh.triangles.size(); });
   for (const SizeSeries& series : {level_series(request.largest), subdivision_series(*fewest, request.largest)}) {
     SizeTable table(request, series.name, report);
     example::ProgressBar bar("size, " + series.name, series.sizes.size());

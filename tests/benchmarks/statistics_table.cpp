@@ -21,14 +21,14 @@ QueryStatistics counts_of(const Colliderf& collider, Question question, const Pa
 
 /// Nanoseconds of the thread per path. Other clocks would find interruptions in these times, and none in the far
 /// shorter ones of exact steps, whose share would be too small. Warmed up and built anew each time, as in a contest.
-RoundSeries times_of(const Entrant& entrant, const Scene& scene, Question question, const PathSample& sample,
+RoundSeries times_of(const Entrant& entrant, const NamedMesh& named, Question question, const PathSample& sample,
                      std::size_t rounds) {
   RoundSeries times;
   Answers answers(sample.paths.size());
   Answers uncounted(sample.warm_up.size());
   for (std::size_t round = 0; round < rounds; ++round) {
     const std::unique_ptr<Contender> contender = entrant.make();
-    contender->build(scene.mesh.view());
+    contender->build(named.mesh.view());
     ask(*contender, question, sample.warm_up, uncounted);
     const double time = nanoseconds_of<ThreadClock>([&] { ask(*contender, question, sample.paths, answers); });
     times.push_back(time / static_cast<double>(sample.paths.size()));
@@ -93,15 +93,15 @@ void measure_statistics(const Request& request, Report& report) {
                       3);
   MarkdownTable bounds({"mesh", "paths", "asked", "cells", "candidates", "ns per path", "of these alone", "share"}, 3);
   const UnitTimes unit = unit_times(request.rounds);
-  for (const Scene& scene : request.scenes) {
-    const Colliderf collider(scene.mesh.view());
+  for (const NamedMesh& named : request.meshes) {
+    const Colliderf collider(named.mesh.view());
     for (const PathSet set : request.sets) {
-      const PathSample sample(set, scene, request.paths);
+      const PathSample sample(set, named, request.paths);
       const ExactStepTimes times = exact_step_times(collider, sample.paths.segments());
       for (const Question question : all_questions) {
-        const Place place{"statistics", scene.name, scene.mesh.triangles.size(), name_of(set), name_of(question)};
+        const Place place{"statistics", named.name, named.mesh.triangles.size(), name_of(set), name_of(question)};
         const QueryStatistics counts = counts_of(collider, question, sample.paths);
-        const RoundSeries nanoseconds = times_of(entrant, scene, question, sample, request.rounds);
+        const RoundSeries nanoseconds = times_of(entrant, named, question, sample, request.rounds);
         add_exact_steps(place, entrant.name(), counts, nanoseconds, times, exact, report);
         add_bound(place, entrant.name(), counts, nanoseconds, unit, bounds, report);
       }

@@ -8,30 +8,30 @@ namespace {
 
 using test::Random;
 
-Trianglef draw_triangle(const Scene& scene, Random& random) {
-  const TriangleMeshViewf mesh = scene.mesh.view();
+Trianglef draw_triangle(const NamedMesh& named, Random& random) {
+  const TriangleMeshViewf mesh = named.mesh.view();
   for (;;) {
     const Trianglef triangle = mesh.triangle(random.below(mesh.triangle_count()));
-    if (scene.draws_at(triangle)) return triangle;
+    if (named.draws_at(triangle)) return triangle;
   }
 }
 
 /// Draws a triangle that is across an axis, if there are enough of them. Then the height of a shape above its plane is
 /// exact in float.
-Trianglef draw_triangle_across_axis(const Scene& scene, Random& random) {
+Trianglef draw_triangle_across_axis(const NamedMesh& named, Random& random) {
   constexpr int tries = 100;
-  Trianglef triangle = draw_triangle(scene, random);
+  Trianglef triangle = draw_triangle(named, random);
   for (int i = 0; i < tries; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       if (triangle.a[axis] == triangle.b[axis] && triangle.a[axis] == triangle.c[axis]) return triangle;
     }
-    triangle = draw_triangle(scene, random);
+    triangle = draw_triangle(named, random);
   }
   return triangle;
 }
 
-Segmentf draw_resting(const Scene& scene, float size, Random& random) {
-  const Trianglef triangle = draw_triangle_across_axis(scene, random);
+Segmentf draw_resting(const NamedMesh& named, float size, Random& random) {
+  const Trianglef triangle = draw_triangle_across_axis(named, random);
   const Vector3d a = triangle.a.cast<double>();
   const Vector3d to_b = triangle.b.cast<double>() - a;
   const Vector3d to_c = triangle.c.cast<double>() - a;
@@ -46,11 +46,11 @@ Segmentf draw_resting(const Scene& scene, float size, Random& random) {
   return {start.cast<float>(), end.cast<float>()};
 }
 
-PathBatch draw_all_resting(const Scene& scene, float size, std::size_t count, std::uint64_t seed) {
+PathBatch draw_all_resting(const NamedMesh& named, float size, std::size_t count, std::uint64_t seed) {
   Random random(seed);
   std::vector<Segmentf> segments;
   do {
-    segments.push_back(draw_resting(scene, size, random));
+    segments.push_back(draw_resting(named, size, random));
   } while (segments.size() < count || segments.size() % PathBatch::octet_size != 0);
   return PathBatch(std::move(segments));
 }
@@ -108,9 +108,9 @@ SweptShapef SweepBatch::shape(std::size_t index) const {
   return spheres_[index];
 }
 
-PathBatch draw_sweeps(SweepSet set, const Scene& scene, float size, std::size_t count, std::uint64_t seed) {
-  if (set == SweepSet::resting_sweeps) return draw_all_resting(scene, size, count, seed);
-  return draw_paths(path_set_of(set), scene, count, seed);
+PathBatch draw_sweeps(SweepSet set, const NamedMesh& named, float size, std::size_t count, std::uint64_t seed) {
+  if (set == SweepSet::resting_sweeps) return draw_all_resting(named, size, count, seed);
+  return draw_paths(path_set_of(set), named, count, seed);
 }
 
 PathBatch moved_a_bit(const PathBatch& paths, double distance, std::uint64_t seed) {

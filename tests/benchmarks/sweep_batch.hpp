@@ -69,7 +69,7 @@ class SweepBatch {
 };
 
 /// In random order, the same every time for the same seed. `count` is rounded up to whole octets.
-[[nodiscard]] PathBatch draw_sweeps(SweepSet set, const Scene& scene, float size, std::size_t count,
+[[nodiscard]] PathBatch draw_sweeps(SweepSet set, const NamedMesh& named, float size, std::size_t count,
                                     std::uint64_t seed);
 
 /// Returns the same paths with both ends moved at random by up to this distance. If it is small, they meet nearly the

@@ -55,14 +55,14 @@ struct ThreadResult {
   [[nodiscard]] RoundSeries speedup() const { return ratio(nanoseconds.front(), nanoseconds.back()); }
 };
 
-std::vector<ThreadResult> race_threads(const std::vector<Entrant>& entrants, const Scene& scene, const PathBatch& paths,
-                                       std::size_t rounds) {
+std::vector<ThreadResult> race_threads(const std::vector<Entrant>& entrants, const NamedMesh& named,
+                                       const PathBatch& paths, std::size_t rounds) {
   std::vector<ThreadResult> results;
   std::vector<std::unique_ptr<Contender>> contenders;
   for (const Entrant& entrant : entrants) {
     results.push_back({&entrant, {}});
     contenders.push_back(entrant.make());
-    contenders.back()->build(scene.mesh.view());
+    contenders.back()->build(named.mesh.view());
   }
   std::array<std::vector<PathBatch>, thread_counts.size()> parts;
   for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = parts_of(paths, thread_counts[i]);
@@ -111,12 +111,12 @@ void measure_threads(const Request& request, Report& report) {
     header.push_back("speedup");
   }
   MarkdownTable table(header, 2);
-  for (const Scene& scene : request.scenes) {
+  for (const NamedMesh& named : request.meshes) {
     for (const PathSet set : request.sets) {
-      const PathBatch paths = draw_paths(set, scene, larger * request.paths);
-      const Place place{"threads", scene.name, scene.mesh.triangles.size(), name_of(set),
+      const PathBatch paths = draw_paths(set, named, larger * request.paths);
+      const Place place{"threads", named.name, named.mesh.triangles.size(), name_of(set),
                         name_of(Question::closest_hit)};
-      add_row(place, race_threads(entrants, scene, paths, request.rounds), table, report);
+      add_row(place, race_threads(entrants, named, paths, request.rounds), table, report);
     }
   }
   report.show("threads: ns per path on 1 thread and on 2, closest hit", table);

@@ -10,10 +10,10 @@ namespace {
 using Mesh = example::Mesh<float>;
 
 /// The same mesh, every vertex up to 0.05% of the diagonal away.
-Mesh deformed(const Scene& scene, std::uint64_t seed) {
-  Mesh mesh = scene.mesh;
+Mesh deformed(const NamedMesh& named, std::uint64_t seed) {
+  Mesh mesh = named.mesh;
   test::Random random(seed);
-  const double reach = 0.0005 * scene.diagonal();
+  const double reach = 0.0005 * named.diagonal();
   for (auto& vertex : mesh.vertices) {
     const Vector3d place = Vector3f::Map(vertex.data()).cast<double>() + reach * draw_in_unit_ball(random);
     Vector3f::Map(vertex.data()) = place.cast<float>();
@@ -70,15 +70,15 @@ void measure_ticks(const Request& request, Report& report) {
     if (!entrant.is_ours() && entrant.name() != header.back()) header.push_back(entrant.name());
   }
   MarkdownTable table(header, 1);
-  for (const Scene& scene : request.scenes) {
-    const std::array<Mesh, 2> meshes = {deformed(scene, 1), deformed(scene, 2)};
+  for (const NamedMesh& named : request.meshes) {
+    const std::array<Mesh, 2> meshes = {deformed(named, 1), deformed(named, 2)};
     for (const std::size_t count : request.tick_paths) {
-      const PathBatch paths = draw_paths(PathSet::short_paths, scene, count);
-      const Place place{"tick", scene.name, scene.mesh.triangles.size(), std::to_string(count) + " short",
+      const PathBatch paths = draw_paths(PathSet::short_paths, named, count);
+      const Place place{"tick", named.name, named.mesh.triangles.size(), std::to_string(count) + " short",
                         name_of(Question::closest_hit)};
       const std::vector<TickResult> results = race_ticks(entrants, meshes, paths, request.rounds);
       const TickResult& ours = results.front();
-      std::vector<std::string> cells = {scene.name, std::to_string(count),
+      std::vector<std::string> cells = {named.name, std::to_string(count),
                                         short_number(summary_of(ours.whole).median / 1e6),
                                         short_number(summary_of(ours.rebuild).median / 1e6)};
       for (const TickResult& result : results) {

@@ -11,7 +11,7 @@
 #include "level/architecture.hpp"
 #include "level/solid_builder.hpp"
 #include "support/random.hpp"
-#include "uneven_scenes.hpp"
+#include "uneven_meshes.hpp"
 
 namespace surehit::benchmark {
 namespace {

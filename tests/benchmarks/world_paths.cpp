@@ -71,7 +71,7 @@ class WorldPathDrawer {
         return rounded(start, draw_in_box(1.2, random));
       }
       case PathSet::sight_paths:
-        return rounded(eye_, surfaces_.draw(random) + Scene::target_height * diagonal_ * Vector3d::UnitZ());
+        return rounded(eye_, surfaces_.draw(random) + NamedMesh::target_height * diagonal_ * Vector3d::UnitZ());
       default:
         throw std::logic_error("no such paths are drawn in worlds");
     }

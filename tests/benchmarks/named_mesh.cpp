@@ -1,4 +1,4 @@
-#include "scene.hpp"
+#include "named_mesh.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -19,20 +19,20 @@ namespace fs = std::filesystem;
 
 constexpr double eye_height = 0.03;  // of the diagonal
 
-Vector3d choose_eye(const Scene& scene) {
+Vector3d choose_eye(const NamedMesh& named) {
   constexpr int eyes = 64;
   constexpr int targets = 256;
-  const Colliderf collider(scene.mesh.view());
-  const SurfacePoints floor = scene.floor();
-  const double diagonal = scene.diagonal();
+  const Colliderf collider(named.mesh.view());
+  const SurfacePoints floor = named.floor();
+  const double diagonal = named.diagonal();
   test::Random random(1);
   Vector3d best = Vector3d::Zero();
   int min_distance = targets;
   for (int i = 0; i < eyes; ++i) {
-    const Vector3d eye = floor.draw(random) + scene.upward(eye_height * diagonal);
+    const Vector3d eye = floor.draw(random) + named.upward(eye_height * diagonal);
     int seen = 0;
     for (int j = 0; j < targets; ++j) {
-      const Vector3d target = floor.draw(random) + scene.upward(Scene::target_height * diagonal);
+      const Vector3d target = floor.draw(random) + named.upward(NamedMesh::target_height * diagonal);
       seen += collider.any_hit(Segmentf{eye.cast<float>(), target.cast<float>()}) ? 0 : 1;
     }
     const int distance = std::abs(seen - targets / 2);
@@ -51,17 +51,17 @@ bool is_mesh_file(const fs::path& path) {
 
 }  // namespace
 
-bool Scene::draws_at(const Trianglef& triangle) const {
+bool NamedMesh::draws_at(const Trianglef& triangle) const {
   return !drawn_in ||
          ((triangle.a.array() >= drawn_in->low.array()).all() && (triangle.a.array() <= drawn_in->high.array()).all());
 }
 
-double Scene::diagonal() const {
+double NamedMesh::diagonal() const {
   const Boxf around = box();
   return (around.high.cast<double>() - around.low.cast<double>()).norm();
 }
 
-SurfacePoints Scene::floor() const {
+SurfacePoints NamedMesh::floor() const {
   const auto looks_up = [axis = up](const Trianglef& triangle) {
     const Vector3d a = triangle.a.cast<double>();
     const Vector3d normal = (triangle.b.cast<double>() - a).cross(triangle.c.cast<double>() - a);
@@ -70,16 +70,16 @@ SurfacePoints Scene::floor() const {
   return {mesh.view(), looks_up};
 }
 
-Vector3d Scene::upward(double length) const { return length * Vector3d::Unit(up); }
+Vector3d NamedMesh::upward(double length) const { return length * Vector3d::Unit(up); }
 
-Scene level_scene(float detail) {
+NamedMesh level_mesh(float detail) {
   example::Level level = example::build_level({detail});
   const Vector3d eye = Vector3f(level.eye[0], level.eye[1], level.eye[2]).cast<double>();
   return {.name = "level", .mesh = std::move(level.mesh), .up = 2, .eye = eye};
 }
 
-std::vector<Scene> scenes_in(const std::string& folder, const std::vector<std::string>& z_up,
-                             const std::vector<std::string>& names) {
+std::vector<NamedMesh> meshes_in(const std::string& folder, const std::vector<std::string>& z_up,
+                                 const std::vector<std::string>& names) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
@@ -87,14 +87,14 @@ std::vector<Scene> scenes_in(const std::string& folder, const std::vector<std::s
     if (is_named && is_mesh_file(path)) files.push_back(path);
   }
   std::sort(files.begin(), files.end());
-  std::vector<Scene> scenes;
+  std::vector<NamedMesh> meshes;
   for (const fs::path& file : files) {
     const int up = std::find(z_up.begin(), z_up.end(), file.stem()) != z_up.end() ? 2 : 1;
-    Scene& scene = scenes.emplace_back(
-        Scene{.name = file.stem().string(), .mesh = example::read_mesh<float>(file.string()), .up = up});
-    scene.eye = choose_eye(scene);
+    NamedMesh& named = meshes.emplace_back(
+        NamedMesh{.name = file.stem().string(), .mesh = example::read_mesh<float>(file.string()), .up = up});
+    named.eye = choose_eye(named);
   }
-  return scenes;
+  return meshes;
 }
 
 }  // namespace surehit::benchmark

@@ -10,8 +10,8 @@
 
 namespace surehit::benchmark {
 
-/// A mesh, and what paths through it are drawn from.
-struct Scene {
+/// A mesh with a name, and what paths through it are drawn from.
+struct NamedMesh {
   /// How far above the floor a point is looked at, as a share of the diagonal.
   static constexpr double target_height = 0.005;
 
@@ -33,10 +33,10 @@ struct Scene {
 };
 
 /// The built-in level, eye in its great hall.
-[[nodiscard]] Scene level_scene(float detail);
+[[nodiscard]] NamedMesh level_mesh(float detail);
 /// The meshes in the folder by name: all, or those that are named. Throws InputError. An eye is a bit above some floor,
 /// from where about half of the floors are in sight. The upward axis is z for meshes of `z_up`, and y for the others.
-[[nodiscard]] std::vector<Scene> scenes_in(const std::string& folder, const std::vector<std::string>& z_up,
-                                           const std::vector<std::string>& names);
+[[nodiscard]] std::vector<NamedMesh> meshes_in(const std::string& folder, const std::vector<std::string>& z_up,
+                                               const std::vector<std::string>& names);
 
 }  // namespace surehit::benchmark

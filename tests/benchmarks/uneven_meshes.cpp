@@ -1,4 +1,4 @@
-#include "uneven_scenes.hpp"
+#include "uneven_meshes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -117,24 +117,24 @@ void add_box(Mesh& mesh, const Vector3d& centre, double half_edge) {
 }
 
 /// The built-in level, with a ball that is this many times smaller.
-Scene stadium(double ratio, float detail) {
-  Scene scene = level_scene(detail);
-  const double radius = scene.diagonal() / ratio / 2;
-  const Boxf box = scene.box();
+NamedMesh stadium(double ratio, float detail) {
+  NamedMesh named = level_mesh(detail);
+  const double radius = named.diagonal() / ratio / 2;
+  const Boxf box = named.box();
   const Vector3d low = box.low.cast<double>();
   Vector3d centre = low + 0.3 * (box.high.cast<double>() - low);
-  centre[2] = scene.eye[2];
-  add_blob(scene.mesh, centre, radius, detail);
-  return scene;
+  centre[2] = named.eye[2];
+  add_blob(named.mesh, centre, radius, detail);
+  return named;
 }
 
 /// A ball inside a box of twelve triangles that is 50 times as large.
-Scene sky_box(float detail) {
-  Scene scene;
-  add_blob(scene.mesh, {0.3, 0.2, -0.4}, 0.5, detail);
-  add_box(scene.mesh, Vector3d::Zero(), 25);
-  scene.eye = {3, 2, 1};
-  return scene;
+NamedMesh sky_box(float detail) {
+  NamedMesh named;
+  add_blob(named.mesh, {0.3, 0.2, -0.4}, 0.5, detail);
+  add_box(named.mesh, Vector3d::Zero(), 25);
+  named.eye = {3, 2, 1};
+  return named;
 }
 
 /// Adds a square of terrain from (0, 0) to (size, size).
@@ -145,25 +145,25 @@ void add_terrain(Mesh& mesh, Index pieces, double size, double height) {
 }
 
 /// 20,000 triangles, and one more that is this many of their widths away. Paths are those without it.
-Scene stray(double distance, float detail) {
-  Scene scene;
-  add_terrain(scene.mesh, scaled(100, detail), 1, 0.1);
-  scene.drawn_in = scene.box();
-  scene.eye = {0.5, 0.5, 0.2};
-  const auto first = static_cast<Index>(scene.mesh.vertices.size());
+NamedMesh stray(double distance, float detail) {
+  NamedMesh named;
+  add_terrain(named.mesh, scaled(100, detail), 1, 0.1);
+  named.drawn_in = named.box();
+  named.eye = {0.5, 0.5, 0.2};
+  const auto first = static_cast<Index>(named.mesh.vertices.size());
   const double size = std::max(0.01, distance * 1e-6);  // So that rounding does not make it a point.
   for (const Vector3d& corner : {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, -1, -1)}) {
-    add_vertex(scene.mesh, Vector3d::Constant(distance) + size * corner);
+    add_vertex(named.mesh, Vector3d::Constant(distance) + size * corner);
   }
-  scene.mesh.triangles.push_back({first, first + 1, first + 2});
-  return scene;
+  named.mesh.triangles.push_back({first, first + 1, first + 2});
+  return named;
 }
 
-Scene terrain(float detail) {
-  Scene scene;
-  add_terrain(scene.mesh, scaled(708, detail), 1000, 200);
-  scene.eye = {500, 500, 150};
-  return scene;
+NamedMesh terrain(float detail) {
+  NamedMesh named;
+  add_terrain(named.mesh, scaled(708, detail), 1000, 200);
+  named.eye = {500, 500, 150};
+  return named;
 }
 
 /// A landscape of cubes with caves and hollow towers. Cubes have edges of 1, and lie on whole numbers.
@@ -171,20 +171,20 @@ class Voxels {
  public:
   explicit Voxels(float detail) : width_(scaled(128, detail)) {}
 
-  [[nodiscard]] Scene scene() {
-    Scene scene;
+  [[nodiscard]] NamedMesh mesh() {
+    NamedMesh named;
     const auto width = static_cast<std::int64_t>(width_);
     for (std::int64_t z = 0; z < height; ++z) {
       for (std::int64_t y = 0; y < width; ++y) {
         for (std::int64_t x = 0; x < width; ++x) {
-          if (is_solid(x, y, z)) add_faces(scene.mesh, {x, y, z});
+          if (is_solid(x, y, z)) add_faces(named.mesh, {x, y, z});
         }
       }
     }
     const double middle = static_cast<double>(width_) / 2;
-    scene.eye = {middle + 0.5, middle + 0.5, 30.5};
-    scene.cell = 1;
-    return scene;
+    named.eye = {middle + 0.5, middle + 0.5, 30.5};
+    named.cell = 1;
+    return named;
   }
 
  private:
@@ -254,13 +254,13 @@ class Voxels {
   std::vector<Index> numbers_;
 };
 
-struct UnevenScene {
+struct UnevenMesh {
   std::string name;
-  std::function<Scene(float)> build;
+  std::function<NamedMesh(float)> build;
 };
 
-std::vector<UnevenScene> all_scenes() {
-  std::vector<UnevenScene> all;
+std::vector<UnevenMesh> all_meshes() {
+  std::vector<UnevenMesh> all;
   for (const int ratio : {10, 100, 1000, 10000}) {
     all.push_back({"stadium_" + std::to_string(ratio), [ratio](float detail) { return stadium(ratio, detail); }});
   }
@@ -271,7 +271,7 @@ std::vector<UnevenScene> all_scenes() {
     all.push_back(
         {"stray_1e" + std::to_string(exponent), [distance](float detail) { return stray(distance, detail); }});
   }
-  all.push_back({"voxels", [](float detail) { return Voxels(detail).scene(); }});
+  all.push_back({"voxels", [](float detail) { return Voxels(detail).mesh(); }});
   all.push_back({"terrain", terrain});
   return all;
 }
@@ -284,16 +284,16 @@ example::Mesh<float> bumpy_ball(double radius, std::uint32_t pieces) {
   return mesh;
 }
 
-std::vector<std::string> uneven_scene_names() {
+std::vector<std::string> uneven_mesh_names() {
   std::vector<std::string> names;
-  for (const UnevenScene& scene : all_scenes()) names.push_back(scene.name);
+  for (const UnevenMesh& mesh : all_meshes()) names.push_back(mesh.name);
   return names;
 }
 
-Scene uneven_scene(const std::string& name, float detail) {
-  for (const UnevenScene& scene : all_scenes()) {
-    if (scene.name != name) continue;
-    Scene built = scene.build(detail);
+NamedMesh uneven_mesh(const std::string& name, float detail) {
+  for (const UnevenMesh& mesh : all_meshes()) {
+    if (mesh.name != name) continue;
+    NamedMesh built = mesh.build(detail);
     built.name = name;
     return built;
   }
