@@ -321,8 +321,8 @@ class OffReader {
   }
 
  private:
-  /// Of the errors, that of the layout is kept that came furthest. But a layout that the file does not look like is a
-  /// guess, which must not name what is wrong.
+  /// Keeps the error of the layout that came furthest. But a layout that the file does not look like is a guess, which
+  /// must not name what is wrong.
   std::optional<Mesh<Scalar>> try_layout(const OffBody& body, const OffLayout& layout) {
     OffBodyReader<Scalar> reader(body, layout);
     try {

@@ -7,7 +7,7 @@
 
 namespace surehit::benchmark {
 
-/// Of figures whose entrants differ in their variant alone the least by `is_less`, in the order of the figures.
+/// Returns one figure for each name of an entrant: the least by `is_less` among its variants. They keep their order.
 template <typename Figure, typename IsLess>
 [[nodiscard]] std::vector<Figure> one_a_name(const std::vector<Figure>& figures, const IsLess& is_less) {
   std::vector<Figure> chosen;

@@ -81,7 +81,7 @@ Work work_of(const Course& course, std::size_t rounds) {
   return work;
 }
 
-/// Of a unit that one course has more of than the other, while all else is the same.
+/// Returns the time of a unit that one course has more of than the other, while all else is the same.
 double cost_of_each(const Work& some, const Work& more, std::uint64_t QueryStatistics::*unit,
                     std::uint64_t QueryStatistics::*other) {
   if (some.counts.*other != more.counts.*other || more.counts.undecided != 0) {

@@ -103,7 +103,7 @@ class IntersectFamily : public testing::TestWithParam<PairFamily> {
     }
   }
 
-  /// Of the same t, and with b and c exchanged seen from the other side.
+  /// With b and c exchanged, t is the same and the triangle is seen from the other side.
   template <typename Scalar>
   void check_exchange() {
     for_each_pair<Scalar>([](const Segment<Scalar>& segment, const Triangle<Scalar>& triangle) {

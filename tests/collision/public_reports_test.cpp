@@ -126,8 +126,8 @@ class PublicReports : public testing::Test {
     }
   }
 
-  /// Of a convex mesh: `half_length` of a vertex and an axis is how far from the plane through the origin the ray
-  /// enters before it, and leaves behind it.
+  /// A ray enters a convex mesh as far before the plane through the origin as it leaves behind it. `half_length` is
+  /// this distance for a vertex and an axis.
   template <typename HalfLength>
   void expect_enters_and_leaves(const GeneratedMesh<Scalar>& mesh, Scalar reach, const HalfLength& half_length) {
     scan(mesh, reach, Point::Zero(), [&](const Point& vertex, Eigen::Index axis, const Hits& hits) {

@@ -159,7 +159,7 @@ TEST(ExactContact, weighs_the_end_corners_of_a_degenerate_triangle) {
   expect_contact(across, {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {}, mpq_class(1, 2), 0, mpq_class(1, 4), Side::edge_on);
   expect_contact(across, {{2, 0, 0}, {0, 0, 0}, {4, 0, 0}}, {}, mpq_class(1, 2), mpq_class(3, 4), mpq_class(1, 4),
                  Side::edge_on);
-  // Of equal corners the one of lowest index does.
+  // The one with the lowest index among equal corners carries it.
   expect_contact(across, {{0, 0, 0}, {4, 0, 0}, {4, 0, 0}}, {}, mpq_class(1, 2), mpq_class(1, 4), 0, Side::edge_on);
   expect_contact(across, {{4, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {}, mpq_class(1, 2), mpq_class(3, 4), 0, Side::edge_on);
   expect_contact(across, {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {}, mpq_class(1, 2), 0, 0, Side::edge_on);

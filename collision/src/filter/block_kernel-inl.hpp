@@ -240,7 +240,7 @@ class BlockKernel : BlockDeterminants<Scalar, Coordinate> {
   ///     By K12, the three sides of a certain hit have the sign of det, and each is above its bound.
   ///     This bound is at least r_det, and the sides sum to det. So |det| > 3 r_det, up to roundings.
   ///     Then |det| - r_det > 2/3 |det|, which saves a second division.
-  ///     Of the 66 eps in a bound, K2 uses 48 eps. The other 18 eps times the product of sizes are spare.
+  ///     K2 uses 48 of the 66 eps in a bound. The other 18 eps times the product of sizes are spare.
   ///     By K3, they are at least 3 eps |det| in r_det, and at least 3 eps |height| in r_height.
   ///     Together, they are 6 eps |t|.
   ///     The inverse, t, and the sum of t and the bound are rounded once each. So 3 eps |t| stay spare.

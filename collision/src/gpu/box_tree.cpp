@@ -131,7 +131,7 @@ class TreeBuild {
       boxes[bin].grow(item.box);
       ++counts[bin];
     }
-    std::array<double, bins> costs = {};  // Of a cut before this bin.
+    std::array<double, bins> costs = {};  // They are those of a cut before each bin.
     GrowingBox box;
     std::uint32_t count = 0;
     for (std::size_t bin = 1; bin < bins; ++bin) {

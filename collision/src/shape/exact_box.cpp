@@ -20,9 +20,9 @@ template <typename AnyTriangle>
 struct BoxBits {
   static constexpr int difference = DifferenceBits<AnyTriangle>::value;
   static constexpr int cross = 2 * difference + 1;
-  static constexpr int volume = cross + difference + 2;  ///< Of n·w, of D·n and of the reach of a box.
-  static constexpr int time = volume + 1;                ///< Of both parts of a t.
-  static constexpr int moved = time + difference + 1;    ///< Of the centre at a t.
+  static constexpr int volume = cross + difference + 2;  ///< For n·w, D·n and the reach of a box.
+  static constexpr int time = volume + 1;                ///< For both parts of a t.
+  static constexpr int moved = time + difference + 1;    ///< For the centre at a t.
 };
 
 /// The integers that `TouchedPoint` computes with.
@@ -260,8 +260,8 @@ class ExactBox {
 
   BoxTerms<Difference, WideInt<Bits::difference>> terms_;
   IntVector<WideInt<Bits::cross>> normal_;
-  /// Of a placed triangle, those in the mesh. The images have the same order or the opposite one, and the same
-  /// extremes.
+  /// For a placed triangle, these are the corners in the mesh. Their images have the same order or the opposite one,
+  /// and the same extremes.
   ExtremeCorners extremes_;
 };
 

@@ -18,9 +18,9 @@ namespace {
 /// The numbers of bits of the exact terms. A sum of k terms adds k - 1 to the bits of its terms.
 template <typename AnyTriangle>
 struct CapsuleBits {
-  static constexpr int difference = DifferenceBits<AnyTriangle>::value + 1;  ///< Of an end of the core less a corner.
-  static constexpr int quadratic = 6 * difference + 8;  ///< Of (n·w)² - r² n·n, the longest coefficient.
-  static constexpr int volume = 4 * difference + 5;     ///< Of n·(w × e) and of e·e.
+  static constexpr int difference = DifferenceBits<AnyTriangle>::value + 1;  ///< For an end of the core less a corner.
+  static constexpr int quadratic = 6 * difference + 8;  ///< For (n·w)² - r² n·n, the longest coefficient.
+  static constexpr int volume = 4 * difference + 5;     ///< For n·(w × e) and e·e.
 };
 
 template <typename AnyTriangle>

@@ -17,8 +17,8 @@ namespace {
 template <typename AnyTriangle>
 struct SphereBits {
   static constexpr int difference = DifferenceBits<AnyTriangle>::value;
-  static constexpr int quadratic = 6 * difference + 8;  ///< Of (n·w)² - r² n·n, the longest coefficient.
-  static constexpr int volume = 4 * difference + 4;     ///< Of n·(w × e) and of e·e.
+  static constexpr int quadratic = 6 * difference + 8;  ///< For (n·w)² - r² n·n, the longest coefficient.
+  static constexpr int volume = 4 * difference + 4;     ///< For n·(w × e) and e·e.
 };
 
 template <typename AnyTriangle>

@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(Resolutions, OverlapLanesIn, testing::Values(7, 100, 20
 /// otherwise, it would list other triangles.
 TEST(OverlapLanes, have_the_same_bits_on_every_instruction_set) {
   Random random(107);
-  constexpr float padding = 0x1p-7F;  // Of a grid of 4096 finest cells.
+  constexpr float padding = 0x1p-7F;  // As in a grid of 4096 finest cells.
   std::size_t met = 0;
   std::size_t missed = 0;
   for (std::size_t round = 0; round < case_count(2000); ++round) {

@@ -27,7 +27,7 @@ TEST(DefaultInitAllocator, sets_what_it_is_given_a_value_for) {
   EXPECT_EQ(std::count(numbers.begin(), numbers.end(), 7U), 200'000);
 }
 
-/// Of memory of any size that begins and ends anywhere in a page.
+/// The memory has any size, and begins and ends anywhere in a page.
 TEST(DefaultInitAllocator, faults_in_without_changing_what_memory_holds) {
   fault_in(nullptr, 0);
   const std::size_t size = 3'000'000;

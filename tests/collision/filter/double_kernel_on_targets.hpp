@@ -10,7 +10,7 @@
 
 namespace surehit::test {
 
-/// Of a path from a start in a direction, and of corners a, b and c: three coordinates each.
+/// The coordinates of the start and the direction of a path, and of the corners a, b and c.
 using PairCoordinates = std::array<double, 15>;
 
 template <typename Scalar>

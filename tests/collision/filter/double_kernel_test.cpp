@@ -125,7 +125,7 @@ TEST(DoubleKernel, holds_at_all_magnitudes_of_float) { check_all_magnitudes<floa
 TEST(DoubleKernel, holds_at_all_magnitudes_of_double) { check_all_magnitudes<double>(-1060, 1022); }
 TEST(DoubleKernel, holds_at_the_sizes_up_to_which_it_knows_bounds) { check_all_magnitudes<double>(295, 302); }
 
-/// Of one pair: the worst share of a determinant's bound, and of a quotient's interval.
+/// The worst shares that errors of one pair take up of a determinant's bound and of a quotient's interval.
 struct WorstShares {
   double determinant = 0;
   double quotient = 0;

@@ -66,8 +66,8 @@ class CertainHits {
   [[nodiscard]] std::uint64_t certain() const { return certain_; }
   [[nodiscard]] const mpq_class& t(std::size_t lane) const { return t_[lane]; }
 
-  /// Of these, the first one's t is in the interval, and every one that shares it is among the lanes, if it does not
-  /// begin after the limit. What the limit puts out of reach is all that it takes away.
+  /// Expects that the interval holds the first t of these, and that the lanes hold every one that shares it. This is
+  /// for those that do not begin after the limit. The limit takes away only what it puts out of reach.
   void expect_first(std::uint64_t certain, Scalar limit) const {
     const KernelFirst<Scalar> open = list_.first_from(path_, from_, certain, no_limit<Scalar>);
     expect_first(certain, limit, list_.first_from(path_, from_, certain, limit), open);
@@ -78,7 +78,7 @@ class CertainHits {
     expect_first(verdicts.certain, limit, first, list_.in_double_from(path_, range_, from_, no_limit<Scalar>).first);
   }
 
-  /// Of each of these alone what is known of it by itself.
+  /// Expects that each of these is the first one where it is alone.
   void expect_first_of_one() const {
     for (std::uint64_t left = certain_; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));

@@ -37,13 +37,13 @@ class KernelList {
 
   [[nodiscard]] std::size_t size() const { return list_.count; }
 
-  /// Of triangle i, the first of the lanes or a later one; the range is not empty.
+  /// Returns the verdict on triangle i. It is in the first lane or in a later one. The range must not be empty.
   [[nodiscard]] detail::Verdict verdict(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
                                         std::size_t i) const {
     const std::size_t from = vector_of(i);
     return verdict_of(verdicts_from(path, range, from), i - from);
   }
-  /// The same of the kernel in double.
+  /// The same by the kernel in double.
   [[nodiscard]] detail::Verdict verdict_in_double(const Path<Scalar>& path, const detail::PathRange<Scalar>& range,
                                                   std::size_t i) const requires std::is_same_v<Scalar, float> {
     const std::size_t from = vector_of(i);

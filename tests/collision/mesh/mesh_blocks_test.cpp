@@ -163,7 +163,7 @@ TYPED_TEST(MeshBlocksTest, has_no_slabs_once_the_mesh_moves) {
   }
 }
 
-/// Of more lists and cells than one task has.
+/// The grid has more lists and cells than one task.
 TYPED_TEST(MeshBlocksTest, is_the_same_with_an_executor) {
   const auto mesh = smooth_bowl<TypeParam>(90);
   const Grid grid = this->grid_of(mesh, {.resolution = {60, 60, 60}});

@@ -101,7 +101,7 @@ class SlabFitterTest : public testing::Test {
     }
   }
 
-  /// Of one plane, but for a little; some of the triangles turned over.
+  /// Returns triangles that nearly lie in one plane. Some are turned over.
   List flat_list(std::size_t count, float size, float height) {
     const auto drawn = [&] { return Vector3<float>::NullaryExpr([&] { return random_.symmetric<float>(); }).eval(); };
     const Vector3<float> centre = drawn();
