@@ -12,8 +12,8 @@ namespace surehit::example {
 
 /// Tells exactly whether a course goes through a wall, and knows nothing of the library's queries.
 ///
-/// In [32, 64] every float is an integer times 2^-18, so the sides on which points lie of planes and edges are signs of
-/// integer determinants: no rounding, no tolerance.
+/// In [32, 64] every float is an integer times 2^-18. So the signs of integer determinants say on which side of a plane
+/// or of an edge a point lies, without rounding and without a tolerance.
 class WallCheck {
  public:
   explicit WallCheck(const Arena& arena);

@@ -5,9 +5,9 @@
 namespace surehit::example {
 
 struct LevelOptions {
-  /// Edges are about 1/detail times as long as in the level as it is meant, so triangles grow with its square: about
-  /// 1,000 at 0.01, 93,000 at 1 and 10,000,000 at 11. Below 0.2 the furniture, windows and railings, which would not
-  /// get any coarser, are left out.
+  /// Edges are about 1/detail times as long as in the level as it is meant. So the number of triangles grows with the
+  /// square of detail: about 1,000 at 0.01, 93,000 at 1 and 10,000,000 at 11. Below 0.2 the furniture, windows and
+  /// railings, which would not get any coarser, are left out.
   float detail = 1;
 };
 

@@ -34,8 +34,8 @@ class AxisView {
   }
 
  private:
-  // Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates" (1997), section 4.2:
-  // the determinant is off by less than (3 + 16 e) e times the size, e = 2^-53, as long as nothing underflows. What
+  // Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates" (1997), section 4.2.
+  // The determinant is off by less than (3 + 16 e) e times the size, e = 2^-53, as long as nothing underflows. What
   // underflows adds less than 2^-1073, and there is room for that from `min_size` on. What overflows is no number or
   // infinite, and then the comparison fails.
   static constexpr double relative_error = 4 * 0x1p-53;

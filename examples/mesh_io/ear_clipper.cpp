@@ -98,8 +98,8 @@ bool EarClipper<Scalar>::is_ahead(std::uint32_t from, std::uint32_t a, std::uint
   return turn_of(from, a, b) == 0 && !is_between(a, from, b);
 }
 
-/// Whether the outline passes w, which coincides with c, along both edges of the ear on its way back, and inside of
-/// them: then the edge from n to p would cross it.
+/// Whether the outline passes w, which coincides with c, along both edges of the ear on its way back. If it passes
+/// inside of them, the edge from n to p would cross it.
 ///
 /// A bridge that bends is an example. What is left of c there is either the polygon, and w is beyond the bridge, or the
 /// inside of the bridge itself, which has no width. Where the outline passes inside in the same direction, it does so

@@ -12,9 +12,9 @@ namespace surehit::example {
 
 /// Cuts ears off an outline, one at a time, until a triangle is left.
 ///
-/// Corners are indices into the outline: an outline that touches itself passes one vertex more than once. An *ear* is a
-/// corner c between its neighbours p and n that can go: the triangle p c n belongs to the polygon and holds nothing of
-/// the rest of the outline. `turn` says how the outline winds as it is seen: 1 is to the left.
+/// Corners are indices into the outline, which passes one vertex more than once where it touches itself. An *ear* is a
+/// corner c between its neighbours p and n that can go. So the triangle p c n belongs to the polygon, and holds nothing
+/// of the rest of the outline. `turn` says how the outline winds as it is seen: 1 is to the left.
 template <typename Scalar>
 class EarClipper {
  public:

@@ -7,8 +7,9 @@
 
 namespace surehit::example {
 
-/// Whether floats may be too coarse for the mesh: half a unit in the last place of its largest coordinate is a
-/// noticeable part of it, or of one of its triangles. Then `describe_float_loss` tells by the file's own coordinates.
+/// Whether floats may be too coarse for the mesh. They are if half a unit in the last place of its largest coordinate
+/// is a noticeable part of it, or of one of its triangles. Then `describe_float_loss` tells by the file's own
+/// coordinates.
 [[nodiscard]] bool may_lose_in_float(const Mesh<float>& mesh);
 
 /// What a mesh loses by being rounded to float, in one line that names the worst coordinate; nothing where that is

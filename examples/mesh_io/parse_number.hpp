@@ -5,8 +5,8 @@
 
 namespace surehit::example {
 
-/// The Scalar nearest to the number that the whole text spells, ties to even: one rounding, directly, so that an exact
-/// answer is an answer about the numbers in the file.
+/// The Scalar nearest to the number that the whole text spells, ties to even. It is rounded once, so an exact answer is
+/// an answer about the numbers in the file.
 ///
 /// Decimal (`-1.5e3`) or hex (`0x1.8p-3`), with or without a sign. What is too small for a Scalar rounds to a denormal
 /// or to a zero of its sign. Throws InputError for anything else, and for what rounds beyond the largest finite Scalar.

@@ -177,8 +177,8 @@ struct GpuStatistics {
   std::uint64_t rounded = 0;  ///< The number of first hits whose t, u and v the device rounded.
   /// The number of first hits that the device found, and whose t, u and v the host rounded.
   std::uint64_t rounded_by_host = 0;
-  /// The number of paths that the host answered as a whole: those that the device left to it, those of a batch with a
-  /// filter or of a mesh that the device cannot have, and those after a failure.
+  /// The number of paths that the host answered as a whole. The device left them to it, or failed before them. Or the
+  /// batch has a filter, or the device cannot have the mesh.
   std::uint64_t undecided = 0;
   std::uint64_t dispatches = 0;  ///< The number of pieces of work that the device was given.
 };

@@ -5,8 +5,8 @@
 
 namespace surehit {
 
-/// An axis-parallel box whose centre moves in a straight line during one physics step: all points whose difference from
-/// start + t (end - start) is at most the half extents on each axis, for t in [0, 1].
+/// An axis-parallel box whose centre moves in a straight line during one physics step. For t in [0, 1] it has all
+/// points whose difference from start + t (end - start) is at most the half extents on each axis.
 ///
 /// It touches a triangle if they share a point, so a contact in a single point counts. Any finite coordinates and half
 /// extents are allowed. With half extents of zero it is a rectangle, a rod, or a point that moves. A point meets what a

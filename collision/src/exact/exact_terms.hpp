@@ -19,8 +19,8 @@ struct AnySize {
   using Int = WideInt<B>;
 };
 
-/// The integers for any coordinates of placed triangles: sums of products with the entries of a pose, which are between
-/// 2^-64 and 2^64, and of a motion with a share of at most 1.
+/// The integers for any coordinates of placed triangles. These are sums of products with the entries of a pose, and of
+/// a motion with a share of at most 1. The entries are between 2^-64 and 2^64.
 template <typename Scalar>
 struct PlacedSize {
   static constexpr int max_exponent = std::numeric_limits<Scalar>::max_exponent + 68;

@@ -83,8 +83,8 @@ SUREHIT_C_API surehit_status surehit_trianglef_shape_intersect(const surehit_tri
                                                                const surehit_shape_query_optionsf* options,
                                                                surehit_shape_hitf* hit);
 
-/// Sets `point` to the touched point of a triangle, a + u (b - a) + v (c - a). u and v are rounded once, and each of
-/// them adds at most half an ulp of 1 times its edge. The sum adds at most 4 ulp of the triangle's largest coordinate.
+/// Sets `point` to the touched point of a triangle, a + u (b - a) + v (c - a). Both weights are rounded once. So
+/// each adds at most half an ulp of 1 times its edge. The sum adds at most 4 ulp of the triangle's largest coordinate.
 /// Fails with `SUREHIT_INVALID_VALUE` if a corner is not finite.
 SUREHIT_C_API surehit_status surehit_trianglef_shape_contact_point(const surehit_trianglef* triangle,
                                                                    const surehit_shape_hitf* hit,
