@@ -5,7 +5,7 @@
 
 #include "contact.hpp"
 #include "path_range.hpp"
-#include "scene/placement.hpp"
+#include "placement.hpp"
 #include "surehit/hit.hpp"
 #include "surehit/path.hpp"
 #include "surehit/triangle.hpp"

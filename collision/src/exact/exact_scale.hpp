@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "exact/exact_terms.hpp"
-#include "scene/placement.hpp"
+#include "placement.hpp"
 #include "support/inlining.hpp"
 #include "surehit/path.hpp"
 #include "surehit/triangle.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/placement.hpp"
+#include "placement.hpp"
 #include "surehit/path.hpp"
 
 namespace surehit::detail {

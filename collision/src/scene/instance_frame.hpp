@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "scene/placement.hpp"
+#include "placement.hpp"
 #include "support/double4.hpp"
 #include "surehit/box.hpp"
 

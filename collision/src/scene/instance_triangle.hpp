@@ -5,8 +5,8 @@
 
 #include "collider_state.hpp"
 #include "exact/exact_contact.hpp"
+#include "placement.hpp"
 #include "scene/committed_scene.hpp"
-#include "scene/placement.hpp"
 #include "support/floating_point_environment.hpp"
 #include "surehit/scene_shape_hit.hpp"
 #include "surehit/triangle.hpp"

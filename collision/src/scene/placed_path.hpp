@@ -10,9 +10,9 @@
 
 #include "filter/kernel_path.hpp"
 #include "path_range.hpp"
+#include "placement.hpp"
 #include "scene/instance_frame.hpp"
 #include "scene/placed_lanes.hpp"
-#include "scene/placement.hpp"
 #include "support/double4.hpp"
 #include "support/exact_difference.hpp"
 #include "support/inlining.hpp"

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include "placement.hpp"
 #include "scene/instance_frame.hpp"
-#include "scene/placement.hpp"
 #include "surehit/swept_box.hpp"
 #include "surehit/swept_capsule.hpp"
 #include "surehit/swept_sphere.hpp"

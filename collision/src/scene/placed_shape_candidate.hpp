@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <tuple>
 
-#include "scene/placement.hpp"
+#include "placement.hpp"
 #include "shape/shape_contact.hpp"
 #include "surehit/scene_shape_options.hpp"
 #include "surehit/triangle.hpp"

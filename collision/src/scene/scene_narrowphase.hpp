@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "filter/bounded_contact.hpp"
+#include "placement.hpp"
 #include "scene/placed_path.hpp"
-#include "scene/placement.hpp"
 #include "surehit/query_statistics.hpp"
 #include "surehit/scene_hit.hpp"
 #include "surehit/scene_query_options.hpp"

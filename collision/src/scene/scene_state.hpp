@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "collider_state.hpp"
+#include "placement.hpp"
 #include "scene/committed_scene.hpp"
 #include "scene/instance_tree.hpp"
-#include "scene/placement.hpp"
 #include "surehit/executor.hpp"
 #include "surehit/scene.hpp"
 

@@ -9,7 +9,7 @@
 #include "exact/scaled_double.hpp"
 #include "filter/bounded.hpp"
 #include "filter/sized.hpp"
-#include "scene/placement.hpp"
+#include "placement.hpp"
 #include "shape/sphere_terms.hpp"
 #include "surehit/path.hpp"
 #include "surehit/triangle.hpp"

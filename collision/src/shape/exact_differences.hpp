@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "exact/exact_scale.hpp"
-#include "scene/placement.hpp"
+#include "placement.hpp"
 #include "shape/sphere_terms.hpp"
 #include "support/inlining.hpp"
 #include "surehit/triangle.hpp"
