@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "exact/exact_contact.hpp"
-#include "filter/placed_contact.hpp"
 #include "narrowphase.hpp"
+#include "scene/placed_contact.hpp"
 #include "support/inlining.hpp"
 #include "support/rounding_flags.hpp"
 

@@ -1,4 +1,4 @@
-#include "filter/placed_contact.hpp"
+#include "scene/placed_contact.hpp"
 
 #include <cmath>
 
