@@ -6,10 +6,10 @@
 #include <tuple>
 
 #include "scene/placed_shape.hpp"
-#include "scene/placed_shape_candidate.hpp"
 #include "scene/swept_tree_walk.hpp"
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
+#include "shape/placed_shape_candidate.hpp"
 #include "shape/recent_triangles.hpp"
 #include "shape/shape_contact.hpp"
 #include "shape/shape_filter.hpp"

@@ -4,13 +4,13 @@
 #include <type_traits>
 
 #include "exact/exact_contact.hpp"
-#include "scene/placed_shape_candidate.hpp"
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
 #include "shape/exact_box.hpp"
 #include "shape/exact_capsule.hpp"
 #include "shape/exact_direction.hpp"
 #include "shape/exact_sphere.hpp"
+#include "shape/placed_shape_candidate.hpp"
 #include "shape/shape_narrowphase.hpp"
 #include "shape/sphere_contact.hpp"
 #include "support/rounding_flags.hpp"

@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "scene/placed_shape_candidate.hpp"
 #include "shape/bounded_box.hpp"
 #include "shape/bounded_capsule.hpp"
 #include "shape/bounded_sphere.hpp"
 #include "shape/exact_box.hpp"
 #include "shape/exact_capsule.hpp"
 #include "shape/exact_sphere.hpp"
+#include "shape/placed_shape_candidate.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
