@@ -18,7 +18,7 @@ namespace surehit::detail {
 
 // What the decisions of all moving shapes in double have in common. `Number` is `Sized` or `Bounded`.
 
-/// Returns x - y, which is rounded in `Sized` and exact in `Bounded`.
+/// Sets `out` to x - y, which is rounded in `Sized` and exact in `Bounded`.
 inline void set_difference(Bounded& out, double x, double y) { out = exact(x) - exact(y); }
 inline void set_difference(Sized& out, double x, double y) { out = {x - y, std::fabs(x - y)}; }
 inline void set_exact(Bounded& out, double x) { out = exact(x); }
