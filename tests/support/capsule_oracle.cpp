@@ -372,15 +372,6 @@ std::optional<Float> first_time(const FloatPair& pair, const MayBe& may_be) {
   return std::nullopt;
 }
 
-/// Whether a number rounds to x, but for exact ties, which floats cannot tell.
-template <typename Scalar>
-bool rounds_to(const Float& exact, Scalar x, const Float& tiny) {
-  const Float value(double{x}, exact.get_prec());
-  const Float above = (value + double{std::nextafter(x, Scalar{2})}) / 2;
-  const Float below = (value + double{std::nextafter(x, Scalar{-1})}) / 2;
-  return exact <= above + tiny * above && exact >= below - tiny;
-}
-
 /// The exact t of a hit.
 template <typename Scalar>
 std::optional<Float> first_time_of(const FloatPair& pair, const ShapeHit<Scalar>& hit) {

@@ -131,7 +131,7 @@ inline Feature feature_at(const Float& u, const Float& v, const Float& tiny) {
   return no_v ? Feature::edge_ab : no_w ? Feature::edge_bc : no_u ? Feature::edge_ca : Feature::face;
 }
 
-/// Whether a weight rounds to this, but for exact ties, which floats cannot tell.
+/// Whether a number rounds to x, but for exact ties, which floats cannot tell.
 template <typename Scalar>
 bool rounds_to(const Float& exact, Scalar x, const Float& tiny) {
   const Float value(double{x}, exact.get_prec());
