@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -14,6 +13,7 @@
 #include "command_line/output_file.hpp"
 #include "command_line/program.hpp"
 #include "command_line/refuses_nan.hpp"
+#include "command_line/replays_alike.hpp"
 #include "level/level.hpp"
 #include "picture/png.hpp"
 
@@ -77,22 +77,6 @@ void print(const std::string& name, const WalkRecording& recording) {
   std::fflush(stdout);
 }
 
-/// Replays a recording. Returns true if all states have the same bits.
-bool replays_alike(const CapsuleSweep& sweep, const WalkRecording& recording) {
-  bool are_alike = true;
-  for (const unsigned threads : {1u, 2u, 8u}) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto hashes = replay_walk(sweep, recording, threads);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    const bool is_alike = hashes == recording.hashes;
-    std::printf("  on %u thread%s %016llx, %s (%.1f s)\n", threads,
-                threads == 1 ? ": " : "s:", static_cast<unsigned long long>(hashes.back()),
-                is_alike ? "the same in each step" : "DIFFERENT", seconds.count());
-    are_alike = are_alike && is_alike;
-  }
-  return are_alike;
-}
-
 /// Walks with Bullet's convex sweep.
 void print_contrast(const Mesh<float>& level, const std::vector<Vector3f>& starts, const ClearanceCheck& check,
                     const Request& request) {
@@ -123,8 +107,8 @@ ExitStatus play(Request request) {
   const ExactCapsuleSweep sweep(collider);
   const WalkRecording recording = record_walk(starts, sweep, check, request.walk);
   print("surehit", recording);
-  std::printf("replayed\n");
-  const bool are_alike = replays_alike(sweep, recording);
+  const bool are_alike =
+      replays_alike(recording.hashes, [&](unsigned threads) { return replay_walk(sweep, recording, threads); });
   print_contrast(level.mesh, starts, check, request);
 
   constexpr std::size_t drawn = 48;

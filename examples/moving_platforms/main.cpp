@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "command_line/output_file.hpp"
 #include "command_line/program.hpp"
+#include "command_line/replays_alike.hpp"
 #include "moving_platforms/hall_picture.hpp"
 #include "moving_platforms/recording.hpp"
 #include "picture/animation.hpp"
@@ -48,22 +48,6 @@ void print(const char* name, const Recording& recording) {
   std::printf("  hash                    %016llx\n", static_cast<unsigned long long>(recording.hashes.back()));
 }
 
-/// Replays a recording. Returns true if all states have the same bits.
-bool replays_alike(const Hall& hall, const Recording& recording) {
-  bool are_alike = true;
-  for (const unsigned threads : {1u, 2u, 8u}) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto hashes = replay_game(hall, recording, threads);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    const bool is_alike = hashes == recording.hashes;
-    std::printf("  on %u thread%s %016llx, %s (%.1f s)\n", threads,
-                threads == 1 ? ": " : "s:", static_cast<unsigned long long>(hashes.back()),
-                is_alike ? "the same in each step" : "DIFFERENT", seconds.count());
-    are_alike = are_alike && is_alike;
-  }
-  return are_alike;
-}
-
 /// A game with few pieces, from the time when all are there until all platforms are back in their places.
 std::string animate(const Hall& hall, std::uint64_t seed) {
   constexpr int width = 480;
@@ -88,8 +72,8 @@ ExitStatus play(Request request) {
               hall.platforms.size(), hall.fans.size());
   const Recording recording = record_game(hall, request.game);
   print("surehit, with the motions of the platforms", recording);
-  std::printf("replayed\n");
-  const bool are_alike = replays_alike(hall, recording);
+  const bool are_alike =
+      replays_alike(recording.hashes, [&](unsigned threads) { return replay_game(hall, recording, threads); });
   request.game.stepping = Stepping::by_pose;
   print("for contrast, with platforms that jump between the steps", record_game(hall, request.game));
   std::printf("every way of every piece was checked against every platform in integers\n");
