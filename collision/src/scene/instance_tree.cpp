@@ -80,6 +80,31 @@ class Splitter {
     return {this->group(group.first, middle_at), this->group(middle_at, group.last)};
   }
 
+  /// Splits the first one of some groups until there are as many as there is room for, or until all are single
+  /// instances. Returns the number of groups.
+  std::size_t split_all(std::span<Group> groups, bool evenly) {
+    std::size_t count = 1;
+    while (count < groups.size()) {
+      // The group with the largest surface is split next.
+      std::size_t largest = groups.size();
+      double largest_cost = -1;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (groups[i].last - groups[i].first < 2) continue;
+        double cost = surface(groups[i].box);
+        if (!std::isfinite(cost)) cost = std::numeric_limits<double>::max();
+        if (cost > largest_cost) {
+          largest_cost = cost;
+          largest = i;
+        }
+      }
+      if (largest == groups.size()) break;
+      const auto [left, right] = split(groups[largest], evenly);
+      groups[largest] = left;
+      groups[count++] = right;
+    }
+    return count;
+  }
+
  private:
   static constexpr std::size_t bins = 16;
 
@@ -292,25 +317,7 @@ void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<con
     const std::uint32_t size = task.group.last - task.group.first;
     const bool evenly = task.depth + static_cast<std::uint32_t>(std::bit_width(size - 1)) >= max_depth;
     std::array<Group, width> groups = {task.group};
-    std::size_t count = 1;
-    while (count < width) {
-      // The group with the largest surface is split next.
-      std::size_t largest = width;
-      double largest_cost = -1;
-      for (std::size_t i = 0; i < count; ++i) {
-        if (groups[i].last - groups[i].first < 2) continue;
-        double cost = surface(groups[i].box);
-        if (!std::isfinite(cost)) cost = std::numeric_limits<double>::max();
-        if (cost > largest_cost) {
-          largest_cost = cost;
-          largest = i;
-        }
-      }
-      if (largest == width) break;
-      const auto [left, right] = splitter.split(groups[largest], evenly);
-      groups[largest] = left;
-      groups[count++] = right;
-    }
+    const std::size_t count = splitter.split_all(groups, evenly);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const Group& group = groups[lane];
       if (group.last - group.first == 1) {
