@@ -4,7 +4,7 @@
 
 namespace surehit::test {
 
-/// How often this program, which has but one thread, has called operator new.
+/// How often this thread has called operator new.
 [[nodiscard]] std::size_t allocation_count();
 
 template <typename Call>
@@ -14,11 +14,16 @@ template <typename Call>
   return allocation_count() - before;
 }
 
-/// While it lives, operator new throws std::bad_alloc, but for the first `successes` calls.
+/// While it lives, operator new throws std::bad_alloc in this thread, but for the first `successes` calls. After some
+/// failures it succeeds again.
 class ScarceMemory {
  public:
-  explicit ScarceMemory(std::size_t successes);
+  static constexpr std::size_t all = static_cast<std::size_t>(-1);
+
+  explicit ScarceMemory(std::size_t successes, std::size_t failures = all);
   ~ScarceMemory();
+  /// Returns true if a call has failed.
+  [[nodiscard]] static bool has_failed();
   ScarceMemory(const ScarceMemory&) = delete;
   ScarceMemory& operator=(const ScarceMemory&) = delete;
 };

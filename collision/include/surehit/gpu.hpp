@@ -185,8 +185,8 @@ struct GpuStatistics {
 
 /// What a batch does besides.
 struct GpuBatchOptions {
-  /// If the device fails, the host answers the rest of the batch. Otherwise the batch ends with the error. This plays
-  /// no part where paths and answers are in buffers of the caller's.
+  /// If the device fails or memory runs out, the host answers the rest of the batch, for which it needs none. Otherwise
+  /// the batch ends with the error. This plays no part where paths and answers are in buffers of the caller's.
   bool goes_on_without_device = false;
   /// The batch adds its work to these, unless this is null. Nothing else may use them while the batch runs.
   GpuStatistics* statistics = nullptr;
@@ -195,8 +195,9 @@ struct GpuBatchOptions {
 /// The result of a batch. It is true if all paths have their answers.
 struct [[nodiscard]] GpuBatchResult {
   std::size_t finished = 0;  ///< So many paths, from the first one on, have their answers. The others are as before.
-  std::optional<GpuError> error;  ///< Why the device failed, even if the host went on without it.
-  bool is_complete = false;       ///< True if all paths have their answers.
+  /// Why the device failed, even if the host went on without it. `out_of_memory` may be the device's or the host's.
+  std::optional<GpuError> error;
+  bool is_complete = false;  ///< True if all paths have their answers.
 
   /// Returns true if all paths have their answers.
   [[nodiscard]] explicit operator bool() const noexcept { return is_complete; }
@@ -237,8 +238,9 @@ class GpuCollider {
   /// If there is a filter, the host answers all paths, because the device cannot call it. An executor spreads the work
   /// of the host. `BatchOptions::statistics` count the work of the host alone.
   ///
-  /// Fails if the device fails, or if the collider has changed since it was uploaded. Work is cut into pieces of
-  /// bounded length, so that a desktop stays alive. May throw std::bad_alloc.
+  /// Fails if the device fails, or if the host finds no memory for its part of the batch. Work is cut into pieces of
+  /// bounded length, so that a desktop stays alive. It is refused if the collider has changed since it was uploaded.
+  /// Only a refusal may throw std::bad_alloc.
   GpuBatchResult first_hits(const PathSpanf& paths, std::span<Hitf> hits, const BatchOptionsf& options = {},
                             const GpuBatchOptions& gpu = {}) const;
   /// Sets `blocked[i]` to 1 if path i has a hit, and to 0 otherwise, as `Collider::any_hits` does. All else is as in
@@ -257,7 +259,7 @@ class GpuCollider {
   ///
   /// Fails too if a buffer is null or too small, if its part begins at a bad place, or if both parts overlap. The host
   /// does not go on without the device. After a failure, what comes after the first `finished` hits has no meaning. If
-  /// the device was lost, even if the batch throws, both buffers must stay until the device is closed.
+  /// the device was lost, both buffers must stay until the device is closed.
   GpuBatchResult first_hits(const GpuPaths& paths, const GpuBufferPart& hits, const BatchOptionsf& options = {},
                             const GpuBatchOptions& gpu = {}) const;
   /// Sets a word of 32 bits for each path: to 1 if it has a hit, and to 0 otherwise. All else is as in `first_hits`.

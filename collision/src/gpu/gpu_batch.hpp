@@ -33,18 +33,14 @@ class GpuBatch {
   GpuBatchResult run() {
     statistics_.paths = count_;
     GpuBatchResult result;
-    if (!state_.is_on_device || options_.filter) {
-      answer_on_host(0);
-      result.finished = count_;
-    } else {
-      result.error = run_on_device();
-      result.finished = finished_;
-      if (result.error && gpu_.goes_on_without_device) {
-        answer_on_host(finished_);
-        result.finished = count_;
-      }
+    const bool asks_device = state_.is_on_device && !options_.filter;
+    if (asks_device) {
+      result.error = error_of_work(state_.device->no_memory, [&] { return run_on_device(); });
     }
-    result.is_complete = result.finished == count_;
+    // The queries of the host need no memory, and throw nothing.
+    if (!asks_device || (result.error && gpu_.goes_on_without_device)) answer_on_host();
+    result.finished = finished_;
+    result.is_complete = finished_ == count_;
     if (gpu_.statistics != nullptr) add(statistics_, *gpu_.statistics);
     return result;
   }
@@ -84,21 +80,19 @@ class GpuBatch {
     return error;
   }
 
+  /// Answers the paths of a dispatch. All that may find no memory comes before the first answer.
   void finish(GpuSlot& slot, std::size_t first) {
     const std::span found(reinterpret_cast<const DeviceAnswer*>(slot.host_answers.data()),
                           std::min(step, count_ - first));
     open_.clear();
     unrounded_.clear();
+    std::size_t misses = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
       switch (state_.leftover_of(found[i])) {
         case Leftover::nothing_of_miss:
-          ++statistics_.misses;
-          answers_[first + i] = answer_on_device(found[i]);
+          ++misses;
           break;
         case Leftover::nothing_of_hit:
-          ++statistics_.hits;
-          if (wants_first) ++statistics_.rounded;
-          answers_[first + i] = answer_on_device(found[i]);
           break;
         case Leftover::rounding:
           unrounded_.push_back(i);
@@ -107,24 +101,39 @@ class GpuBatch {
           open_.push_back(first + i);
       }
     }
-    statistics_.undecided += open_.size();
-    statistics_.hits += unrounded_.size();
-    statistics_.rounded_by_host += unrounded_.size();
+    const std::size_t undecided = open_.size();
     if constexpr (std::is_same_v<Answer, Hitf>) {
+      rounded_.resize(unrounded_.size());
       in_tasks(options_.executor, unrounded_.size(), [&](std::size_t from, std::size_t to) {
-        for (const std::size_t i : std::span(unrounded_).subspan(from, to - from)) {
-          round_on_host(state_.asked(), paths_[first + i], options_of(options_, first + i), found[i].triangle,
-                        answers_[first + i]);
+        for (std::size_t i = from; i < to; ++i) {
+          const std::size_t path = first + unrounded_[i];
+          round_on_host(state_.asked(), paths_[path], options_of(options_, path), found[unrounded_[i]].triangle,
+                        rounded_[i]);
         }
       });
     } else {
       for (const std::size_t i : unrounded_) open_.push_back(first + i);  // A scene rounds while it answers.
     }
-    if (open_.empty()) return;
-    numbers_.resize(6 * open_.size());
-    for (std::size_t i = 0; i < open_.size(); ++i) paths_.copy(open_[i], numbers_.data() + 6 * i);
-    answer_open(state_.asked(), paths_.kind(), numbers_, open_, options_, found_);
+    if (!open_.empty()) {
+      numbers_.resize(6 * open_.size());
+      for (std::size_t i = 0; i < open_.size(); ++i) paths_.copy(open_[i], numbers_.data() + 6 * i);
+      answer_open(state_.asked(), paths_.kind(), numbers_, open_, options_, found_);
+    }
+
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Leftover left = state_.leftover_of(found[i]);
+      if (left == Leftover::nothing_of_miss || left == Leftover::nothing_of_hit) {
+        answers_[first + i] = answer_on_device(found[i]);
+      }
+    }
+    for (std::size_t i = 0; i < rounded_.size(); ++i) answers_[first + unrounded_[i]] = rounded_[i];
     for (std::size_t i = 0; i < open_.size(); ++i) answers_[open_[i]] = found_[i];
+    const std::size_t hits = found.size() - misses - undecided;
+    statistics_.misses += misses;
+    statistics_.undecided += undecided;
+    statistics_.hits += hits;
+    statistics_.rounded_by_host += unrounded_.size();
+    if (wants_first) statistics_.rounded += hits - unrounded_.size();
   }
 
   /// Returns an answer that has left nothing to the host.
@@ -136,11 +145,14 @@ class GpuBatch {
     }
   }
 
-  void answer_on_host(std::size_t first) {
+  /// Answers all paths that are not finished.
+  void answer_on_host() {
+    const std::size_t count = count_ - finished_;
     BatchOptions options = options_;
-    if (!options.path_options.empty()) options.path_options = options.path_options.subspan(first, count_ - first);
-    statistics_.undecided += count_ - first;
-    ask(state_.asked(), paths_.subspan(first, count_ - first), answers_.subspan(first, count_ - first), options);
+    if (!options.path_options.empty()) options.path_options = options.path_options.subspan(finished_, count);
+    ask(state_.asked(), paths_.subspan(finished_, count), answers_.subspan(finished_, count), options);
+    statistics_.undecided += count;
+    finished_ = count_;
   }
 
   const State& state_;
@@ -152,6 +164,7 @@ class GpuBatch {
   std::size_t finished_ = 0;
   GpuStatistics statistics_;
   std::vector<std::size_t> unrounded_;  ///< The paths of a dispatch that the host rounds.
+  std::vector<Answer> rounded_;         ///< Their answers.
   std::vector<std::size_t> open_;       ///< The paths that the host answers.
   std::vector<float> numbers_;          ///< Their numbers.
   std::vector<Answer> found_;

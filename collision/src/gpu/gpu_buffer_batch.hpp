@@ -53,15 +53,18 @@ class GpuBufferBatch {
   GpuBatchResult run() {
     statistics_.paths = count_;
     GpuBatchResult result;
-    result.error = buffer_fault(device_, paths_, answers_, sizeof(DeviceAnswer), count_);
+    result.error = error_of_work(device_.no_memory,
+                                 [&] { return buffer_fault(device_, paths_, answers_, sizeof(DeviceAnswer), count_); });
     if (!result.error) {
       is_for_host_ = !state_.is_on_device || options_.filter;
-      result.error = in_dispatches(
-          device_, state_.mesh, count_, result.finished,
-          [&](GpuSlot& slot, std::size_t first) { return begin(slot, first); },
-          [&](GpuSlot& slot, std::size_t first) { return finish(slot, first); });
+      result.error = error_of_work(device_.no_memory, [&] {
+        return in_dispatches(
+            device_, state_.mesh, count_, result.finished,
+            [&](GpuSlot& slot, std::size_t first) { return begin(slot, first); },
+            [&](GpuSlot& slot, std::size_t first) { return finish(slot, first); });
+      });
       // Whatever failed first, the device may still use the buffers.
-      if (result.error && device_.is_lost) result.error = GpuDeviceState::lost();
+      if (result.error && device_.is_lost) result.error = device_.lost;
     }
     result.is_complete = !result.error && result.finished == count_;
     if (gpu_.statistics != nullptr) add(statistics_, *gpu_.statistics);

@@ -265,7 +265,7 @@ void GpuDeviceState::bind(const GpuSlot& slot, const std::array<VkBuffer, 4>& of
 std::optional<GpuError> GpuDeviceState::submit(GpuSlot& slot, std::span<const GpuCopy> before,
                                                const GpuDispatch* dispatch, std::span<const GpuCopy> after,
                                                bool waits_for_all) {
-  if (is_lost) return lost();
+  if (is_lost) return lost;
   auto begin = of_type<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   if (auto error = noted(vulkan.BeginCommandBuffer(slot.commands, &begin), while_beginning)) return error;
@@ -323,10 +323,6 @@ std::optional<GpuError> GpuDeviceState::submit(GpuSlot& slot, std::span<const Gp
   }();
   slot.is_under_way = begun == VK_SUCCESS;
   return noted(begun, while_beginning);
-}
-
-GpuError GpuDeviceState::lost() {
-  return {GpuError::Reason::device_lost, "the device was lost; it must be opened anew"};
 }
 
 std::optional<GpuError> GpuDeviceState::noted(VkResult result, const char* what) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -112,8 +113,10 @@ struct GpuDeviceState {
   std::string name;
   bool is_adopted = false;            ///< True if the caller has opened the device, and closes it.
   std::atomic<bool> is_lost = false;  ///< Nothing more is asked of a device that was lost.
-  /// Returns the error of a device that was lost.
-  [[nodiscard]] static GpuError lost();
+  // These errors are made while there is memory, and copied where there may be none.
+  const GpuError lost = {GpuError::Reason::device_lost, "the device was lost; it must be opened anew"};
+  const GpuError no_memory = {GpuError::Reason::out_of_memory, "too little memory on the host during a batch"};
+  static_assert(std::is_nothrow_copy_constructible_v<GpuError>);
   /// The slots of all batches and uploads under way, and a few that are free.
   std::vector<std::unique_ptr<GpuSlotPair>> pairs;
   static constexpr std::ptrdiff_t max_free_pairs = 4;

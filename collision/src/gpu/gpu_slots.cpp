@@ -39,7 +39,7 @@ void GpuSlotPair::forget() noexcept {
 }
 
 std::optional<GpuError> GpuDeviceState::take(GpuSlotPair*& pair) {
-  if (is_lost) return lost();
+  if (is_lost) return lost;
   {
     const std::lock_guard lock(pairs_mutex_);
     for (const auto& one : pairs) {
@@ -124,7 +124,7 @@ std::optional<GpuError> GpuDeviceState::make(GpuSlot& slot, const GpuSlotPair& p
 }
 
 std::optional<GpuError> GpuDeviceState::wait(GpuSlot& slot) {
-  if (is_lost) return lost();
+  if (is_lost) return lost;
   const char* const what = "while a batch was under way";
   if (auto error = noted(wait_for_end(slot), what)) return error;
   slot.is_under_way = false;

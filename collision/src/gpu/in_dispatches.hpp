@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <optional>
 
 #include "gpu/gpu_device_state.hpp"
@@ -37,6 +38,21 @@ template <typename Begin, typename Finish>
     finished += std::min(step, count - finished);
   }
   return std::nullopt;
+}
+
+/// Returns what `work` returns, or `no_memory` where it finds no memory. A batch that throws could not say how many
+/// paths have their answers.
+template <typename Work>
+[[nodiscard]] std::optional<GpuError> error_of_work(const GpuError& no_memory, const Work& work) {
+#if defined(__cpp_exceptions)
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return no_memory;
+  }
+#else
+  return work();
+#endif
 }
 
 /// Returns the options of a path in a batch.

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <future>
-#include <new>
 #include <span>
 #include <thread>
 #include <utility>
@@ -181,14 +180,17 @@ TEST_F(GpuSlotsTest, a_batch_sees_that_another_has_lost_the_device) {
 }
 
 /// While both slots of the inner batch are under way, an allocation fails.
-TEST_F(GpuSlotsTest, a_batch_that_throws_leaves_others_their_answers) {
+TEST_F(GpuSlotsTest, a_batch_without_memory_leaves_others_their_answers) {
   const auto ask_and_throw = [&] {
     wait_for = std::exchange(state().vulkan.WaitForFences, no_wait);
     wait_result = VK_SUCCESS;
     calls_left = 0;
     failures_left = 1;
     std::vector<Hitf> hits(others.size());
-    EXPECT_THROW(static_cast<void>(on_gpu.first_hits(others, hits)), std::bad_alloc);
+    const GpuBatchResult result = on_gpu.first_hits(others, hits);
+    ASSERT_TRUE(result.error);
+    EXPECT_EQ(result.error->reason, Reason::out_of_memory);
+    EXPECT_EQ(result.finished, 0U);
     state().vulkan.WaitForFences = wait_for;
   };
   std::vector<Hitf> hits;
