@@ -46,8 +46,8 @@ bool GpuDeviceState::close() noexcept {
   return true;
 }
 
-std::optional<GpuError> GpuDeviceState::start(const char* loader) {
-  if (auto error = vulkan.open_loader(loader)) return error;
+std::optional<GpuError> GpuDeviceState::start(std::span<const char* const> loaders) {
+  if (auto error = vulkan.open_loader(loaders)) return error;
   std::uint32_t version = 0;
   vulkan.EnumerateInstanceVersion(&version);
   if (version < VK_API_VERSION_1_1) {

@@ -58,8 +58,8 @@ struct GpuDeviceState {
   GpuDeviceState(const GpuDeviceState&) = delete;
   GpuDeviceState& operator=(const GpuDeviceState&) = delete;
 
-  /// Starts Vulkan, without a device.
-  [[nodiscard]] std::optional<GpuError> start(const char* loader = "libvulkan.so.1");
+  /// Starts Vulkan by the first of these loaders that is there, without a device.
+  [[nodiscard]] std::optional<GpuError> start(std::span<const char* const> loaders = vulkan_loaders);
   /// Sets `found` to what the drivers say of all devices.
   [[nodiscard]] std::optional<GpuError> find(std::vector<FoundDevice>& found) const;
   /// Returns what the driver says of a device.

@@ -166,7 +166,7 @@ bool GpuDeviceState::has_returned() noexcept {
 
 void GpuDeviceState::forget() noexcept {
   for (const auto& pair : pairs) pair->forget();
-  vulkan.library = nullptr;
+  vulkan.library.forget();
 }
 
 }  // namespace surehit::detail

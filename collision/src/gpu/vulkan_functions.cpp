@@ -1,6 +1,6 @@
 #include "gpu/vulkan_functions.hpp"
 
-#include <dlfcn.h>
+#include <algorithm>
 
 namespace surehit::detail {
 namespace {
@@ -11,17 +11,13 @@ std::optional<GpuError> missing_function(const char* name) {
 
 }  // namespace
 
-VulkanFunctions::~VulkanFunctions() {
-  if (library != nullptr) dlclose(library);
-}
-
-std::optional<GpuError> VulkanFunctions::open_loader(const char* name) {
-  library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) {
+std::optional<GpuError> VulkanFunctions::open_loader(std::span<const char* const> names) {
+  const auto opened = std::find_if(names.begin(), names.end(), [&](const char* name) { return library.open(name); });
+  if (opened == names.end()) {
     return GpuError(GpuError::Reason::no_loader,
-                    std::string("the Vulkan loader ") + name + " cannot be opened; it may not be installed");
+                    std::string("the Vulkan loader ") + names.back() + " cannot be opened; it may not be installed");
   }
-  GetInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
+  GetInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(library.find("vkGetInstanceProcAddr"));
   if (GetInstanceProcAddr == nullptr) return missing_function("GetInstanceProcAddr");
 #define SUREHIT_LOAD(name)                                                                  \
   (name) = reinterpret_cast<PFN_vk##name>(GetInstanceProcAddr(VK_NULL_HANDLE, "vk" #name)); \

@@ -3,10 +3,13 @@
 #define VK_NO_PROTOTYPES
 #include <vulkan/vulkan_core.h>
 
+#include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "gpu/shared_library.hpp"
 #include "surehit/gpu.hpp"
 
 namespace surehit::detail {
@@ -54,21 +57,26 @@ namespace surehit::detail {
   X(CmdCopyBuffer)                         \
   X(CmdPipelineBarrier) X(CreateFence) X(DestroyFence) X(ResetFences) X(WaitForFences) X(QueueSubmit)
 
+/// The names of Vulkan's loader on this platform. On macOS, the loader shows no device of MoltenVK to programs that do
+/// not ask for it, so MoltenVK itself is opened where it is there.
+#if defined(_WIN32)
+inline constexpr std::array vulkan_loaders = {"vulkan-1.dll"};
+#elif defined(__APPLE__)
+inline constexpr std::array vulkan_loaders = {"libMoltenVK.dylib", "libvulkan.1.dylib"};
+#else
+inline constexpr std::array vulkan_loaders = {"libvulkan.so.1"};
+#endif
+
 /// The functions of Vulkan, and the loader that they come from.
 struct VulkanFunctions {
-  VulkanFunctions() = default;
-  ~VulkanFunctions();
-  VulkanFunctions(const VulkanFunctions&) = delete;
-  VulkanFunctions& operator=(const VulkanFunctions&) = delete;
-
-  /// Opens the loader of this name, and gets the functions of no object.
-  [[nodiscard]] std::optional<GpuError> open_loader(const char* name = "libvulkan.so.1");
+  /// Opens the first of these loaders that is there, and gets the functions of no object.
+  [[nodiscard]] std::optional<GpuError> open_loader(std::span<const char* const> names);
   /// Gets the functions of an instance.
   [[nodiscard]] std::optional<GpuError> load(VkInstance instance);
   /// Gets the functions of a device.
   [[nodiscard]] std::optional<GpuError> load(VkDevice device);
 
-  void* library = nullptr;                                  ///< The loader, or null.
+  SharedLibrary library;                                    ///< The loader.
   PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;  // NOLINT(readability-identifier-naming): as Vulkan has it
 #define SUREHIT_MEMBER(name) PFN_vk##name name = nullptr;
   SUREHIT_VULKAN_GLOBAL_FUNCTIONS(SUREHIT_MEMBER)

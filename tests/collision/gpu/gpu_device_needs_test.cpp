@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -179,14 +180,26 @@ TEST(GpuShaderTest, no_operation_may_be_fused) {
 
 TEST(GpuLoaderTest, without_a_loader_there_is_an_error) {
   GpuDeviceState state;
-  const auto error = state.start("libvulkan-that-is-not-there.so.1");
+  const std::array missing = {"libvulkan-that-is-not-there.so.1"};
+  const auto error = state.start(missing);
   ASSERT_TRUE(error);
   EXPECT_EQ(error->reason, Reason::no_loader);
   EXPECT_NE(std::string(error->what()).find("libvulkan-that-is-not-there.so.1"), std::string::npos);
   GpuDeviceState strange;
-  const auto no_vulkan = strange.start("libc.so.6");
+  const std::array no_loader = {"libc.so.6"};
+  const auto no_vulkan = strange.start(no_loader);
   ASSERT_TRUE(no_vulkan);
   EXPECT_EQ(no_vulkan->reason, Reason::no_loader);
+}
+
+TEST(GpuLoaderTest, the_first_loader_that_is_there_is_opened) {
+  const char* const loader = detail::vulkan_loaders.back();
+  GpuDeviceState alone;
+  const auto error = alone.start(std::array{loader});
+  if (error && error->reason == Reason::no_loader) GTEST_SKIP() << error->what();
+  GpuDeviceState among_others;
+  const auto same_error = among_others.start(std::array{"libvulkan-that-is-not-there.so.1", loader, "libc.so.6"});
+  EXPECT_EQ(same_error.has_value(), error.has_value());
 }
 
 TEST(GpuLoaderTest, without_a_driver_there_is_an_error) {
