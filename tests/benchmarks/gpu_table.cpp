@@ -1,14 +1,19 @@
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <span>
 #include <stdexcept>
-#include <surehit/gpu.hpp>
+#include <string>
+#include <utility>
 
-#include "gpu/device_answers.hpp"
+#include "dispatch_timer.hpp"
 #include "gpu/gpu_buffer.hpp"
 #include "gpu/gpu_device_state.hpp"
-#include "question.hpp"
+#include "gpu/in_dispatches.hpp"
+#include "gpu_race.hpp"
+#include "pinned_threads.hpp"
 #include "tables.hpp"
+#include "world_paths.hpp"
 
 namespace surehit::benchmark {
 namespace {
@@ -16,12 +21,13 @@ namespace {
 using detail::GpuBuffer;
 using detail::GpuDeviceState;
 
-/// Segments of a set. A path batch would hold them in layouts that nobody asks for here.
-std::vector<Segmentf> draw_segments(PathSet set, const NamedMesh& named, std::size_t count) {
+/// Segments of a set. `draw(count, seed)` returns some. A path batch would hold all in layouts that nobody asks for.
+template <typename Draw>
+std::vector<Segmentf> draw_segments(std::size_t count, const Draw& draw) {
   constexpr std::size_t at_once = 100'000;
   std::vector<Segmentf> all;
   for (std::uint64_t seed = 1; all.size() < count; ++seed) {
-    const PathBatch some = draw_paths(set, named, std::min(at_once, count - all.size()), seed);
+    const PathBatch some = draw(std::min(at_once, count - all.size()), seed);
     all.insert(all.end(), some.segments().begin(), some.segments().end());
   }
   all.resize(count);
@@ -54,87 +60,193 @@ class DeviceBuffer {
 /// Times of each round, in nanoseconds per path.
 struct GpuTimes {
   RoundSeries on_host, with_transfers, in_buffers;
+  RoundSeries kernel;  ///< Empty where the device has no timestamps.
   GpuStatistics statistics;
 };
 
-void require(const GpuBatchResult& result) {
-  if (!result) throw GpuError(*result.error);
-}
+std::string all_threads() { return "all threads (" + std::to_string(CorePin::allowed_cores().size()) + ")"; }
 
-GpuTimes race(const GpuDevice& device, const GpuCollider& on_gpu, const Colliderf& collider,
-              const std::vector<Segmentf>& paths, Question question, std::size_t rounds) {
-  const std::span<const Segmentf> segments = paths;
-  DeviceBuffer given(device, segments.size_bytes());
-  const DeviceBuffer answers(device, paths.size() * sizeof(detail::DeviceHit));
-  given.fill(std::as_bytes(segments));
-  const GpuPaths in_buffer = {PathKind::segment, paths.size(), given.part()};
-  std::vector<Hitf> hits(paths.size());
-  std::vector<std::uint8_t> blocked(paths.size());
-  const bool wants_first = question == Question::closest_hit;
-  GpuTimes times;
-  const auto per_path = [&](const auto& work) { return nanoseconds_of(work) / static_cast<double>(paths.size()); };
-  for (std::size_t round = 0; round <= rounds; ++round) {
-    GpuStatistics statistics;
-    const double on_host = per_path([&] {
-      if (wants_first) collider.first_hits(segments, hits);
-      if (!wants_first) collider.any_hits(segments, blocked);
-    });
-    const double with_transfers = per_path([&] {
-      if (wants_first) require(on_gpu.first_hits(segments, hits));
-      if (!wants_first) require(on_gpu.any_hits(segments, blocked));
-    });
-    const double in_buffers = per_path([&] {
-      if (wants_first) require(on_gpu.first_hits(in_buffer, answers.part(), {}, {.statistics = &statistics}));
-      if (!wants_first) require(on_gpu.any_hits(in_buffer, answers.part(), {}, {.statistics = &statistics}));
-    });
-    times.statistics = statistics;
-    if (round == 0) continue;  // The first one warms up.
-    times.on_host.push_back(on_host);
-    times.with_transfers.push_back(with_transfers);
-    times.in_buffers.push_back(in_buffers);
+/// Times and break-evens, and what they are measured with.
+class GpuTables {
+ public:
+  GpuTables(std::string table, const GpuDevice& device, const Request& request, Report& report)
+      : table_(std::move(table)), device_(device), request_(request), report_(report) {}
+
+  /// Adds the rows of a set of paths.
+  template <typename Host, typename Draw>
+  void measure(const BothSides<Host>& sides, Place place, const Draw& draw) {
+    place.table = table_;
+    const std::size_t largest = *std::max_element(request_.gpu_paths.begin(), request_.gpu_paths.end());
+    const std::vector<Segmentf> paths = draw_segments(largest, draw);
+    for (const Question question : all_questions) {
+      place.question = name_of(question);
+      for (const std::size_t count : request_.gpu_paths) {
+        add_times(place, count, race(sides, question, std::span(paths).first(count)));
+      }
+      add_break_even(place, sides, question, std::span(paths).first(std::min(largest, request_.largest_break_even)));
+    }
   }
-  return times;
-}
 
-void add_row(const Place& place, std::size_t count, const GpuTimes& times, MarkdownTable& table, Report& report) {
-  const std::string on = " in batches of " + std::to_string(count);
-  const auto keep = [&](const std::string& contender, const RoundSeries& series) {
-    const Summary time = summary_of(series);
-    report.keep(place, contender, "ns per path" + on, time);
-    return short_number(time.median);
-  };
-  const GpuStatistics& of = times.statistics;
-  const double left = 100 * static_cast<double>(of.undecided + of.rounded_by_host) / static_cast<double>(of.paths);
-  report.keep(place, "surehit on a GPU", "percent left to the host" + on, summary_of(left));
-  table.add_row({place.mesh, place.paths, place.question, std::to_string(count), keep("surehit batch", times.on_host),
-                 keep("surehit on a GPU, with transfers", times.with_transfers),
-                 keep("surehit on a GPU, in its buffers", times.in_buffers), short_number(left)});
-}
-
-}  // namespace
-
-void measure_gpu(const Request& request, Report& report) {
-  GpuDevice device;
-  if (const GpuResult opened = device.try_open({.name = request.gpu_name}); !opened) {
-    std::printf("\ngpu: left out, because %s\n", opened.error().what());
-    return;
+  void show() const {
+    report_.show(table_ + ": ns per path on " + device_.name() + ", and on one thread of the host", times_);
+    report_.show(table_ + ": paths in a batch, from which on " + device_.name() + " is no slower than the host",
+                 break_even_);
   }
-  MarkdownTable table({"mesh", "paths", "question", "batch", "on the host", "with transfers", "in buffers", "left, %"},
-                      3);
+
+ private:
+  template <typename Host>
+  GpuTimes race(const BothSides<Host>& sides, Question question, std::span<const Segmentf> paths) const {
+    DeviceBuffer given(device_, paths.size_bytes());
+    const DeviceBuffer answers(device_, paths.size() * sizeof(typename OnDevice<Host>::HitInBuffer));
+    given.fill(std::as_bytes(paths));
+    GpuRace<Host> race(sides, question, paths);
+    GpuTimes times;
+    for (std::size_t round = 0; round <= request_.rounds; ++round) {
+      const double on_host = race.time_on_host();
+      const double with_transfers = race.time_with_transfers();
+      times.statistics = {};
+      const double in_buffers = race.time_in_buffers(given.part(), answers.part(), times.statistics);
+      // Apart from the other times, because timestamps take time too.
+      GpuStatistics unused;
+      DispatchTimer timer(device_, paths.size() / detail::paths_in_dispatch + 1);
+      race.time_in_buffers(given.part(), answers.part(), unused);
+      const std::optional<double> kernel = timer.nanoseconds();
+      if (round == 0) continue;  // The first one warms up.
+      times.on_host.push_back(on_host);
+      times.with_transfers.push_back(with_transfers);
+      times.in_buffers.push_back(in_buffers);
+      if (kernel) times.kernel.push_back(*kernel / static_cast<double>(paths.size()));
+    }
+    return times;
+  }
+
+  void add_times(const Place& place, std::size_t count, const GpuTimes& times) {
+    const std::string on = " in batches of " + std::to_string(count);
+    const auto keep = [&](const std::string& contender, const RoundSeries& series) -> std::string {
+      if (series.empty()) return "-";
+      const Summary time = summary_of(series);
+      report_.keep(place, contender, "ns per path" + on, time);
+      return short_number(time.median);
+    };
+    const GpuStatistics& of = times.statistics;
+    const auto percent = [&](const char* what, std::uint64_t number) {
+      const double share = 100 * static_cast<double>(number) / static_cast<double>(of.paths);
+      report_.keep(place, "surehit on a GPU", std::string("percent ") + what + on, summary_of(share));
+      return short_number(share);
+    };
+    times_.add_row({place.mesh, place.paths, place.question, std::to_string(count),
+                    keep("surehit batch", times.on_host),
+                    keep("surehit on a GPU, with transfers", times.with_transfers),
+                    keep("surehit on a GPU, in its buffers", times.in_buffers),
+                    keep("surehit on a GPU, kernel alone", times.kernel), percent("answered by the host", of.undecided),
+                    percent("rounded by the host", of.rounded_by_host)});
+  }
+
+  /// Tries batches of twice as many paths again and again, beside one thread of the host and beside all.
+  template <typename Host>
+  void add_break_even(const Place& place, const BothSides<Host>& sides, Question question,
+                      std::span<const Segmentf> paths) {
+    const PinnedThreads threads(CorePin::allowed_cores().size());
+    std::optional<std::size_t> beside_one, beside_all;
+    for (std::size_t count = 64; count <= paths.size(); count *= 2) {
+      GpuRace<Host> race(sides, question, paths.first(count));
+      RoundSeries one, all, gpu, gpu_with_all;
+      for (std::size_t round = 0; round <= request_.rounds; ++round) {
+        one.push_back(race.time_on_host());
+        all.push_back(race.time_on_host(threads));
+        gpu.push_back(race.time_with_transfers());
+        gpu_with_all.push_back(race.time_with_transfers(threads));
+        if (round == 0) one.clear(), all.clear(), gpu.clear(), gpu_with_all.clear();
+      }
+      const auto note = [&](const RoundSeries& on_host, const RoundSeries& on_gpu, std::optional<std::size_t>& found) {
+        if (summary_of(on_gpu).median > summary_of(on_host).median) {
+          found.reset();
+        } else if (!found) {
+          found = count;
+        }
+      };
+      note(one, gpu, beside_one);
+      note(all, gpu_with_all, beside_all);
+    }
+    const auto keep = [&](const std::string& beside, const std::optional<std::size_t>& count) -> std::string {
+      if (!count) return "none";
+      report_.keep(place, "surehit on a GPU", "break-even batch beside " + beside,
+                   summary_of(static_cast<double>(*count)));
+      return std::to_string(*count);
+    };
+    break_even_.add_row(
+        {place.mesh, place.paths, place.question, keep("one thread", beside_one), keep(all_threads(), beside_all)});
+  }
+
+  std::string table_;
+  const GpuDevice& device_;
+  const Request& request_;
+  Report& report_;
+  MarkdownTable times_{{"mesh", "paths", "question", "batch", "on the host", "with transfers", "in buffers",
+                        "kernel alone", "by host, %", "rounded, %"},
+                       3};
+  MarkdownTable break_even_{{"mesh", "paths", "question", "beside one thread", "beside " + all_threads()}, 3};
+};
+
+/// The scene of a world. Instances share their meshes.
+Scenef scene_of(const World& world) {
+  std::vector<std::shared_ptr<const Colliderf>> colliders;
+  for (const auto& mesh : world.meshes) colliders.push_back(std::make_shared<Colliderf>(mesh.view()));
+  Scenef scene;
+  for (const auto& [mesh, pose] : world.instances) scene.add(colliders[mesh], pose);
+  scene.commit();
+  return scene;
+}
+
+void add_meshes(const GpuDevice& device, const Request& request, GpuTables& tables) {
   for (const NamedMesh& named : request.meshes) {
     const Colliderf collider(named.mesh.view());
     const GpuCollider on_gpu(device, collider);
     for (const PathSet set : request.sets) {
-      for (const std::size_t count : request.gpu_paths) {
-        const std::vector<Segmentf> paths = draw_segments(set, named, count);
-        for (const Question question : {Question::closest_hit, Question::any_hit}) {
-          const Place place{"gpu", named.name, named.mesh.triangles.size(), name_of(set), name_of(question)};
-          add_row(place, count, race(device, on_gpu, collider, paths, question, request.rounds), table, report);
-        }
-      }
+      tables.measure<Colliderf>(
+          {collider, on_gpu}, {"", named.name, named.mesh.triangles.size(), name_of(set)},
+          [&](std::size_t count, std::uint64_t seed) { return draw_paths(set, named, count, seed); });
     }
   }
-  report.show("gpu: ns per path on " + device.name() + ", and on one thread of the host", table);
+}
+
+void add_scenes(const GpuDevice& device, const Request& request, GpuTables& tables) {
+  for (const std::string& name : request.worlds) {
+    const World world = build_world(name, request.detail);
+    const Scenef scene = scene_of(world);
+    GpuScene on_gpu;
+    if (const GpuResult uploaded = on_gpu.try_upload(device, scene.snapshot()); !uploaded) {
+      std::printf("\ngpu_scene: %s left out, because %s\n", name.c_str(), uploaded.error().what());
+      continue;
+    }
+    for (const PathSet set : world_path_sets) {
+      if (std::find(request.sets.begin(), request.sets.end(), set) == request.sets.end()) continue;
+      tables.measure<Scenef>(
+          {scene, on_gpu}, {"", name, world.triangle_count(), name_of(set)},
+          [&](std::size_t count, std::uint64_t seed) { return draw_world_paths(set, world, count, seed); });
+    }
+  }
+}
+
+/// Shows a table of this name, or says why there is none.
+void measure_on_device(const char* table, const Request& request, Report& report,
+                       void (*add)(const GpuDevice&, const Request&, GpuTables&)) {
+  GpuDevice device;
+  if (const GpuResult opened = device.try_open({.name = request.gpu_name}); !opened) {
+    std::printf("\n%s: left out, because %s\n", table, opened.error().what());
+    return;
+  }
+  GpuTables tables(table, device, request, report);
+  add(device, request, tables);
+  tables.show();
+}
+
+}  // namespace
+
+void measure_gpu(const Request& request, Report& report) { measure_on_device("gpu", request, report, add_meshes); }
+
+void measure_gpu_scenes(const Request& request, Report& report) {
+  measure_on_device("gpu_scene", request, report, add_scenes);
 }
 
 }  // namespace surehit::benchmark

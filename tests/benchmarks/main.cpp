@@ -33,7 +33,7 @@ const std::vector<TableKind>& all_tables() {
       {"tick", measure_ticks},          {"threads", measure_threads, false},
       {"exactness", measure_exactness}, {"statistics", measure_statistics},
       {"scene", measure_worlds},        {"shapes", measure_shapes},
-      {"gpu", measure_gpu, false},
+      {"gpu", measure_gpu, false},      {"gpu_scene", measure_gpu_scenes, false},
   };
   return tables;
 }
@@ -85,7 +85,8 @@ void describe(CLI::App& app, Words& words, Request& request) {
   add_choice(app, "--set", words.sets, "Only these path sets",
              names_of(all_path_sets, [](PathSet set) { return name_of(set); }))
       ->type_name("NAME");
-  add_choice(app, "--scene", words.worlds, "Only these scenes of table scene", world_names())->type_name("NAME");
+  add_choice(app, "--scene", words.worlds, "Only these scenes of the tables scene and gpu_scene", world_names())
+      ->type_name("NAME");
   add_choice(app, "--shape", words.shapes, "Only these moving shapes of table shapes",
              names_of(all_shape_kinds, [](ShapeKind kind) { return name_of(kind); }))
       ->type_name("NAME");
@@ -105,7 +106,12 @@ void describe(CLI::App& app, Words& words, Request& request) {
   app.add_option("--largest", request.largest, "Triangles that table size goes up to")
       ->check(CLI::Range(some).description(""))
       ->capture_default_str();
-  app.add_option("--gpu-name", request.gpu_name, "The device of table gpu has this in its name, and may be software")
+  app.add_option("--batch", request.gpu_paths,
+                 "Paths in a batch of the tables gpu and gpu_scene, and may be given several times")
+      ->check(CLI::Range(some).description(""))
+      ->capture_default_str();
+  app.add_option("--gpu-name", request.gpu_name,
+                 "The device of the tables gpu and gpu_scene has this in its name, and may be software")
       ->type_name("NAME");
   app.add_option("--core", request.core, "The core to stay on (default: the first that there is)")
       ->check(CLI::NonNegativeNumber.description(""));
@@ -126,7 +132,7 @@ void shrink(const CLI::App& app, Request& request) {
   set("--paths", request.paths, 64);
   set("--largest", request.largest, 4000);
   request.tick_paths = {64, 128};
-  request.gpu_paths = {100, 1000};
+  if (app.get_option("--batch")->empty()) request.gpu_paths = {100, 1000};
   request.detail = 0.05f;
 }
 

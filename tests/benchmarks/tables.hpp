@@ -30,5 +30,7 @@ void measure_shapes(const Request& request, Report& report);
 
 /// Batches on a GPU beside those of the host. Without a device, it says so and measures nothing.
 void measure_gpu(const Request& request, Report& report);
+/// The same in worlds.
+void measure_gpu_scenes(const Request& request, Report& report);
 
 }  // namespace surehit::benchmark
