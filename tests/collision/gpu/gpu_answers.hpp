@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
 #include <vector>
 
@@ -14,10 +15,14 @@
 
 namespace surehit::test {
 
-/// Opens the best device that there is, software included. Returns a closed one where there is none.
+/// Opens the best device that there is, software included. Returns a closed one where there is none. The environment's
+/// `SUREHIT_TEST_GPU` is a part of the name that the device must have. Where it is set, no test is skipped.
 inline GpuDevice any_gpu() {
   GpuDevice device;
-  if (const GpuResult opened = device.try_open({.takes_software = true}); !opened) {
+  const char* const name = std::getenv("SUREHIT_TEST_GPU");
+  if (const GpuResult opened = device.try_open({.name = name == nullptr ? "" : name, .takes_software = true});
+      !opened) {
+    EXPECT_EQ(name, nullptr) << opened.error().what();
     EXPECT_NE(opened.error().reason, GpuError::Reason::missing_feature) << opened.error().what();
   }
   return device;
