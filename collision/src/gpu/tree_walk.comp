@@ -27,7 +27,7 @@ struct TreeTriangle {
   float corners[9];
   uint id;
   uint mask;
-  uint unused;
+  uint plane;  // The same for triangles of a mesh that lie in one plane across an axis, or 0.
 };
 
 #include "path_kernel.glsl"
@@ -133,6 +133,14 @@ bool leave_open(float enters) {
 // Notes a certain hit.
 void take_hit(uint triangle, uint instance, float lower, float upper) {
   limit = min(limit, upper);
+  if (best != miss && best_instance == instance && triangles[best].plane != 0 &&
+      triangles[best].plane == triangles[triangle].plane) {
+    // Both have the same t, and the lower id comes first (G22).
+    best_lower = max(best_lower, lower);
+    best_upper = min(best_upper, upper);
+    if (triangles[triangle].id < triangles[best].id) best = triangle;
+    return;
+  }
   if (lower < best_lower) {
     others = min(others, best_lower);
     best = triangle;

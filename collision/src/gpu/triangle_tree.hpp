@@ -14,7 +14,7 @@ struct TreeTriangle {
   std::array<float, 9> corners;
   std::uint32_t id;
   std::uint32_t mask;
-  std::uint32_t unused;
+  std::uint32_t plane;  ///< A number of the plane across an axis in which it lies, or 0 if there is none.
 };
 
 /// A tree of boxes around all triangles of a mesh.

@@ -25,6 +25,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/pair_families.hpp"
 #include "support/path_drawer.hpp"
+#include "support/random.hpp"
 #include "surehit/intersect.hpp"
 
 namespace surehit::test {
@@ -436,6 +437,33 @@ TEST_F(GpuRoomTest, large_batches_of_several_threads) {
     many.push_back({{x, 1, 4 * random.unit<float>() - 2}, {x, 1, 4 * random.unit<float>() - 2}});
   }
   expect_same_from_two_threads(on_gpu, collider, many, 3);
+}
+
+/// Faces of boxes lie on each other. Hits with the same t are no reason to ask the host: the lowest id counts.
+TEST(GpuFlatFacesTest, faces_in_one_plane_across_an_axis_are_told_apart) {
+  const GpuDevice device = any_gpu();
+  SUREHIT_SKIP_WITHOUT(device);
+  Random random(1);
+  GeneratedMesh<float> mesh;
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    const auto axis = static_cast<Eigen::Index>(random.below(4));  // One in four lies across none.
+    const float height = 0.25F * static_cast<float>(random.below(3));
+    for (int corner = 0; corner < 3; ++corner) {
+      Vector3f vertex(random.symmetric<float>(), random.symmetric<float>(), random.symmetric<float>());
+      if (axis < 3) vertex[axis] = height;
+      mesh.vertices.push_back(vertex);
+    }
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const Colliderf collider(mesh.view());
+  std::vector<Segmentf> paths;
+  for (int i = 0; i < 5000; ++i) {
+    paths.push_back({{random.symmetric<float>(), random.symmetric<float>(), random.symmetric<float>()},
+                     {random.symmetric<float>(), random.symmetric<float>(), random.symmetric<float>()}});
+  }
+  GpuStatistics statistics;
+  EXPECT_GT(expect_same_as_host(GpuCollider(device, collider), collider, paths, {}, &statistics), 2500U);
+  EXPECT_LT(statistics.undecided, paths.size() / 100);
 }
 
 }  // namespace
