@@ -58,6 +58,8 @@ class MeshBlocks {
   /// Returns the largest component of the list's edges b - a and c - a. It is infinite if coordinates are too large for
   /// the kernel.
   [[nodiscard]] static Scalar edge_size(const Scalar* block) noexcept { return *block; }
+  /// Returns the same from the coordinates of the list.
+  [[nodiscard]] static Scalar edge_size_of(const Scalar* corners) noexcept { return corners[-1]; }
   /// Returns the coordinates of a list of `count` triangles. Coordinate k of triangle i is at k count + i. A vector
   /// load may read beyond the last one.
   [[nodiscard]] static const Scalar* corners(const Scalar* block) noexcept { return block + 1; }

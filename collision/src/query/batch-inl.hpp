@@ -266,22 +266,23 @@ class Batch {
   }
 
   /// Makes jobs from the lists of these slots. The jobs begin with triangle `from` of each list. Returns the slots
-  /// whose lists have more triangles than the jobs. If `loads_lists`, it loads the lists first. A separate loop for
-  /// this would cost one more branch that cannot be predicted.
+  /// whose lists have more triangles than the jobs. If `loads_lists`, it loads the lists too.
   template <bool loads_lists>
   HWY_INLINE std::uint64_t list_jobs(std::uint64_t of_slots, std::size_t from) {
     std::uint64_t longer = 0;
     std::size_t count = 0;
+    const std::uint64_t found = of_slots;
     for (; of_slots != 0; of_slots &= of_slots - 1) {
       const auto slot = static_cast<std::size_t>(std::countr_zero(of_slots));
       if constexpr (loads_lists) {
         const CellWord word(words_[slot]);
-        jobs_.load_list(slot, query_, word);
+        jobs_.find_list(slot, query_, word);
         in_inner_ |= std::uint64_t{word.has_inner_grid()} << slot;
       }
       longer |= std::uint64_t{jobs_.add(slot, from, count)} << slot;
     }
     jobs_.set_count(count);
+    if constexpr (loads_lists) jobs_.load_bounds(found);
     return longer;
   }
 

@@ -95,12 +95,24 @@ class ListJobs {
   /// Returns the list of a slot.
   [[nodiscard]] const TriangleList<Scalar>& list(std::size_t slot) const { return lists_[slot]; }
 
-  /// Loads the list of the cell of a slot, and computes the bounds of its path with this list.
-  HWY_INLINE void load_list(std::size_t slot, const Query<Scalar>& query, CellWord word) {
-    const TriangleList<Scalar>& list = lists_[slot] = list_of(query, word);
+  /// Finds the list of the cell of a slot, and asks for its memory. `load_bounds` must follow.
+  HWY_INLINE void find_list(std::size_t slot, const Query<Scalar>& query, CellWord word) {
+    TriangleList<Scalar>& list = lists_[slot];
+    list.first_entry = query.grid.first_entry(word);
+    list.count = query.grid.entry_count(word);
+    list.corners = MeshBlocks<Scalar>::corners(query.mesh.block(word.list(), list.first_entry));
     prefetch(list);
-    bounds_[slot] = Kernel::bounds(kernel_path_[slot], *weights_[slot], list);
     query.statistics.candidates += list.count;
+  }
+  /// Computes the bounds of the paths of these slots with the lists that were found. Only this reads the memory of the
+  /// lists. So a processor waits for many of them at once.
+  HWY_INLINE void load_bounds(std::uint64_t of_slots) {
+    for (; of_slots != 0; of_slots &= of_slots - 1) {
+      const auto slot = static_cast<std::size_t>(std::countr_zero(of_slots));
+      TriangleList<Scalar>& list = lists_[slot];
+      list.edge_size = MeshBlocks<Scalar>::edge_size_of(list.corners);
+      bounds_[slot] = Kernel::bounds(kernel_path_[slot], *weights_[slot], list);
+    }
   }
 
   /// Makes jobs from up to `max_at_once` triangles of the slot's list. The first one is triangle `from`. There were

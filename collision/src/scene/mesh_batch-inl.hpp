@@ -188,10 +188,11 @@ class MeshBatch {
       std::size_t count = 0;
       for (std::uint64_t left = arriving; left != 0; left &= left - 1) {
         const auto slot = static_cast<std::size_t>(std::countr_zero(left));
-        if (from == 0) in_inner |= std::uint64_t{load_list(slot)} << slot;
+        if (from == 0) in_inner |= std::uint64_t{find_list(slot)} << slot;
         longer |= std::uint64_t{jobs_.add(slot, from, count)} << slot;
       }
       jobs_.set_count(count);
+      if (from == 0) jobs_.load_bounds(arriving);
       for (std::size_t first_job = 0; first_job < jobs_.count(); first_job += Jobs::max_jobs) {
         for (const typename Jobs::Open& open : jobs_.classify(first_job, from, LimitsOfSlots{*this})) {
           done |= visit_job(open);
@@ -205,8 +206,8 @@ class MeshBatch {
     return done;
   }
 
-  /// Loads the list of the cell of a slot. Returns true if the cell has an inner grid.
-  HWY_INLINE bool load_list(std::size_t slot) {
+  /// Finds the list of the cell of a slot. Returns true if the cell has an inner grid.
+  HWY_INLINE bool find_list(std::size_t slot) {
     Visit& visit = visit_at(slot);
     if (!visit.has_kernel_path) {
       visit.has_kernel_path = true;
@@ -214,7 +215,7 @@ class MeshBatch {
       weights_[slot] = visit.path.template kernel_weights<float>();
     }
     const CellWord word(words_[slot]);
-    jobs_.load_list(slot, visit.search.query, word);
+    jobs_.find_list(slot, visit.search.query, word);
     return word.has_inner_grid();
   }
 
