@@ -1,9 +1,12 @@
 #include "shape/bounded_sphere.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <type_traits>
 
 #include "shape/bounded_approach.hpp"
+#include "shape/edge_contact.hpp"
 #include "shape/face_contact.hpp"
 #include "shape/sphere_touch.hpp"
 #include "support/inlining.hpp"
@@ -71,6 +74,23 @@ SUREHIT_NOINLINE bool try_round_weights(const SweptSphere<Scalar>& sphere, const
   return try_toward_start(hit.v);
 }
 
+/// Rounds the weights of a contact inside a triangle or an edge by what knows their bounds at little cost.
+bool try_round_simple_weights(const SweptSphere<float>& sphere, const Triangle<float>& triangle,
+                              const SphereContact& contact, ShapeHit<float>& hit) {
+  const DoubleRange t = {contact.t_lower, contact.t_upper};
+  if (contact.feature == Feature::face) {
+    const auto [u, v] = FaceContact(sphere, triangle).weights(t);
+    return try_round(u, hit.u) && try_round(v, hit.v);
+  }
+  const std::size_t edge = index_of(contact.feature);
+  const DoubleRange share = EdgeContact(sphere, triangle, edge).share(t);
+  if (share.upper == 0) return false;
+  const DoubleRange rest = {1 - share.upper - 0x1p-52, 1 - share.lower + 0x1p-52};
+  if (edge == 0) return try_round(share, hit.u);
+  if (edge == 1) return try_round(rest, hit.u) && try_round(share, hit.v);
+  return try_round(rest, hit.v);
+}
+
 template <typename Number, typename Scalar, typename AnyTriangle>
 SUREHIT_NOINLINE Verdict find_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
                                       SphereContact& found) {
@@ -110,8 +130,14 @@ template <typename Scalar>
 Verdict simple_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, double limit,
                        SphereContact& found) {
   DoubleRange t;
-  const Verdict verdict = FaceContact(sphere, triangle).find(limit, t);
-  found = {t.lower, t.upper, Feature::face, Feature::face, verdict == Verdict::hit && t.upper == 0};
+  std::optional<std::size_t> passed;
+  Verdict verdict = FaceContact(sphere, triangle).find(limit, t, passed);
+  Feature feature = Feature::face;
+  if (verdict == Verdict::undecided && passed) {
+    verdict = EdgeContact(sphere, triangle, *passed).find(limit, t);
+    feature = edge_feature(*passed);
+  }
+  found = {t.lower, t.upper, feature, feature, verdict == Verdict::hit && t.upper == 0};
   return verdict;
 }
 
@@ -124,10 +150,7 @@ bool try_round(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, c
   hit.v = contact.feature == Feature::corner_c ? Scalar{1} : Scalar{0};
   if (is_corner(contact.feature)) return true;
   if constexpr (std::is_same_v<AnyTriangle, Triangle<float>>) {
-    if (contact.feature == Feature::face) {
-      const auto [u, v] = FaceContact(sphere, triangle).weights({contact.t_lower, contact.t_upper});
-      if (try_round(u, hit.u) && try_round(v, hit.v)) return true;
-    }
+    if (try_round_simple_weights(sphere, triangle, contact, hit)) return true;
   }
   return (has_usual_images(triangle) && try_round_weights<Sized>(sphere, triangle, contact, hit)) ||
          try_round_weights<Bounded>(sphere, triangle, contact, hit);

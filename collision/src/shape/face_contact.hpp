@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
+#include <optional>
 
 #include "exact/scaled_double.hpp"
 #include "shape/sphere_contact.hpp"
@@ -13,6 +15,16 @@
 #include "verdict.hpp"
 
 namespace surehit::detail {
+
+/// Returns the size of a vector's greatest component.
+[[nodiscard]] inline double greatest(const Vector<double>& x) {
+  return std::max({std::fabs(x[0]), std::fabs(x[1]), std::fabs(x[2])});
+}
+
+/// Returns true if nothing underflows or overflows in the contacts below (S8).
+[[nodiscard]] inline bool are_usual_sizes(std::initializer_list<double> sizes, double radius) {
+  return std::min(sizes) >= 0x1p-60 && std::max(std::max(sizes), radius) <= 0x1p50;
+}
 
 /// How a ball touches the inside of a triangle, in double, with bounds for the whole triangle. Most contacts are such
 /// ones. It costs less than `SphereTouch`, and is never certain of a miss. SHAPES.md has the proof (S8).
@@ -30,24 +42,27 @@ class FaceContact {
       step_[i] = double{ball.end[axis]} - start;
     }
     radius_ = ball.radius;
-    edge_ = std::max(size_of(to_b_), size_of(to_c_));
-    far_ = size_of(from_a_);
-    way_ = size_of(step_);
+    edge_ = std::max(greatest(to_b_), greatest(to_c_));
+    far_ = greatest(from_a_);
+    way_ = greatest(step_);
     normal_ = cross(to_b_, to_c_);
     square_ = dot(normal_, normal_);
   }
 
   /// Decides whether the ball touches the inside of the triangle before `limit` or not, if that is certain. `undecided`
   /// may be any contact, or none. `t` becomes bounds of its time. Without a hit, the lower one alone has a meaning.
-  [[nodiscard]] Verdict find(double limit, DoubleRange& t) const {
+  /// `passed` becomes an edge that the ball is beside when it comes to the plane, or at its start if it is near the
+  /// plane then. Without a value, nothing is known.
+  [[nodiscard]] Verdict find(double limit, DoubleRange& t, std::optional<std::size_t>& passed) const {
     t = {0, 0};
-    if (!has_usual_sizes()) return Verdict::undecided;
+    passed = std::nullopt;
+    if (!are_usual_sizes({edge_, far_, way_}, radius_)) return Verdict::undecided;
     const double side = dot(normal_, from_a_);
     const double along = dot(normal_, step_);
     const double unit = 0x1p-47 * edge_ * edge_;
     const double above = std::fabs(side) - radius_ * std::sqrt(square_);
     const double error = unit * (far_ + radius_);
-    if (above < -error) return contains(weights_at(t)) ? Verdict::hit : Verdict::undecided;
+    if (above < -error) return find_within(t, passed);
     if (above <= error) return Verdict::undecided;
     const double approach = side < 0 ? along : -along;
     const double of_rate = unit * way_;
@@ -56,13 +71,13 @@ class FaceContact {
     if (t.lower > limit) return Verdict::miss;
     t.upper = (above + error) / (approach - of_rate) * (1 + 0x1p-50);
     if (!(approach > of_rate && t.upper <= 1)) return Verdict::undecided;
-    return contains(weights_at(t)) ? Verdict::hit : Verdict::undecided;
+    return find_within(t, passed);
   }
 
   /// Returns bounds of the weights u and v of the touched point, where the ball touches the inside at a time within
   /// `t`. Both are {0, 0} where nothing is known.
   [[nodiscard]] std::array<DoubleRange, 2> weights(const DoubleRange& t) const {
-    if (!has_usual_sizes()) return {};
+    if (!are_usual_sizes({edge_, far_, way_}, radius_)) return {};
     const Weights weights = weights_at(t);
     if (weights.one <= weights.error) return {};
     const auto quotient = [&](double weight) {
@@ -73,23 +88,19 @@ class FaceContact {
   }
 
  private:
-  static constexpr double smallest = 0x1p-60;
-  static constexpr double largest = 0x1p50;
-
-  static double size_of(const Vector<double>& x) {
-    return std::max({std::fabs(x[0]), std::fabs(x[1]), std::fabs(x[2])});
-  }
-  [[nodiscard]] bool has_usual_sizes() const {
-    return std::min({edge_, far_, way_}) >= smallest && std::max({edge_, far_, way_, radius_}) <= largest;
-  }
-
   /// The weights of the touched point, times the square of the normal. Each is off by at most a third of `error`.
   struct Weights {
     double b, c, one, error;
   };
-  /// Returns true if they certainly are those of a point inside the triangle.
-  static bool contains(const Weights& weights) {
-    return std::min({weights.b, weights.c, weights.one - weights.b - weights.c}) > weights.error;
+  /// Decides about the time in `t` when the ball comes to the plane, or begins near it.
+  [[nodiscard]] Verdict find_within(const DoubleRange& t, std::optional<std::size_t>& passed) const {
+    const Weights weights = weights_at(t);
+    // Edge k is opposite to corner k + 2.
+    const std::array<double, 3> opposite = {weights.c, weights.one - weights.b - weights.c, weights.b};
+    const auto* const least = std::min_element(opposite.begin(), opposite.end());
+    if (*least > weights.error) return Verdict::hit;
+    if (*least < -weights.error) passed = static_cast<std::size_t>(least - opposite.begin());
+    return Verdict::undecided;
   }
   [[nodiscard]] Weights weights_at(const DoubleRange& t) const {
     const double middle = (t.lower + t.upper) / 2;

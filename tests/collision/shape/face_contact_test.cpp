@@ -1,6 +1,5 @@
 #include "shape/face_contact.hpp"
 
-#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,11 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <string>
-#include <utility>
 
-#include "collision/filter/coordinate_changes.hpp"
+#include "collision/shape/ball_climb.hpp"
 #include "shape/exact_sphere.hpp"
 #include "support/case_count.hpp"
 #include "support/random.hpp"
@@ -37,7 +35,8 @@ class FaceContactOf : public testing::Test {
   /// Checks a verdict about a ball and a triangle, where nothing counts after `limit`.
   static Verdict check(const SweptSphere<Scalar>& ball, const Triangle<Scalar>& triangle, Scalar limit) {
     DoubleRange t;
-    const Verdict verdict = FaceContact(ball, triangle).find(limit, t);
+    std::optional<std::size_t> passed;
+    const Verdict verdict = FaceContact(ball, triangle).find(limit, t, passed);
     const auto exact = exact_contact(ball, triangle);
     const auto what = [&] { return hex_text(ball) + '\n' + hex_text(triangle); };
     if (verdict == Verdict::miss) {
@@ -125,81 +124,35 @@ TYPED_TEST(FaceContactOf, leaves_unusual_sizes_open) {
   }
 }
 
-/// The shares of the bounds that the errors of t and of the weights take up, where a ball comes to the inside of a
-/// triangle. They are 0 for other pairs.
-struct Shares {
-  double t = 0;
-  double weights = 0;
-};
-
-mpf_class long_float(const OneRootNumber& x) {
-  constexpr mp_bitcnt_t bits = 8192;
-  const mpf_class root = sqrt(mpf_class(x.d, bits));
-  return (mpf_class(x.p, bits) + mpf_class(x.q, bits) * root) / mpf_class(x.r, bits);
-}
-
-double share_of_range(const DoubleRange& range, const OneRootNumber& exact) {
-  const mpf_class number = long_float(exact);
-  const mpf_class twice_off = abs(2 * number - mpf_class(range.lower) - mpf_class(range.upper));
-  return mpf_class(twice_off / (mpf_class(range.upper) - mpf_class(range.lower))).get_d();
-}
-
-/// Numbers of a ball and a triangle, one after the other.
-template <typename Scalar>
-using BallNumbers = std::array<Scalar, 16>;
-
-template <typename Scalar>
-BallNumbers<Scalar> draw_numbers(Random& random) {
-  const auto [ball, triangle] = draw_shape_pair<Scalar>(SphereFamily::general, random);
-  BallNumbers<Scalar> numbers;
-  std::size_t k = 0;
-  for (const Vector3<Scalar>* point : {&ball.start, &ball.end, &triangle.a, &triangle.b, &triangle.c}) {
-    for (const Scalar x : *point) numbers[k++] = x;
-  }
-  numbers[k] = ball.radius;
-  return numbers;
-}
-
-template <typename Scalar>
-Shares shares_of(const BallNumbers<Scalar>& x) {
-  const SweptSphere<Scalar> ball = {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, std::fabs(x[15])};
-  const Triangle<Scalar> triangle = {{x[6], x[7], x[8]}, {x[9], x[10], x[11]}, {x[12], x[13], x[14]}};
-  const FaceContact contact(ball, triangle);
-  DoubleRange t;
-  if (contact.find(1, t) != Verdict::hit || t.upper == 0) return {};
-  const SweptTruth truth = truth_of(ball, triangle);
-  const auto weights = contact.weights(t);
-  Shares shares{share_of_range(t, truth.t.number()), 0};
-  if (weights[0].upper == 0) return shares;
-  shares.weights = std::max(share_of_range(weights[0], truth.u), share_of_range(weights[1], truth.v));
-  return shares;
-}
-
-// Climbs from drawn balls to the worst ones (S8).
+// Climbs from drawn balls to the worst ones (S8). What the errors of t and of the weights take up is a share of the
+// bounds.
 TYPED_TEST(FaceContactOf, stays_within_its_bounds_where_hill_climbing_makes_the_errors_worst) {
   Random random(101);
-  for (const auto& [share, name] : {std::pair{&Shares::t, "t"}, std::pair{&Shares::weights, "weights"}}) {
-    double worst = 0;
-    for (int start = 0; start < 10; ++start) {
-      auto best = draw_numbers<TypeParam>(random);
-      double best_share = shares_of(best).*share;
-      for (std::size_t step = case_count(400); step > 0; --step) {
-        auto next = best;
-        // Where the pair has no share, another one is drawn.
-        if (best_share == 0) next = draw_numbers<TypeParam>(random);
-        TypeParam& number = next[random.below(next.size())];
-        number = changed_coordinate(random, number);
-        const double next_share = shares_of(next).*share;
-        if (next_share <= best_share && best_share > 0) continue;
-        best = next;
-        best_share = next_share;
-      }
-      worst = std::max(worst, best_share);
-    }
+  const auto share_of_t = [](const SpherePair<TypeParam>& pair) {
+    DoubleRange t;
+    std::optional<std::size_t> passed;
+    const Verdict verdict = FaceContact(pair.sphere, pair.triangle).find(1, t, passed);
+    if (verdict != Verdict::hit || t.upper == 0) return 0.0;
+    return share_of_range(t, truth_of(pair.sphere, pair.triangle).t.number());
+  };
+  const auto share_of_weights = [](const SpherePair<TypeParam>& pair) {
+    DoubleRange t;
+    std::optional<std::size_t> passed;
+    const FaceContact contact(pair.sphere, pair.triangle);
+    if (contact.find(1, t, passed) != Verdict::hit || t.upper == 0) return 0.0;
+    const auto weights = contact.weights(t);
+    if (weights[0].upper == 0) return 0.0;
+    const SweptTruth truth = truth_of(pair.sphere, pair.triangle);
+    return std::max(share_of_range(weights[0], truth.u), share_of_range(weights[1], truth.v));
+  };
+  const auto check = [&](const char* name, const auto& share_of) {
+    const double worst = worst_share<TypeParam>(random, share_of);
     testing::Test::RecordProperty(std::string("worst_share_of_") + name, std::to_string(worst));
     EXPECT_LT(worst, 1) << name;
     EXPECT_GT(worst, 0) << name;
-  }
+  };
+  check("t", share_of_t);
+  check("weights", share_of_weights);
 }
 
 }  // namespace
