@@ -14,8 +14,9 @@ template <typename Scalar, typename AnyTriangle>
 [[nodiscard]] Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
                                       SphereContact& found);
 
-/// Decides whether a moving ball touches the inside of a triangle before `limit`, if this is certain. If it is
-/// undecided, it sets `found.t_lower` to a lower bound of any contact's t.
+/// Decides whether a moving ball touches the inside of a triangle or of an edge first, before `limit`, or nothing of
+/// the triangle until then, if this is certain. If it is undecided, it sets `found.t_lower` to a lower bound of any
+/// contact's t.
 template <typename Scalar>
 [[nodiscard]] Verdict simple_contact(const SweptSphere<Scalar>& sphere, const Triangle<Scalar>& triangle, double limit,
                                      SphereContact& found);

@@ -27,7 +27,7 @@ namespace surehit::detail {
 }
 
 /// How a ball touches the inside of a triangle, in double, with bounds for the whole triangle. Most contacts are such
-/// ones. It costs less than `SphereTouch`, and is never certain of a miss. SHAPES.md has the proof (S8).
+/// ones. It costs less than `SphereTouch`. SHAPES.md has the proof (S8).
 class FaceContact {
  public:
   template <typename Scalar>

@@ -3,6 +3,7 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -15,6 +16,7 @@ namespace {
 
 using detail::Bounded;
 using detail::exact;
+using detail::product_error;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -107,6 +109,31 @@ TEST(Bounded, rounded_operations_have_a_radius) {
 TEST(Bounded, radius_is_no_larger_than_a_few_roundings) {
   EXPECT_LE((exact(1) + exact(0x1p-60)).radius, 0x1p-59);
   EXPECT_LE((exact(1 + 0x1p-40) * exact(1 + 0x1p-40)).radius, 0x1p-79);
+}
+
+TEST(Bounded, product_error_is_that_of_a_fused_multiply_add) {
+  Random random(2);
+  std::size_t rounded = 0;
+  for (std::size_t i = case_count(300'000); i > 0; --i) {
+    const auto draw_number = [&] {
+      if (random.one_in(20)) return 0.0;
+      const int exponent = static_cast<int>(random.between(-1074, 1023));
+      const double number = std::ldexp(random.symmetric<double>(), random.one_in(2) ? exponent : exponent / 32);
+      return random.one_in(4) ? static_cast<double>(static_cast<float>(number)) : number;
+    };
+    const double a = draw_number();
+    const double b = draw_number();
+    const double product = a * b;
+    const double error = product_error(a, b, product);
+    const double expected = std::fma(a, b, -product);
+    rounded += expected != 0;
+    if (std::isnan(expected)) {
+      ASSERT_FALSE(error == error) << a << ' ' << b;
+    } else {
+      ASSERT_EQ(error, expected) << a << ' ' << b;
+    }
+  }
+  EXPECT_GT(rounded, case_count(100'000));
 }
 
 TEST(Bounded, product_that_underflows_to_zero_is_not_a_certain_zero) {
