@@ -97,9 +97,9 @@ class FaceContact {
     const Weights weights = weights_at(t);
     // Edge k is opposite to corner k + 2.
     const std::array<double, 3> opposite = {weights.c, weights.one - weights.b - weights.c, weights.b};
-    const auto* const least = std::min_element(opposite.begin(), opposite.end());
-    if (*least > weights.error) return Verdict::hit;
-    if (*least < -weights.error) passed = static_cast<std::size_t>(least - opposite.begin());
+    const auto edge = static_cast<std::size_t>(std::min_element(opposite.begin(), opposite.end()) - opposite.begin());
+    if (opposite[edge] > weights.error) return Verdict::hit;
+    if (opposite[edge] < -weights.error) passed = edge;
     return Verdict::undecided;
   }
   [[nodiscard]] Weights weights_at(const DoubleRange& t) const {
