@@ -9,7 +9,8 @@
 namespace surehit::detail {
 
 // Vectors of x, y and z in double, and of a fourth lane, which is 0 unless a function says otherwise. All functions are
-// inlined, so the convention for calls does not matter.
+// inlined, so the convention for calls does not matter to GCC. Clang lets code for AVX pass and get such vectors only
+// where the function is for AVX too. So what such code calls takes references, and returns no Double4.
 
 using Double4 = VectorOf<double, 4>;
 using Long4 = VectorOf<std::int64_t, 4>;  ///< It may be a mask, whose lanes are all ones or zero.
@@ -38,16 +39,19 @@ SUREHIT_ALWAYS_INLINE inline Double4 with_fourth(Double4 x, double fourth) {
 }
 
 /// Returns the maximum lane.
-SUREHIT_ALWAYS_INLINE inline double max_lane(Double4 x) {
+SUREHIT_ALWAYS_INLINE inline double max_lane(const Double4& x) {
   const Double4 pairs = max(x, shuffled<2, 3, 0, 1>(x, x));
   return pairs[0] > pairs[1] ? pairs[0] : pairs[1];
 }
 
+/// Returns the maximum lane of the absolute values.
+SUREHIT_ALWAYS_INLINE inline double max_size(const Double4& x) { return max_lane(absolute(x)); }
+
 /// Returns the sum of the first three lanes.
-SUREHIT_ALWAYS_INLINE inline double sum_of_three(Double4 x) { return x[0] + x[1] + x[2]; }
+SUREHIT_ALWAYS_INLINE inline double sum_of_three(const Double4& x) { return x[0] + x[1] + x[2]; }
 
 /// Rounds each lane to float.
-SUREHIT_ALWAYS_INLINE inline Float4 to_float(Double4 x) { return converted<Float4>(x); }
+SUREHIT_ALWAYS_INLINE inline Float4 to_float(const Double4& x) { return converted<Float4>(x); }
 
 /// Returns true if any of the first three lanes of a mask is all ones.
 SUREHIT_ALWAYS_INLINE inline bool any_of_three(Long4 mask) { return (mask[0] | mask[1] | mask[2]) != 0; }

@@ -43,9 +43,9 @@ HWY_INLINE Floats in_all_lanes(Floats one_each) { return one_each; }
 /// numbers that do not fit.
 HWY_INLINE Ints to_ints(Floats x) {
 #if defined(SUREHIT_HAS_GNU_VECTORS) && HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
-  constexpr std::size_t count = sizeof(x.raw) / sizeof(float);
-  const auto lanes = converted<VectorOf<std::int32_t, count>>(with_bits_of<VectorOf<float, count>>(x.raw));
-  return Ints{with_bits_of<decltype(Ints::raw)>(lanes)};
+  // Vectors are no arguments here: Clang takes none of this target in a function that is compiled without it.
+  using Lanes = VectorOf<std::int32_t, sizeof(x.raw) / sizeof(float)>;
+  return Ints{reinterpret_cast<decltype(Ints::raw)>(__builtin_convertvector(x.raw, Lanes))};
 #else
   return hn::ConvertTo(IntTag(), x);
 #endif

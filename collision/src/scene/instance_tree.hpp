@@ -57,7 +57,7 @@ class InstanceTree {
   [[nodiscard]] std::uint32_t only_instance() const noexcept;
   [[nodiscard]] const Double4& origin() const { return origin_; }
   /// Returns the largest component of the origin.
-  [[nodiscard]] double origin_size() const { return max_lane(absolute(origin_)); }
+  [[nodiscard]] double origin_size() const { return max_size(origin_); }
   [[nodiscard]] double scale() const { return scale_; }
   /// Returns the box of all instances, in the scene's unit of length.
   [[nodiscard]] const InstanceBox& box() const { return box_; }

@@ -45,8 +45,8 @@ struct alignas(32) ScenePath {
       direction = toward;
       direction_rest = all_lanes(0.0);
     }
-    start_size = max_lane(absolute(start));
-    size = max_lane(absolute(direction));
+    start_size = max_size(start);
+    size = max_size(direction);
     const double square = sum_of_three(direction * direction);
     inverse_square = square > 0 ? 1 / square : 0;
   }
@@ -173,7 +173,7 @@ class alignas(32) PlacedPath {
                           2 * std::fabs(t - best_t) * scene_path.size;
     if (sum_of_three(middle * middle) > margin * margin) return Status::beside;
     // I6
-    const double middle_error = frame->near_slack + (distance + max_lane(absolute(middle))) * 0x1p-51;
+    const double middle_error = frame->near_slack + (distance + max_size(middle)) * 0x1p-51;
     if (!(middle_error <= 0x1p-36 * frame->radius)) return place_carefully();
     moved.moved_t = t;
     set_moved(middle, middle_error, way, 0);
@@ -222,7 +222,7 @@ class alignas(32) PlacedPath {
     if (!is_moderate(t, distance) || !(square <= 0x1p1000)) return Status::rough;
     // I5
     const Double4 off = from + t * world.way;
-    const double way_size = max_lane(absolute(world.way));
+    const double way_size = max_size(world.way);
     const double margin = frame->radius * (1 + 0x1p-20) + frame->anchor_slack + 0x1p-500 + distance * 0x1p-44 +
                           2 * std::fabs(t - best_t) * way_size + 3 * std::fabs(t) * world.way_error;
     if (sum_of_three(off * off) > margin * margin) return Status::beside;
@@ -317,12 +317,12 @@ class alignas(32) PlacedPath {
       direction = columns[0] * way[0] + columns[1] * way[1] + columns[2] * way[2];
     }
     const Double4 start = frame->anchor + offset;
-    const double offset_size = max_lane(absolute(offset));
-    direction_size = max_lane(absolute(direction));
+    const double offset_size = max_size(offset);
+    direction_size = max_size(direction);
     start_size = frame->anchor_size + offset_size;
     const double share = frame->inverse_error + 8 * eps;
-    const double start_share = share * max_lane(absolute(middle)) + 2 * middle_error;
-    const double direction_share = share * max_lane(absolute(way)) + 2 * way_error;
+    const double start_share = share * max_size(middle) + 2 * middle_error;
+    const double direction_share = share * max_size(way) + 2 * way_error;
     const double rounding = eps * (start_size + 2 * offset_size) + 0x1p-900;
     start_error = frame->largest_row_size * start_share + rounding;
     direction_error = frame->largest_row_size * direction_share + 0x1p-900;
@@ -339,7 +339,7 @@ class alignas(32) PlacedPath {
   }
   /// Returns the time for a path that may stand still in the frame of the mesh.
   static double still_time(const Double4& way) {
-    return max_lane(absolute(way)) > 0 ? std::numeric_limits<double>::infinity() : 0;
+    return max_size(way) > 0 ? std::numeric_limits<double>::infinity() : 0;
   }
 
   bool is_fine_ = false;  ///< True if the path was placed carefully.

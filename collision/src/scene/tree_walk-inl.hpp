@@ -82,14 +82,14 @@ HWY_INLINE TreePath::TreePath(const InstanceTree& tree, const ScenePath<Scalar>&
   Double4 start = (path.start - tree.origin()) * tree.scale();
   const Double4 way = path.direction * tree.scale();
   const double largest = path.size * tree.scale();
-  double distance = max_lane(absolute(start));
+  double distance = max_size(start);
   double error = (path.start_size + tree.origin_size()) * tree.scale() + distance;
   if (!(distance <= max_distance)) {
     moved_t = t_near_middle(path, start, way);
     const Double4 step = moved_t * way;
     start += step;
-    distance = max_lane(absolute(start));
-    error += max_lane(absolute(step)) + distance;
+    distance = max_size(start);
+    error += max_size(step) + distance;
   }
   const double power = inverse_power(largest);
   inverse_unit = 1 / power;
