@@ -19,7 +19,9 @@ class BoxPairDrawer {
 
   BoxPair<Scalar> general() {
     const Triangle<Scalar> triangle = {vector(), vector(), vector()};
-    return aimed(triangle, extents() / static_cast<Scalar>(1 << random_.below(5)), vector() * 2);
+    const Vector3<Scalar> largest = extents();
+    const Vector3<Scalar> half = largest / static_cast<Scalar>(1 << random_.below(5));
+    return aimed(triangle, half, vector() * 2);
   }
 
   /// A box that is in contact with a point of the triangle, in whole numbers. Often the box grazes it: its corner that
@@ -32,7 +34,8 @@ class BoxPairDrawer {
     const IntegerVector ac = corners[2] - corners[0];
     const IntegerVector coordinate = IntegerVector::Unit(static_cast<Eigen::Index>(random_.below(3)));
     IntegerVector along = corners[0];
-    IntegerVector step = random_.between(-3, 3) * ab + random_.between(-3, 3) * ac;
+    IntegerVector step = random_.between(-3, 3) * ab;
+    step += random_.between(-3, 3) * ac;
     IntegerVector out = ab.cross(ac);
     switch (random_.below(3)) {
       case 0:
@@ -41,7 +44,8 @@ class BoxPairDrawer {
       case 1:
         along += ab / 2;
         out = ab.cross(coordinate);
-        step = random_.between(-3, 3) * ab + random_.between(-9, 9) * coordinate;
+        step = random_.between(-3, 3) * ab;
+        step += random_.between(-9, 9) * coordinate;
         break;
       default:
         out = random_.one_in(2) ? coordinate : integers(4);
@@ -114,7 +118,8 @@ class BoxPairDrawer {
   BoxPair<Scalar> starts_touching() {
     BoxPair<Scalar> pair = general();
     const Vector3<Scalar> way = pair.box.end - pair.box.start;
-    pair.box.start = inside(pair.triangle) + vector().cwiseProduct(pair.box.half_extents);
+    const Vector3<Scalar> touched = inside(pair.triangle);
+    pair.box.start = touched + vector().cwiseProduct(pair.box.half_extents);
     pair.box.end = pair.box.start + way;
     return pair;
   }
@@ -147,12 +152,14 @@ class BoxPairDrawer {
 
   BoxPair<Scalar> with_size(Scalar size) {
     const Triangle<Scalar> triangle = {vector(), vector(), vector()};
-    return aimed(triangle, extents() * size, vector() * std::max<Scalar>(1, size));
+    const Vector3<Scalar> half = extents() * size;
+    return aimed(triangle, half, vector() * std::max<Scalar>(1, size));
   }
 
   BoxPair<Scalar> far_away() {
     BoxPair<Scalar> pair = general();
-    const Vector3<Scalar> by = vector() * static_cast<Scalar>(1 << random_.below(20));
+    const Vector3<Scalar> way = vector();
+    const Vector3<Scalar> by = way * static_cast<Scalar>(1 << random_.below(20));
     for (Vector3<Scalar>* x : {&pair.box.start, &pair.box.end, &pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) {
       *x += by;
     }
@@ -163,7 +170,8 @@ class BoxPairDrawer {
     BoxPair<Scalar> pair = general();
     const Scalar share = random_.unit<Scalar>();
     pair.triangle.c = pair.triangle.a + share * (pair.triangle.b - pair.triangle.a);
-    pair.triangle.c += vector() / static_cast<Scalar>(std::int64_t{1} << random_.below(30));
+    const Vector3<Scalar> offset = vector();
+    pair.triangle.c += offset / static_cast<Scalar>(std::int64_t{1} << random_.below(30));
     return aimed(pair.triangle, pair.box.half_extents, vector());
   }
 
@@ -244,7 +252,8 @@ class BoxPairDrawer {
   }
   /// A box that passes a point of the triangle at about its half extents, so about half of all boxes touch it.
   BoxPair<Scalar> aimed(const Triangle<Scalar>& triangle, const Vector3<Scalar>& half, const Vector3<Scalar>& step) {
-    const Vector3<Scalar> near = inside(triangle) + vector().cwiseProduct(half) * 2;
+    const Vector3<Scalar> point = inside(triangle);
+    const Vector3<Scalar> near = point + vector().cwiseProduct(half) * 2;
     const Scalar share = 2 * random_.unit<Scalar>();
     return {{near - share * step, near + (1 - share) * step, half}, triangle};
   }
@@ -310,7 +319,8 @@ template <typename Scalar>
 BoxPair<Scalar> draw_box_pair(BoxFamily family, Random& random) {
   BoxPairDrawer<Scalar> draw(random);
   const auto power = [&](std::int64_t low, std::int64_t high) {
-    return std::ldexp(random.unit<Scalar>(), static_cast<int>(random.between(low, high)));
+    const Scalar factor = random.unit<Scalar>();
+    return std::ldexp(factor, static_cast<int>(random.between(low, high)));
   };
   switch (family) {
     case BoxFamily::general:
@@ -341,8 +351,10 @@ BoxPair<Scalar> draw_box_pair(BoxFamily family, Random& random) {
       return draw.degenerate();
     case BoxFamily::at_rest:
       return draw.at_rest();
-    case BoxFamily::flat_boxes:
-      return draw.flattened(draw.any(), 1 + random.below(6));
+    case BoxFamily::flat_boxes: {
+      const BoxPair<Scalar> pair = draw.any();
+      return draw.flattened(pair, 1 + random.below(6));
+    }
     case BoxFamily::no_extents:
       return draw.flattened(draw.any(), 7);
     case BoxFamily::small_integers:

@@ -24,14 +24,21 @@ class CapsulePairDrawer {
  public:
   explicit CapsulePairDrawer(Random& random) : random_(random) {}
 
-  CapsulePair<Scalar> general() { return aimed(triangle(), vector(), radius(), vector() * 2); }
+  CapsulePair<Scalar> general() {
+    const Triangle<Scalar> triangle = this->triangle();
+    const Vector3<Scalar> axis = vector();
+    const Scalar radius = this->radius();
+    return aimed(triangle, axis, radius, vector() * 2);
+  }
 
   /// A wall with an upright edge, in a random upright plane.
   CapsulePair<Scalar> upright_at_walls() {
     Triangle<Scalar> wall = triangle();
     wall.c[0] = wall.a[0];
     wall.c[1] = wall.a[1];
-    CapsulePair<Scalar> pair = aimed(wall, Vector3<Scalar>(0, 0, random_.symmetric<Scalar>()), radius(), vector() * 2);
+    const Vector3<Scalar> axis(0, 0, random_.symmetric<Scalar>());
+    const Scalar radius = this->radius();
+    CapsulePair<Scalar> pair = aimed(wall, axis, radius, vector() * 2);
     if (random_.one_in(3)) std::swap(pair.triangle.a, pair.triangle.b);
     if (random_.one_in(3)) pair.capsule.end[2] = pair.capsule.start[2];
     return random_.one_in(4) ? beside(pair) : pair;
@@ -41,7 +48,8 @@ class CapsulePairDrawer {
     floor.b[2] = floor.c[2] = floor.a[2];
     Vector3<Scalar> axis = vector();
     axis[2] = 0;
-    CapsulePair<Scalar> pair = aimed(floor, axis, radius(), vector() * 2);
+    const Scalar radius = this->radius();
+    CapsulePair<Scalar> pair = aimed(floor, axis, radius, vector() * 2);
     if (random_.one_in(3)) {
       pair.capsule.end[0] = pair.capsule.start[0];
       pair.capsule.end[1] = pair.capsule.start[1];
@@ -99,7 +107,9 @@ class CapsulePairDrawer {
   CapsulePair<Scalar> starts_touching() {
     CapsulePair<Scalar> pair = general();
     const Vector3<Scalar> way = pair.capsule.end - pair.capsule.start;
-    pair.capsule.start = inside(pair.triangle) + vector() * pair.capsule.radius + place() * pair.capsule.half_axis;
+    const Vector3<Scalar> touched = inside(pair.triangle);
+    const Vector3<Scalar> offset = vector();
+    pair.capsule.start = touched + offset * pair.capsule.radius + place() * pair.capsule.half_axis;
     pair.capsule.end = pair.capsule.start + way;
     return pair;
   }
@@ -107,7 +117,8 @@ class CapsulePairDrawer {
   CapsulePair<Scalar> starts_across() {
     if (random_.one_in(2)) {
       CapsulePair<Scalar> pair = starts_touching();
-      pair.capsule.start = inside(pair.triangle) + place() * pair.capsule.half_axis;
+      const Vector3<Scalar> touched = inside(pair.triangle);
+      pair.capsule.start = touched + place() * pair.capsule.half_axis;
       return pair;
     }
     IntegerPair pair;
@@ -146,11 +157,14 @@ class CapsulePairDrawer {
   }
 
   CapsulePair<Scalar> with_sizes(Scalar radius, Scalar length) {
-    return aimed(triangle(), vector() * length, radius, vector() * std::max<Scalar>(1, radius));
+    const Triangle<Scalar> triangle = this->triangle();
+    const Vector3<Scalar> axis = vector() * length;
+    return aimed(triangle, axis, radius, vector() * std::max<Scalar>(1, radius));
   }
   CapsulePair<Scalar> far_away() {
     CapsulePair<Scalar> pair = general();
-    const Vector3<Scalar> by = vector() * static_cast<Scalar>(1 << random_.below(20));
+    const Vector3<Scalar> way = vector();
+    const Vector3<Scalar> by = way * static_cast<Scalar>(1 << random_.below(20));
     for (Vector3<Scalar>* x :
          {&pair.capsule.start, &pair.capsule.end, &pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) {
       *x += by;
@@ -161,7 +175,8 @@ class CapsulePairDrawer {
     CapsulePair<Scalar> pair = general();
     const Scalar share = random_.unit<Scalar>();
     pair.triangle.c = pair.triangle.a + share * (pair.triangle.b - pair.triangle.a);
-    pair.triangle.c += vector() / static_cast<Scalar>(std::int64_t{1} << random_.below(30));
+    const Vector3<Scalar> offset = vector();
+    pair.triangle.c += offset / static_cast<Scalar>(std::int64_t{1} << random_.below(30));
     return aimed(pair.triangle, pair.capsule.half_axis, pair.capsule.radius, vector());
   }
   CapsulePair<Scalar> degenerate() {
@@ -184,12 +199,12 @@ class CapsulePairDrawer {
   }
   CapsulePair<Scalar> small_integers() {
     const auto draw = [&] { return static_cast<Scalar>(random_.between(-3, 3)); };
-    const auto point = [&] { return Vector3<Scalar>(draw(), draw(), draw()); };
+    const auto point = [&] { return Vector3<Scalar>{draw(), draw(), draw()}; };
     return {{point(), point(), point(), static_cast<Scalar>(random_.between(0, 3))}, {point(), point(), point()}};
   }
   CapsulePair<Scalar> mixed_magnitudes() {
     const auto draw = [&] { return random_.one_in(4) ? Scalar{0} : random_.any_finite<Scalar>(); };
-    const auto point = [&] { return Vector3<Scalar>(draw(), draw(), draw()); };
+    const auto point = [&] { return Vector3<Scalar>{draw(), draw(), draw()}; };
     return {{point(), point(), point(), std::fabs(draw())}, {point(), point(), point()}};
   }
 
@@ -242,7 +257,10 @@ class CapsulePairDrawer {
     const Vector3<Scalar> b = vector();
     return {a, b, vector()};
   }
-  Scalar radius() { return random_.unit<Scalar>() / static_cast<Scalar>(1 << random_.below(6)); }
+  Scalar radius() {
+    const Scalar factor = random_.unit<Scalar>();
+    return factor / static_cast<Scalar>(1 << random_.below(6));
+  }
   /// A place on the core, often one of its ends.
   Scalar place() { return random_.one_in(2) ? random_.symmetric<Scalar>() : Scalar(random_.one_in(2) ? 1 : -1); }
   Vector3<Scalar> inside(const Triangle<Scalar>& triangle) {
@@ -256,7 +274,9 @@ class CapsulePairDrawer {
   /// A capsule that passes a point of the triangle at about its radius, so about half of all capsules touch it.
   CapsulePair<Scalar> aimed(const Triangle<Scalar>& triangle, const Vector3<Scalar>& axis, Scalar radius,
                             const Vector3<Scalar>& step) {
-    const Vector3<Scalar> near = inside(triangle) + vector() * (2 * radius) + place() * axis;
+    const Vector3<Scalar> point = inside(triangle);
+    const Vector3<Scalar> offset = vector();
+    const Vector3<Scalar> near = point + offset * (2 * radius) + place() * axis;
     const Scalar share = 2 * random_.unit<Scalar>();
     return {{near - share * step, near + (1 - share) * step, axis, radius}, triangle};
   }
@@ -335,6 +355,10 @@ CapsulePair<Scalar> draw_capsule_pair(CapsuleFamily family, Random& random) {
     const Scalar factor = random.unit<Scalar>();
     return std::ldexp(factor, static_cast<int>(random.between(low, high)));
   };
+  const auto with_length = [&](std::int64_t low, std::int64_t high) {
+    const Scalar radius = random.unit<Scalar>() / 4;
+    return draw.with_sizes(radius, power(low, high));
+  };
   const auto draw_exact = [&] { return random.one_in(2) ? draw.tangent() : draw.in_plane(); };
   CapsulePair<Scalar> pair;
   switch (family) {
@@ -363,9 +387,9 @@ CapsulePair<Scalar> draw_capsule_pair(CapsuleFamily family, Random& random) {
     case CapsuleFamily::huge_radii:
       return draw.with_sizes(power(2, 30), 1);
     case CapsuleFamily::short_axes:
-      return draw.with_sizes(random.unit<Scalar>() / 4, power(-30, -6));
+      return with_length(-30, -6);
     case CapsuleFamily::long_axes:
-      return draw.with_sizes(random.unit<Scalar>() / 4, power(2, 20));
+      return with_length(2, 20);
     case CapsuleFamily::far_away:
       return draw.far_away();
     case CapsuleFamily::slivers:

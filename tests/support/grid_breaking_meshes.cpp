@@ -98,8 +98,8 @@ template <typename Scalar>
 GeneratedMesh<Scalar> line_of_needles(std::size_t count, Random& random) {
   GeneratedMesh<Scalar> mesh;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vector3<Scalar> a(static_cast<Scalar>(i), random.symmetric<Scalar>(), random.symmetric<Scalar>());
-    const Vector3<Scalar> along(1000, random.symmetric<Scalar>(), random.symmetric<Scalar>());
+    const Vector3<Scalar> a{static_cast<Scalar>(i), random.symmetric<Scalar>(), random.symmetric<Scalar>()};
+    const Vector3<Scalar> along{1000, random.symmetric<Scalar>(), random.symmetric<Scalar>()};
     mesh.add({a, a + along, a + in_cube<Scalar>(random)});
   }
   return mesh;

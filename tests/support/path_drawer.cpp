@@ -106,7 +106,7 @@ Segment<Scalar> far_through_origin(int exponent, Random& random) {
   constexpr int digits = std::numeric_limits<Scalar>::digits;
   const auto whole = [&](int bits) { return static_cast<Scalar>(random.between(1, (std::int64_t{1} << bits) - 1)); };
   const auto component = [&] { return random.one_in(2) ? whole(digits / 2) : -whole(digits / 2); };
-  const Vector3<Scalar> direction(component(), component(), component());
+  const Vector3<Scalar> direction{component(), component(), component()};
   const auto distance = [&] {
     const int bits = digits - digits / 2;
     return std::ldexp(whole(bits - 1) + std::ldexp(Scalar{1}, bits - 1), exponent - digits);

@@ -8,7 +8,8 @@
 namespace surehit::test {
 
 /// SplitMix64 (Steele, Lea and Flood 2014). Neither libm nor a std:: distribution is asked, so every platform draws the
-/// same.
+/// same. Draws of one expression are in braces or in statements of their own, since compilers evaluate arguments in
+/// different orders.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -44,8 +44,10 @@ Matrixd of_quaternion(double w, double x, double y, double z) {
 Matrixd rotation(Random& random) {
   const auto whole = [&] { return static_cast<double>(random.between(-4, 4)); };
   switch (random.below(4)) {
-    case 0:  // about an axis, with zeros in the matrix
-      return of_quaternion(1 + random.unit<double>(), 0, 0, random.symmetric<double>());
+    case 0: {  // about an axis, with zeros in the matrix
+      const double w = 1 + random.unit<double>();
+      return of_quaternion(w, 0, 0, random.symmetric<double>());
+    }
     case 1: {  // by right angles, or with short numbers
       const double x = whole();
       const double y = whole();
@@ -83,10 +85,11 @@ Pose<Scalar> nearly_singular(Random& random) {
   if (random.one_in(2)) {
     const double thickness = std::ldexp(1.0, static_cast<int>(random.between(-50, -20)));
     const Matrixd turned = rotation(random);
-    return pose_of<Scalar>(turned * Vector3<double>(1, 1, thickness).asDiagonal() * rotation(random),
-                           symmetric_vector(random));
+    const Matrixd linear = turned * Vector3<double>(1, 1, thickness).asDiagonal() * rotation(random);
+    return pose_of<Scalar>(linear, symmetric_vector(random));
   }
-  Pose<Scalar> pose = pose_of<Scalar>(rotation(random), symmetric_vector(random));
+  const Matrixd turned = rotation(random);
+  Pose<Scalar> pose = pose_of<Scalar>(turned, symmetric_vector(random));
   const auto factor = static_cast<Scalar>(random.between(-2, 2));
   pose.linear.row(2) = factor * pose.linear.row(0) + pose.linear.row(1);
   Scalar& entry = pose.linear(2, static_cast<int>(random.below(3)));
@@ -99,7 +102,8 @@ Pose<Scalar> of_all_magnitudes(Random& random) {
   Matrixd linear;
   for (double& x : linear.reshaped()) {
     const auto exponent = static_cast<int>(random.between(-64, 63));
-    x = random.one_in(4) ? 0 : std::ldexp(1 + random.unit<double>(), exponent) * (random.one_in(2) ? 1 : -1);
+    x = random.one_in(4) ? 0 : std::ldexp(1 + random.unit<double>(), exponent);
+    if (x != 0 && random.one_in(2)) x = -x;
   }
   Vector3<Scalar> translation = symmetric_vector(random).cast<Scalar>();
   for (Scalar& x : translation) {
@@ -121,10 +125,14 @@ Pose<Scalar> any_pose(SceneFamily family, Random& random) {
       for (double& x : linear.reshaped()) x = static_cast<double>(random.between(-2, 2));
       return pose_of<Scalar>(linear, whole_vector(random, 4));
     }
-    case SceneFamily::rotations:
-      return pose_of<Scalar>(rotation(random), translation());
-    case SceneFamily::mirrored:
-      return pose_of<Scalar>(rotation(random) * Vector3<double>(1, 1, -1).asDiagonal(), translation());
+    case SceneFamily::rotations: {
+      const Matrixd linear = rotation(random);
+      return pose_of<Scalar>(linear, translation());
+    }
+    case SceneFamily::mirrored: {
+      const Matrixd linear = rotation(random) * Vector3<double>(1, 1, -1).asDiagonal();
+      return pose_of<Scalar>(linear, translation());
+    }
     case SceneFamily::sheared: {
       Matrixd linear = Matrixd::Identity();
       for (double& x : linear.reshaped()) {
@@ -224,8 +232,10 @@ Vector3<Scalar> draw_motion(SceneFamily family, const Pose<Scalar>& pose, Random
       return whole_vector(random, 3).cast<Scalar>();
     case 2:  // as large as the image is
       return pose.linear * symmetric_vector(random).cast<Scalar>();
-    case 3:
-      return Vector3<double>(symmetric_vector(random) * (random.one_in(2) ? 0x1p50 : 0x1p-50)).cast<Scalar>();
+    case 3: {
+      const Vector3<double> motion = symmetric_vector(random);
+      return Vector3<double>(motion * (random.one_in(2) ? 0x1p50 : 0x1p-50)).cast<Scalar>();
+    }
     default:
       return symmetric_vector(random).cast<Scalar>();
   }

@@ -19,7 +19,8 @@ class SpherePairDrawer {
 
   SpherePair<Scalar> general() {
     const Triangle<Scalar> triangle = {vector(), vector(), vector()};
-    const Scalar radius = random_.unit<Scalar>() / static_cast<Scalar>(1 << random_.below(6));
+    const Scalar factor = random_.unit<Scalar>();
+    const Scalar radius = factor / static_cast<Scalar>(1 << random_.below(6));
     return aimed(triangle, radius, vector() * 2);
   }
 
@@ -102,7 +103,8 @@ class SpherePairDrawer {
   SpherePair<Scalar> starts_touching() {
     SpherePair<Scalar> pair = general();
     const Vector3<Scalar> way = pair.sphere.end - pair.sphere.start;
-    pair.sphere.start = inside(pair.triangle) + vector() * pair.sphere.radius;
+    const Vector3<Scalar> touched = inside(pair.triangle);
+    pair.sphere.start = touched + vector() * pair.sphere.radius;
     pair.sphere.end = pair.sphere.start + way;
     return pair;
   }
@@ -136,7 +138,8 @@ class SpherePairDrawer {
 
   SpherePair<Scalar> far_away() {
     SpherePair<Scalar> pair = general();
-    const Vector3<Scalar> by = vector() * static_cast<Scalar>(1 << random_.below(20));
+    const Vector3<Scalar> way = vector();
+    const Vector3<Scalar> by = way * static_cast<Scalar>(1 << random_.below(20));
     for (Vector3<Scalar>* x :
          {&pair.sphere.start, &pair.sphere.end, &pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) {
       *x += by;
@@ -148,7 +151,8 @@ class SpherePairDrawer {
     SpherePair<Scalar> pair = general();
     const Scalar share = random_.unit<Scalar>();
     pair.triangle.c = pair.triangle.a + share * (pair.triangle.b - pair.triangle.a);
-    pair.triangle.c += vector() / static_cast<Scalar>(std::int64_t{1} << random_.below(30));
+    const Vector3<Scalar> offset = vector();
+    pair.triangle.c += offset / static_cast<Scalar>(std::int64_t{1} << random_.below(30));
     return aimed(pair.triangle, pair.sphere.radius, vector());
   }
 
@@ -173,13 +177,13 @@ class SpherePairDrawer {
 
   SpherePair<Scalar> small_integers() {
     const auto draw = [&] { return static_cast<Scalar>(random_.between(-3, 3)); };
-    const auto point = [&] { return Vector3<Scalar>(draw(), draw(), draw()); };
+    const auto point = [&] { return Vector3<Scalar>{draw(), draw(), draw()}; };
     return {{point(), point(), static_cast<Scalar>(random_.between(0, 3))}, {point(), point(), point()}};
   }
 
   SpherePair<Scalar> mixed_magnitudes() {
     const auto draw = [&] { return random_.one_in(4) ? Scalar{0} : random_.any_finite<Scalar>(); };
-    const auto point = [&] { return Vector3<Scalar>(draw(), draw(), draw()); };
+    const auto point = [&] { return Vector3<Scalar>{draw(), draw(), draw()}; };
     return {{point(), point(), std::fabs(draw())}, {point(), point(), point()}};
   }
 
@@ -199,7 +203,8 @@ class SpherePairDrawer {
   }
   /// A ball that passes a point of the triangle at about its radius, so about half of all balls touch it.
   SpherePair<Scalar> aimed(const Triangle<Scalar>& triangle, Scalar radius, const Vector3<Scalar>& step) {
-    const Vector3<Scalar> near = inside(triangle) + vector() * (2 * radius);
+    const Vector3<Scalar> point = inside(triangle);
+    const Vector3<Scalar> near = point + vector() * (2 * radius);
     const Scalar share = 2 * random_.unit<Scalar>();
     return {{near - share * step, near + (1 - share) * step, radius}, triangle};
   }
@@ -263,7 +268,8 @@ template <typename Scalar>
 SpherePair<Scalar> draw_sphere_pair(SphereFamily family, Random& random) {
   SpherePairDrawer<Scalar> draw(random);
   const auto power = [&](std::int64_t low, std::int64_t high) {
-    return std::ldexp(random.unit<Scalar>(), static_cast<int>(random.between(low, high)));
+    const Scalar factor = random.unit<Scalar>();
+    return std::ldexp(factor, static_cast<int>(random.between(low, high)));
   };
   switch (family) {
     case SphereFamily::general:

@@ -22,7 +22,7 @@ Vec difference(const Vec& x, const Vec& y) {
 /// GMP adds and subtracts products in place. Expressions allocate memory for each, which takes longer than they do.
 mpz_class dot(const Vec& x, const Vec& y) {
   mpz_class sum = x[0] * y[0];
-  for (const std::size_t i : {1, 2}) mpz_addmul(sum.get_mpz_t(), x[i].get_mpz_t(), y[i].get_mpz_t());
+  for (const std::size_t i : {1U, 2U}) mpz_addmul(sum.get_mpz_t(), x[i].get_mpz_t(), y[i].get_mpz_t());
   return sum;
 }
 Vec cross(const Vec& x, const Vec& y) {
