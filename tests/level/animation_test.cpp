@@ -99,7 +99,7 @@ TEST(Animation, chunks_end_with_their_checksums) {
   EXPECT_EQ(file.substr(file.size() - 12), std::string("\0\0\0\0IEND\xae\x42\x60\x82", 12));
 }
 
-TEST(Animation, needs_a_frame) { EXPECT_THROW(encode_animation({}, 50), std::invalid_argument); }
+TEST(Animation, needs_a_frame) { EXPECT_THROW((void)encode_animation({}, 50), std::invalid_argument); }
 
 }  // namespace
 }  // namespace surehit::example

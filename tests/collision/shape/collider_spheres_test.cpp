@@ -394,7 +394,7 @@ TYPED_TEST(ColliderSpheres, AnswerTheLastOfABatchThatMostlyMisses) {
   const SweptSphere<Scalar> passing{{-1, 0, 2}, {1, 1, 2}, radius};
   const SweptSphere<Scalar> hitting{{Scalar(0.25), Scalar(0.25), 1}, {Scalar(0.25), Scalar(0.25), -1}, radius};
   const SweptSphere<Scalar> invalid{{0, 0, 0}, {0, 0, 0}, -1};
-  for (const std::size_t index : {0, 1, 15, 16, 17, 40, 99}) {
+  for (const std::size_t index : {0U, 1U, 15U, 16U, 17U, 40U, 99U}) {
     std::vector<SweptSphere<Scalar>> spheres(100, passing);
     spheres[50] = invalid;
     spheres[index] = hitting;

@@ -155,7 +155,7 @@ TEST_F(SweptJudge, finds_nothing_wrong_with_surehit) {
       const std::vector<std::string> all = sums(outcome.output);
       ASSERT_EQ(all.size(), 8U) << outcome.output;
       EXPECT_GT(std::stoi(all[2]), 200);
-      for (const std::size_t wrong : {3, 4, 5, 6}) EXPECT_EQ(all[wrong], "0") << outcome.output;
+      for (const std::size_t wrong : {3U, 4U, 5U, 6U}) EXPECT_EQ(all[wrong], "0") << outcome.output;
     }
   }
 }
