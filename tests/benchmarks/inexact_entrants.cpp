@@ -113,6 +113,7 @@ class FirstAsComputed {
   using Kernel = AnyKernel;
   static constexpr bool wants_order = true;
   static constexpr bool shortens = true;
+  static constexpr bool passes_over_octets = true;
 
   explicit FirstAsComputed(const Query<float>&) {}
   void begin(const Query<float>&) { reset(); }
@@ -157,6 +158,7 @@ class AnyAsComputed {
   using Kernel = AnyKernel;
   static constexpr bool wants_order = false;
   static constexpr bool shortens = false;
+  static constexpr bool passes_over_octets = true;
 
   explicit AnyAsComputed(const Query<float>&) {}
   void begin(const Query<float>&) { reset(); }

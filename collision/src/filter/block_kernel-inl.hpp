@@ -33,6 +33,7 @@ struct TriangleList {
   std::size_t count;        ///< The number of triangles.
   std::size_t first_entry;  ///< The index of the first triangle among the grid's entries.
   Scalar edge_size;         ///< The largest component of any b - a and c - a, or infinity if coordinates are too large.
+  const Scalar* boxes = nullptr;  ///< The boxes of its octets, or null.
 };
 
 /// The verdicts on the triangles of one vector. Bit k of each mask is for lane k.

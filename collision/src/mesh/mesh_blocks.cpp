@@ -124,6 +124,7 @@ template <typename Index>
 void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor,
                                      [[maybe_unused]] Slabs wanted) {
   blocks_.resize(offset(grid.lists().size(), grid.entries().size()) + slack);
+  if constexpr (std::is_same_v<Scalar, float>) octets_.resize(octet_offset(grid.entries().size()) + slack);
   using Four = Eigen::Matrix<Scalar, 4, 1>;
   using FourPoints = Eigen::Matrix<Scalar, 4, 4>;
   /// The largest components of some triangles: of their first corners, and of their edges from there.
@@ -182,6 +183,9 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
     const Scalar edge = sizes.edge.maxCoeff();
     const bool is_small = sizes.corner.maxCoeff() <= largest_size / 2 && edge <= largest_size;
     *edge_size = is_small ? edge : std::numeric_limits<Scalar>::infinity();
+    if constexpr (std::is_same_v<Scalar, float>) {
+      if (count >= min_boxed) fill_octets(list, count, octets_.data() + octet_offset(first));
+    }
   };
   slabs_.clear();
   if (grid.lists().empty()) return;
@@ -189,6 +193,30 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
     if (wanted == Slabs::where_smooth && try_fill_with_slabs(grid, executor, fill)) return;
   }
   fill_all(grid, executor, fill);
+}
+
+/// Fills in the boxes around the octets of a list of `count` triangles.
+template <typename Scalar>
+void MeshBlocks<Scalar>::fill_octets(const Scalar* list, std::size_t count, Scalar* boxes) const noexcept {
+  using Eight = Eigen::Array<Scalar, octet, 1>;
+  const std::size_t box_count = count / octet;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto at = [&](std::size_t corner, std::size_t i) { return list + (3 * corner + axis) * count + i; };
+    const auto eight = [&](std::size_t corner, std::size_t i) { return Eigen::Map<const Eight>(at(corner, i)); };
+    for (std::size_t i = 0; i < box_count; ++i) {
+      const std::size_t from = octet * i;
+      Eight low = eight(0, from).min(eight(1, from)).min(eight(2, from));
+      Eight high = eight(0, from).max(eight(1, from)).max(eight(2, from));
+      if (i + 1 == box_count) {  // The last eight may overlap those before them.
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+          low = low.min(eight(corner, count - octet));
+          high = high.max(eight(corner, count - octet));
+        }
+      }
+      boxes[axis * box_count + i] = low.minCoeff();
+      boxes[(3 + axis) * box_count + i] = high.maxCoeff();
+    }
+  }
 }
 
 /// Fills all blocks and fits all slabs if the mesh is smooth. Returns whether it is.
@@ -238,8 +266,8 @@ template <typename Scalar>
 std::size_t MeshBlocks<Scalar>::memory_bytes() const noexcept {
   const std::size_t corner_bytes =
       with_corners([](const auto& triangles) { return triangles.capacity() * sizeof(triangles.front()); });
-  return vertices_.capacity() * sizeof(Vector3<Scalar>) + corner_bytes + blocks_.capacity() * sizeof(Scalar) +
-         slabs_.capacity() * sizeof(CellSlab);
+  return vertices_.capacity() * sizeof(Vector3<Scalar>) + corner_bytes +
+         (blocks_.capacity() + octets_.capacity()) * sizeof(Scalar) + slabs_.capacity() * sizeof(CellSlab);
 }
 
 template class MeshBlocks<float>;

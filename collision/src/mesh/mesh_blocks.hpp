@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <variant>
 
 #include "grid/grid.hpp"
@@ -14,7 +15,8 @@ namespace surehit {
 
 /// A collider's copy of its mesh. It has the vertices as they were given. It has the indices, in 16 bits if all fit.
 /// For each list of the grid it has a block: the corners of the list's triangles, coordinate by coordinate, as the
-/// kernel loads them. A smooth mesh also has a slab around the triangles of each list, until the mesh moves.
+/// kernel loads them. A long list of floats has a box around each eight triangles. A smooth mesh also has a slab around
+/// the triangles of each list, until the mesh moves.
 template <typename Scalar>
 class MeshBlocks {
  public:
@@ -64,6 +66,15 @@ class MeshBlocks {
   /// load may read beyond the last one.
   [[nodiscard]] static const Scalar* corners(const Scalar* block) noexcept { return block + 1; }
 
+  /// The number of triangles of an octet, which are neighbours in a list. The last octet of a list has up to 15.
+  static constexpr std::size_t octet = 8;
+  /// Returns the boxes around the octets of a list of floats, or null if it is so short that a look at them takes
+  /// longer than it saves. Coordinate k of box i is at k m + i, for m boxes: the three lowest and the three highest.
+  /// They are exact. A vector load may read beyond the last one. All lists are short in double.
+  [[nodiscard]] const Scalar* octet_boxes(std::size_t first_entry, std::size_t count) const noexcept {
+    return std::is_same_v<Scalar, float> && count >= min_boxed ? octets_.data() + octet_offset(first_entry) : nullptr;
+  }
+
   /// Returns whether lists have slabs. On a smooth mesh, most slabs are much thinner than the boxes of their lists.
   [[nodiscard]] bool has_slabs() const noexcept { return !slabs_.empty(); }
   /// Returns the slabs of the grid's lists, by list number, or null if there are none.
@@ -74,6 +85,10 @@ class MeshBlocks {
   static std::size_t offset(std::size_t list, std::size_t first_entry) noexcept {
     return coordinates * first_entry + list;  // Each earlier list has one edge size too.
   }
+  static constexpr std::size_t min_boxed = 4 * octet;  ///< The fewest triangles of a list whose octets have boxes.
+  static constexpr std::size_t box_coordinates = 6;
+  /// No two lists share a place: `count / octet` boxes end before those of the next list begin.
+  static std::size_t octet_offset(std::size_t first_entry) noexcept { return box_coordinates * (first_entry / octet); }
   enum class Slabs : std::uint8_t { none, where_smooth };
   template <typename Index>
   using Corners = detail::UnsetVector<std::array<Index, 3>>;
@@ -100,12 +115,14 @@ class MeshBlocks {
   void fill_blocks(const MeshBlocks& indexed, const Grid& grid, const Executor* executor, Slabs wanted);
   template <typename Index>
   void fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor, Slabs wanted);
+  void fill_octets(const Scalar* list, std::size_t count, Scalar* boxes) const noexcept;
   template <typename Fill>
   bool try_fill_with_slabs(const Grid& grid, const Executor* executor, const Fill& fill);
 
   detail::UnsetVector<Vector3<Scalar>> vertices_;  ///< There is one extra vertex, for a vector load of the last one.
   AnyCorners corners_;
   detail::UnsetVector<Scalar> blocks_;
+  detail::RoomyVector<Scalar> octets_;  ///< The boxes of all octets. Short lists leave their part unset.
   detail::UnsetVector<CellSlab> slabs_;
 };
 

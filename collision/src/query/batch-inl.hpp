@@ -269,21 +269,34 @@ class Batch {
   /// whose lists have more triangles than the jobs. If `loads_lists`, it loads the lists too.
   template <bool loads_lists>
   HWY_INLINE std::uint64_t list_jobs(std::uint64_t of_slots, std::size_t from) {
-    std::uint64_t longer = 0;
-    std::size_t count = 0;
-    const std::uint64_t found = of_slots;
-    for (; of_slots != 0; of_slots &= of_slots - 1) {
-      const auto slot = static_cast<std::size_t>(std::countr_zero(of_slots));
-      if constexpr (loads_lists) {
+    if constexpr (loads_lists) {
+      for (std::uint64_t found = of_slots; found != 0; found &= found - 1) {
+        const auto slot = static_cast<std::size_t>(std::countr_zero(found));
         const CellWord word(words_[slot]);
         jobs_.find_list(slot, query_, word);
         in_inner_ |= std::uint64_t{word.has_inner_grid()} << slot;
       }
-      longer |= std::uint64_t{jobs_.add(slot, from, count)} << slot;
+      jobs_.load_bounds(of_slots);
+    }
+    std::uint64_t longer = 0;
+    std::size_t count = 0;
+    for (; of_slots != 0; of_slots &= of_slots - 1) {
+      const auto slot = static_cast<std::size_t>(std::countr_zero(of_slots));
+      longer |= std::uint64_t{add_jobs(slot, from, count)} << slot;
     }
     jobs_.set_count(count);
-    if constexpr (loads_lists) jobs_.load_bounds(found);
     return longer;
+  }
+
+  /// Makes jobs from the list of a slot, as `ListJobs::add` does. It passes over octets that the path misses.
+  HWY_INLINE bool add_jobs(std::size_t slot, std::size_t from, std::size_t& count) {
+    if constexpr (is_float && !Queries::is_placed && requires { Visitor::passes_over_octets; }) {
+      if (jobs_.has_boxes(slot)) {
+        const auto& range = queries_.range(index_[slot]);
+        return jobs_.add_met(slot, from, range.first, last_that_counts(range, visitors_[slot]), count);
+      }
+    }
+    return jobs_.add(slot, from, count);
   }
 
   /// Gives the triangles of an open job to the visitor of their path. Returns the bit of the slot if its path is done.

@@ -192,9 +192,10 @@ class FirstHit {
  public:
   using Kernel = BlockKernel<Scalar>;
   using Narrowphase = detail::Narrowphase<Scalar>;
-  using AnyPath = Path<Scalar>;              ///< The paths that the narrowphase takes.
-  static constexpr bool wants_order = true;  ///< It needs `CandidateBlock::first`.
-  static constexpr bool shortens = true;     ///< Nothing beyond `limit()` counts.
+  using AnyPath = Path<Scalar>;                     ///< The paths that the narrowphase takes.
+  static constexpr bool wants_order = true;         ///< It needs `CandidateBlock::first`.
+  static constexpr bool shortens = true;            ///< Nothing beyond `limit()` counts.
+  static constexpr bool passes_over_octets = true;  ///< It needs no triangle of an octet whose box is missed.
 
   explicit FirstHit(const Query<Scalar>& query) : trusts_kernel_(counts_every_hit(query)) {}
   /// Forgets the hit, and begins with another query.
@@ -372,6 +373,7 @@ class AnyHit {
   using AnyPath = Path<Scalar>;  ///< The paths that the narrowphase takes.
   static constexpr bool wants_order = false;
   static constexpr bool shortens = false;
+  static constexpr bool passes_over_octets = true;
 
   explicit AnyHit(const Query<Scalar>&) {}
   /// Begins with another query.
@@ -408,6 +410,7 @@ class AllHits {
   using AnyPath = Path<Scalar>;  ///< The paths that the narrowphase takes.
   static constexpr bool wants_order = false;
   static constexpr bool shortens = false;
+  static constexpr bool passes_over_octets = true;
 
   /// Takes nothing. Returns all lanes that are not certain misses.
   template <typename AnyPath>

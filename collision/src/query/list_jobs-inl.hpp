@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include "filter/block_kernel-inl.hpp"
+#include "filter/octet_boxes-inl.hpp"
 #include "query/batch_queries-inl.hpp"
 #include "query/far_path.hpp"
 #include "query/query_walk-inl.hpp"
@@ -102,6 +103,10 @@ class ListJobs {
     list.count = query.grid.entry_count(word);
     list.corners = MeshBlocks<Scalar>::corners(query.mesh.block(word.list(), list.first_entry));
     prefetch(list);
+    if constexpr (requires { Visitor::passes_over_octets; }) {
+      list.boxes = query.mesh.octet_boxes(list.first_entry, list.count);
+      if (list.boxes != nullptr) prefetch_boxes(list);
+    }
     query.statistics.candidates += list.count;
   }
   /// Computes the bounds of the paths of these slots with the lists that were found. Only this reads the memory of the
@@ -127,6 +132,21 @@ class ListJobs {
     count += (std::min(left, max_at_once) + lanes - 1) / lanes;
     return left > max_at_once;
   }
+  /// Does the same, but passes over the octets that the path misses between the parameters `first` and `last`. The list
+  /// must have boxes, and `load_bounds` must have read it.
+  HWY_INLINE bool add_met(std::size_t slot, std::size_t from, Scalar first, Scalar last, std::size_t& count) {
+    const std::size_t lanes = hn::Lanes(hn::ScalableTag<Scalar>());
+    const std::size_t left = lists_[slot].count - from;
+    const std::uint64_t octets = octets_met(kernel_path_[slot], lists_[slot], from, first, last);
+    for (std::size_t i = 0; i < std::min(left, max_at_once); i += lanes) {
+      jobs_[count] = {static_cast<std::uint16_t>(slot), static_cast<std::uint16_t>(i)};
+      count += (octets >> i / MeshBlocks<Scalar>::octet & octets_of_lanes(lanes)) != 0 ? 1 : 0;
+    }
+    return left > max_at_once;
+  }
+  /// Returns whether `add_met` may be called for the list of a slot. A path that was moved is not exactly the kernel's.
+  [[nodiscard]] bool has_boxes(std::size_t slot) const { return lists_[slot].boxes != nullptr && !is_moved(slot); }
+
   /// Returns the number of jobs.
   [[nodiscard]] std::size_t count() const { return count_; }
   void set_count(std::size_t count) { count_ = count; }
@@ -197,6 +217,13 @@ class ListJobs {
     constexpr std::size_t lines = 4;
     constexpr std::size_t line = 64 / sizeof(Scalar);
     for (std::size_t from = 0; from < lines * line; from += line) hwy::Prefetch(list.corners + from);
+  }
+
+  /// Fetches the boxes of a list that has about as many triangles as most long ones.
+  static void prefetch_boxes(const TriangleList<Scalar>& list) {
+    constexpr std::size_t lines = 3;
+    constexpr std::size_t line = 64 / sizeof(Scalar);
+    for (std::size_t from = 0; from < lines * line; from += line) hwy::Prefetch(list.boxes + from);
   }
 
   std::array<KernelPath<Scalar>, slots> kernel_path_;         ///< The path of each slot.

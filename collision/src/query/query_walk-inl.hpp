@@ -18,6 +18,7 @@
 #include "filter/double_hit_rounding-inl.hpp"
 #include "filter/hit_rounding-inl.hpp"
 #include "filter/kernel_path.hpp"
+#include "filter/octet_boxes-inl.hpp"
 #include "query/clipped_to-inl.hpp"
 #include "query/hit_visitors-inl.hpp"
 #if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
@@ -41,8 +42,9 @@ template <typename Scalar>
 HWY_INLINE TriangleList<Scalar> list_of(const Query<Scalar>& query, CellWord word) {
   const std::size_t first = query.grid.first_entry(word);
   const Scalar* block = query.mesh.block(word.list(), first);
-  return {MeshBlocks<Scalar>::corners(block), query.grid.entry_count(word), first,
-          MeshBlocks<Scalar>::edge_size(block)};
+  const std::size_t count = query.grid.entry_count(word);
+  return {MeshBlocks<Scalar>::corners(block), count, first, MeshBlocks<Scalar>::edge_size(block),
+          query.mesh.octet_boxes(first, count)};
 }
 
 /// The path and its range, as the kernel needs them.
@@ -77,16 +79,34 @@ HWY_INLINE float reach_from_start(const FarPath& far_path, const KernelPath<floa
   return far_path.reach_from_start(kernel_path);
 }
 
+/// Returns the last t of the range that a hit may have and still count.
+template <typename Scalar, typename Visitor>
+HWY_INLINE Scalar last_that_counts(const PathRange<Scalar>& range, const Visitor& visitor) {
+  if constexpr (Visitor::shortens) return std::min(range.last, visitor.t_upper());
+  return range.last;
+}
+
 /// Gives the visitor the triangles of a list that the path may meet. Returns true if the path is shorter now, or if the
 /// visitor is done. Here and below, `AnyPath` is a `Path`, a `FarPath` or a `PlacedPath`.
 template <typename Scalar, typename AnyPath, typename Visitor>
 HWY_INLINE bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& range, const AnyPath& path,
                            const KernelInput<Scalar>& input, const TriangleList<Scalar>& list, Visitor& visitor) {
   using Kernel = typename Visitor::Kernel;
+  const std::size_t lanes = hn::Lanes(hn::ScalableTag<Scalar>());
   query.statistics.candidates += list.count;
   bool shorter = false;
   const auto bounds = Kernel::bounds(input.path, input.weights, list);
-  for (std::size_t from = 0; from < list.count; from += hn::Lanes(hn::ScalableTag<Scalar>())) {
+  [[maybe_unused]] std::uint64_t octets = ~std::uint64_t{0};
+  for (std::size_t from = 0; from < list.count; from += lanes) {
+    // A path that was moved or placed is not exactly the kernel's.
+    if constexpr (std::is_same_v<AnyPath, Path<float>> && requires { Visitor::passes_over_octets; }) {
+      constexpr std::size_t octet = MeshBlocks<float>::octet;
+      const std::size_t place = from % (octet * max_octets);
+      if (place == 0 && list.boxes != nullptr) {
+        octets = octets_met(input.path, list, from, range.first, last_that_counts(range, visitor));
+      }
+      if ((octets >> place / octet & octets_of_lanes(lanes)) == 0) continue;
+    }
     FirstLanes<Scalar> first = {};
     Verdicts verdicts;
     if constexpr (Visitor::wants_order) {

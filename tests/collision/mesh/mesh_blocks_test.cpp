@@ -44,6 +44,29 @@ class MeshBlocksTest : public testing::Test {
         }
       }
       EXPECT_EQ(blocks.edge_size(block), edge_size);
+      expect_octet_boxes(MeshBlocks<Scalar>::corners(block), ids.size(),
+                         blocks.octet_boxes(grid.first_entry(leaf.word), ids.size()));
+    }
+  }
+
+  /// The boxes of a list's octets are exact, if there are any. The last one has the triangles after it too.
+  static void expect_octet_boxes(const Scalar* corners, std::size_t count, const Scalar* boxes) {
+    constexpr std::size_t octet = MeshBlocks<Scalar>::octet;
+    const bool is_long = std::is_same_v<Scalar, float> && count >= 4 * octet;
+    ASSERT_EQ(boxes != nullptr, is_long) << count;
+    if (!is_long) return;
+    const std::size_t box_count = count / octet;
+    for (std::size_t i = 0; i < box_count; ++i) {
+      Box<Scalar> box;
+      const std::size_t end = i + 1 == box_count ? count : octet * (i + 1);
+      for (std::size_t k = octet * i; k < end; ++k) {
+        const Triangle<Scalar> triangle = MeshBlocks<Scalar>::triangle(corners, count, k);
+        for (const auto* corner : {&triangle.a, &triangle.b, &triangle.c}) box.extend(*corner);
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(boxes[axis * box_count + i], box.low[static_cast<Eigen::Index>(axis)]) << i << " of " << box_count;
+        EXPECT_EQ(boxes[(3 + axis) * box_count + i], box.high[static_cast<Eigen::Index>(axis)]) << i;
+      }
     }
   }
 
