@@ -18,9 +18,9 @@
 #include <type_traits>
 
 #include "filter/block_kernel-inl.hpp"
-#include "filter/octet_boxes-inl.hpp"
 #include "query/batch_queries-inl.hpp"
 #include "query/far_path.hpp"
+#include "query/octet_boxes-inl.hpp"
 #include "query/query_walk-inl.hpp"
 #include "walk/lane_walk-inl.hpp"
 
@@ -104,7 +104,7 @@ class ListJobs {
     list.corners = MeshBlocks<Scalar>::corners(query.mesh.block(word.list(), list.first_entry));
     prefetch(list);
     if constexpr (requires { Visitor::passes_over_octets; }) {
-      list.boxes = query.mesh.octet_boxes(list.first_entry, list.count);
+      list.boxes = boxes_of(query.mesh, list.first_entry, list.count);
       if (list.boxes != nullptr) prefetch_boxes(list);
     }
     query.statistics.candidates += list.count;

@@ -18,9 +18,9 @@
 #include "filter/double_hit_rounding-inl.hpp"
 #include "filter/hit_rounding-inl.hpp"
 #include "filter/kernel_path.hpp"
-#include "filter/octet_boxes-inl.hpp"
 #include "query/clipped_to-inl.hpp"
 #include "query/hit_visitors-inl.hpp"
+#include "query/octet_boxes-inl.hpp"
 #if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
 #include "walk/lane_walk-inl.hpp"
 #endif
@@ -44,7 +44,7 @@ HWY_INLINE TriangleList<Scalar> list_of(const Query<Scalar>& query, CellWord wor
   const Scalar* block = query.mesh.block(word.list(), first);
   const std::size_t count = query.grid.entry_count(word);
   return {MeshBlocks<Scalar>::corners(block), count, first, MeshBlocks<Scalar>::edge_size(block),
-          query.mesh.octet_boxes(first, count)};
+          boxes_of(query.mesh, first, count)};
 }
 
 /// The path and its range, as the kernel needs them.

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "collision/family_cases.hpp"
-#include "filter/octet_boxes-inl.hpp"
 #include "grid/grid.hpp"
+#include "query/octet_boxes-inl.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/pair_text.hpp"
 

@@ -27,6 +27,15 @@ namespace surehit::detail::HWY_NAMESPACE {
 /// The most octets that one call of `octets_met` looks at.
 inline constexpr std::size_t max_octets = 8;
 
+/// Returns the boxes of a list's octets, or null if the kernel takes so few vectors of the list that a look at the
+/// boxes would take longer than it saves.
+template <typename Scalar>
+HWY_INLINE const Scalar* boxes_of(const MeshBlocks<Scalar>& mesh, std::size_t first_entry, std::size_t count) {
+  constexpr std::size_t min_vectors = 4;
+  const bool is_long = count >= min_vectors * hn::Lanes(hn::ScalableTag<Scalar>());
+  return is_long ? mesh.octet_boxes(first_entry, count) : nullptr;
+}
+
 /// Returns a mask with a bit for each octet of a vector of triangles. Bit 0 is for the octet of the first one.
 HWY_INLINE std::uint64_t octets_of_lanes(std::size_t lanes) {
   constexpr std::size_t octet = MeshBlocks<float>::octet;
