@@ -6,7 +6,7 @@ usage() {
   cat <<USAGE
 usage: $0 [--quick | --clang]
 
-Without options: all tests in Release with GCC, and a fiftieth of the cases with Clang under AddressSanitizer and
+Without options: all tests in Release with GCC, and a twentieth of the cases with Clang under AddressSanitizer and
 UndefinedBehaviorSanitizer.
 
   --quick   Release with Clang alone, a tenth of the cases: of the library and the examples alone
@@ -110,7 +110,7 @@ run_tests release
 
 stage "Clang, AddressSanitizer and UndefinedBehaviorSanitizer: building"
 if build asan-ubsan; then
-  stage "Clang, AddressSanitizer and UndefinedBehaviorSanitizer: testing a fiftieth of the cases"
+  stage "Clang, AddressSanitizer and UndefinedBehaviorSanitizer: testing a twentieth of the cases"
   run_tests asan-ubsan
 fi
 
