@@ -5,7 +5,7 @@ file(REMOVE_RECURSE "${TEST_FOLDER}")
 copy_library_sources("${TEST_FOLDER}/surehit")
 separate_arguments(OPTIONS)
 configure_consumer("-DSUREHIT_SOURCE_FOLDER=${TEST_FOLDER}/surehit" ${OPTIONS})
-build_and_run_consumer()
+build_and_run_consumer(${HASH_ARGUMENTS})
 
 file(GLOB_RECURSE shared_library "${TEST_FOLDER}/build/*/libsurehit.so")
 if(shared_library)

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -221,7 +222,10 @@ TYPED_TEST(CShapes, that_are_wrong_are_refused) {
   const auto draw = [&] { return draw_sphere_pair<TypeParam>(SphereFamily::starts_touching, random); };
   ASSERT_NO_FATAL_FAILURE(this->build(draw, random));
   auto* const collider = this->c.get();
-  auto shape = in_c(std::get<SweptSphere<TypeParam>>(this->shapes[0]));
+  const auto hits = [&](const auto& any) { return this->cpp.first_hit(any).has_value(); };
+  const auto hitting = std::ranges::find_if(this->shapes, hits);
+  ASSERT_NE(hitting, this->shapes.end());
+  auto shape = in_c(std::get<SweptSphere<TypeParam>>(*hitting));
   auto options = C::default_shape_options();
   typename C::Sphere ball = {};
   typename C::Shapes shapes = {&ball.start.x, 1, SUREHIT_SWEPT_SPHERE};
