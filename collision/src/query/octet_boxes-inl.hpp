@@ -52,10 +52,11 @@ HWY_INLINE std::uint64_t octets_of_lanes(std::size_t lanes) {
 ///     else. On an axis with |D| >= 2^-60, the path is at a plane p of the box at x = (p - start) / D. The computed x
 ///     takes two differences, a quotient and a product. Each has a relative error of at most u = 2^-24, and what
 ///     underflows in the product is at most 2^-149. So |x - computed x| <= 5 u |computed x| + 2^-148. Nothing
-///     overflows: with L = `KernelBound::largest_size` = 2^34, starts and first corners are at most L/2, edges at most
-///     L, so |p - start| <= 2 L, and its product with 1/D is below 2^96. The widening is 8 u |computed x| + 2^-120. It
-///     grows with x no faster than x does, so it may follow after all axes. It has room for its own rounding, and for
-///     the 1 u by which a limit that was rounded to `last` may be too low. Axes with a smaller D are left out.
+///     overflows. Let L = `KernelBound::largest_size` = 2^34. Starts and first corners are at most L/2, and edges at
+///     most L. So |p - start| <= 2 L, and its product with 1/D is below 2^96. The widening is 8 u |computed x| +
+///     2^-120. It grows with x no faster than x does, so it may follow after all axes. It has room for its own
+///     rounding, and for the 1 u by which a limit that was rounded to `last` may be too low. Axes with a smaller D are
+///     left out.
 HWY_INLINE std::uint64_t octets_met(const KernelPath<float>& path, const TriangleList<float>& list, std::size_t from,
                                     float first, float last) {
   constexpr float min_d = 0x1p-60F;
