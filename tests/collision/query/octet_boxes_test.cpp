@@ -72,6 +72,7 @@ class OctetBoxesOfFamily : public testing::TestWithParam<PairFamily> {};
 
 TEST_P(OctetBoxesOfFamily, are_met_where_a_triangle_is) {
   Random random(91);
+  std::size_t lists = 0;
   for (std::size_t k = case_count(200); k > 0 && !HasFailure(); --k) {
     std::vector<Segment<float>> segments(size);
     std::vector<Triangle<float>> triangles;
@@ -82,6 +83,7 @@ TEST_P(OctetBoxesOfFamily, are_met_where_a_triangle_is) {
     }
     const BoxedList boxed(triangles);
     if (!boxed.is_whole()) continue;
+    ++lists;
     for (const Segment<float>& segment : segments) {
       for (const PathKind kind : {PathKind::segment, PathKind::ray, PathKind::line}) {
         const Path<float> path = path_along(segment, kind);
@@ -90,6 +92,7 @@ TEST_P(OctetBoxesOfFamily, are_met_where_a_triangle_is) {
       }
     }
   }
+  EXPECT_GT(lists, case_count(200) / 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, OctetBoxesOfFamily, testing::ValuesIn(all_pair_families),
