@@ -41,40 +41,41 @@ struct SamplePlane {
   std::vector<std::int64_t> bends = {0};  ///< how far vertices are moved across, in turn
 };
 
-inline const SamplePolygon dart = {"dart", {{-4, 4}, {0, 0}, {4, 4}, {0, 2}}, {0, 1, 2, 3}};
-inline const SamplePolygon l_shape = {"L", {{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}}, {0, 1, 2, 3, 4, 5}};
+// Those that are made of others are not inline: only then is their order that of the file with every compiler.
+const SamplePolygon dart = {"dart", {{-4, 4}, {0, 0}, {4, 4}, {0, 2}}, {0, 1, 2, 3}};
+const SamplePolygon l_shape = {"L", {{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}}, {0, 1, 2, 3, 4, 5}};
 /// A bridge from its first corner leads round a window and back.
-inline const SamplePolygon keyholed_wall = {
+const SamplePolygon keyholed_wall = {
     "keyholed wall", {{0, 0}, {6, 0}, {6, 4}, {0, 4}, {2, 1}, {2, 3}, {4, 3}, {4, 1}}, {0, 1, 2, 3, 0, 4, 5, 6, 7, 4}};
-inline const SamplePolygon wall_of_two_windows = {
+const SamplePolygon wall_of_two_windows = {
     "wall of two windows",
     {{0, 0}, {9, 0}, {9, 4}, {0, 4}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {5, 1}, {5, 3}, {8, 3}, {8, 1}},
     {0, 1, 2, 3, 0, 4, 5, 6, 7, 8, 9, 10, 11, 8, 7, 4}};
-inline const SamplePolygon comb = {
+const SamplePolygon comb = {
     "comb",
     {{0, 0}, {7, 0}, {7, 5}, {6, 5}, {6, 1}, {5, 1}, {4, 4}, {3, 1}, {2, 1}, {2, 5}, {1, 5}, {1, 1}, {0, 1}},
     {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}};
-inline const SamplePolygon spiral = {
+const SamplePolygon spiral = {
     "spiral",
     {{0, 0}, {7, 0}, {7, 7}, {1, 7}, {1, 3}, {4, 3}, {4, 4}, {2, 4}, {2, 6}, {6, 6}, {6, 1}, {0, 1}},
     {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}};
-inline const SamplePolygon cross = {
+const SamplePolygon cross = {
     "cross",
     {{2, 0}, {4, 0}, {4, 2}, {6, 2}, {6, 4}, {4, 4}, {4, 6}, {2, 6}, {2, 4}, {0, 4}, {0, 2}, {2, 2}},
     {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}};
 /// Corners in one line, on convex and on concave sides, and a corner twice.
-inline const SamplePolygon arrow_of_needless_corners = {
+const SamplePolygon arrow_of_needless_corners = {
     "arrow of needless corners",
     {{0, 0}, {3, 1}, {6, 2}, {6, 2}, {3, 3}, {0, 4}, {1, 3}, {2, 2}, {1, 1}},
     {0, 1, 2, 3, 4, 5, 6, 7, 8}};
 
-inline const std::vector<SamplePolygon> sample_polygons = {dart, l_shape, keyholed_wall, wall_of_two_windows,
-                                                           comb, spiral,  cross,         arrow_of_needless_corners};
+const std::vector<SamplePolygon> sample_polygons = {dart, l_shape, keyholed_wall, wall_of_two_windows,
+                                                    comb, spiral,  cross,         arrow_of_needless_corners};
 
-inline const SamplePlane floor_plane = {"floor", {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const SamplePlane floor_plane = {"floor", {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 /// The plane of the walls that look along y.
-inline const SamplePlane wall_plane = {"wall", {0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
-inline const std::vector<SamplePlane> sample_planes = {
+const SamplePlane wall_plane = {"wall", {0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+const std::vector<SamplePlane> sample_planes = {
     floor_plane,
     wall_plane,
     {"side wall", {5, -9, 1}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}},
