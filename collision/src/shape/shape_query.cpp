@@ -7,6 +7,37 @@
 namespace surehit::detail {
 namespace {
 
+/// A visitor that is made when the walk comes to its first list. Most small shapes come to none.
+template <typename Shape, typename Keep>
+class LateVisitor {
+  using Scalar = ScalarOf<Shape>;
+  using Visitor = ShapeVisitor<Shape, Keep>;
+
+ public:
+  LateVisitor(const ShapeQuery<Scalar>& query, const Shape& shape)
+      : query_(query), shape_(shape), limit_(last_t(query)) {}
+
+  void count_cell() { ++query_.statistics.cells; }
+  void visit_list(CellWord word) { made().visit_list(word); }
+  void visit_all() { made().visit_all(); }
+  [[nodiscard]] double limit() const { return visitor_ ? visitor_->limit() : limit_; }
+  [[nodiscard]] bool is_done() const { return visitor_ && visitor_->is_done(); }
+  /// Returns the visitor, or null if there was nothing to visit.
+  [[nodiscard]] Visitor* visitor() { return visitor_ ? &*visitor_ : nullptr; }
+
+ private:
+  Visitor& made() {
+    if (!visitor_) visitor_.emplace(query_, shape_, enters_);
+    return *visitor_;
+  }
+
+  const ShapeQuery<Scalar>& query_;
+  const Shape& shape_;
+  double limit_;
+  typename Visitor::Times enters_;
+  std::optional<Visitor> visitor_;
+};
+
 /// Gives the visitor all triangles that the shape may touch.
 template <typename Shape, typename Visitor>
 void walk(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape, Visitor& visitor) {
@@ -20,31 +51,30 @@ void walk(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape, Visitor&
 template <typename Shape>
 std::optional<ShapeHit<ScalarOf<Shape>>> search_first(const ShapeQuery<ScalarOf<Shape>>& query,
                                                       const Shape& shape) noexcept {
-  typename ShapeFilter<ScalarOf<Shape>>::Times enters;
-  ShapeVisitor<Shape, KeepFirst<Shape>> visitor(query, shape, enters);
-  walk(query, shape, visitor);
-  const auto& first = visitor.keep().first;
-  if (!first) return std::nullopt;
-  return visitor.narrowphase().hit(*first);
+  LateVisitor<Shape, KeepFirst<Shape>> late(query, shape);
+  walk(query, shape, late);
+  auto* const visitor = late.visitor();
+  if (visitor == nullptr || !visitor->keep().first) return std::nullopt;
+  return visitor->narrowphase().hit(*visitor->keep().first);
 }
 
 template <typename Shape>
 bool search_any(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape) noexcept {
-  typename ShapeFilter<ScalarOf<Shape>>::Times enters;
-  ShapeVisitor<Shape, KeepAny<Shape>> visitor(query, shape, enters);
-  walk(query, shape, visitor);
-  return visitor.is_done();
+  LateVisitor<Shape, KeepAny<Shape>> late(query, shape);
+  walk(query, shape, late);
+  return late.is_done();
 }
 
 template <typename Shape>
 void search_all(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape,
                 std::vector<ShapeHit<ScalarOf<Shape>>>& hits) {
-  typename ShapeFilter<ScalarOf<Shape>>::Times enters;
-  ShapeVisitor<Shape, KeepAll<Shape>> visitor(query, shape, enters);
-  walk(query, shape, visitor);
-  visitor.narrowphase().sort(visitor.keep().all);
-  for (const ShapeCandidate<Shape>& candidate : visitor.keep().all) {
-    const ShapeHit<ScalarOf<Shape>> hit = visitor.narrowphase().hit(candidate);
+  LateVisitor<Shape, KeepAll<Shape>> late(query, shape);
+  walk(query, shape, late);
+  auto* const visitor = late.visitor();
+  if (visitor == nullptr) return;
+  visitor->narrowphase().sort(visitor->keep().all);
+  for (const ShapeCandidate<Shape>& candidate : visitor->keep().all) {
+    const ShapeHit<ScalarOf<Shape>> hit = visitor->narrowphase().hit(candidate);
     if (query.accepts(hit)) hits.push_back(hit);
   }
 }
