@@ -265,8 +265,8 @@ class SUREHIT_API Collider {
   [[nodiscard]] bool any_hit(const SweptShape<Scalar>& shape, ShapeHitFilter<Scalar> filter,
                              const ShapeQueryOptions<Scalar>& options = {},
                              QueryStatistics* statistics = nullptr) const noexcept;
-  /// Returns true if the shape touches any triangle at its start. Its end plays no part, and neither do `max_t` and
-  /// `ignore_start_contact`. To learn which triangles, ask for `all_hits` with a `max_t` of 0.
+  /// Returns true if the shape touches any triangle at its start. Its end plays no part, and neither do `max_t`,
+  /// `culling` and `ignore_start_contact`. To learn which triangles, ask for `all_hits` with a `max_t` of 0.
   [[nodiscard]] bool overlaps(const SweptShape<Scalar>& shape, const ShapeQueryOptions<Scalar>& options = {},
                               QueryStatistics* statistics = nullptr) const noexcept;
   /// Returns true if the filter accepts any contact at the start. It is given the hits of the shape at rest.
@@ -288,9 +288,9 @@ class SUREHIT_API Collider {
   void any_hits(const SweptShapeSpan<Scalar>& shapes, std::span<std::uint8_t> blocked,
                 const ShapeBatchOptions<Scalar>& options = {}) const noexcept;
   /// Returns the max t at which the shape has not touched the triangle of a hit: the Scalar next below the
-  /// exact t. For the first hit, the shape has touched nothing until then. `hit` must be one of the shape's hits in
-  /// this collider. The result is 0 if they touch at the start, or if no Scalar is between 0 and t. Decides one pair of
-  /// a shape and a triangle. Allocates nothing.
+  /// exact t. For the first hit, the shape has touched nothing until then, except what the options left out. `hit` must
+  /// be one of the shape's hits in this collider. The result is 0 if they touch at the start, or if no Scalar is
+  /// between 0 and t. Decides one pair of a shape and a triangle. Allocates nothing.
   [[nodiscard]] Scalar last_free_t(const SweptShape<Scalar>& shape, const ShapeHit<Scalar>& hit) const noexcept;
   /// Returns where the centre of the shape may stop, in front of the hit. The way from the start to it has no hit under
   /// these options. So the shape touches nothing there, except what `ignore_start_contact` and the other options leave

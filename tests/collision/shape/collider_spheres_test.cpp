@@ -312,6 +312,10 @@ TYPED_TEST(ColliderSpheres, OverlapAtTheStartWhateverTheRestOfTheStepIs) {
   const Vector3<Scalar> beyond = {1, 1, std::numeric_limits<Scalar>::infinity()};
   EXPECT_TRUE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 2}, beyond, 2}, {.ignore_start_contact = true}));
   EXPECT_TRUE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 2}, beyond, 2}, {.max_t = -1}));
+  for (const Culling culling : {Culling::back, Culling::front}) {
+    EXPECT_TRUE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 2}, beyond, 2}, {.culling = culling}));
+    EXPECT_FALSE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 3}, {1, 1, 9}, 2}, {.culling = culling}));
+  }
   EXPECT_FALSE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 3}, {1, 1, 9}, 2}, {.max_t = 1}));
   EXPECT_FALSE(collider.overlaps(SweptSphere<Scalar>{{1, 1, 2}, {1, 1, 2}, 2}, {.ignored_triangle = 0}));
   const SweptSphere<Scalar> leaves = {{1, 1, 2}, {1, 1, 9}, 2};  // and comes to the other one

@@ -172,7 +172,8 @@ class Queries(Generic[PathHit, TouchHit]):
 
     def overlaps(self, shape: SweptShape, *, filter: Callable[[TouchHit], Any] | None = None,
                  statistics: Statistics | None = None, **options: Any) -> bool:
-        """Returns whether a shape touches anything at its start. Its end plays no part, and neither does ``max_t``.
+        """Returns whether a shape touches anything at its start. Its end plays no part, and neither do ``max_t``,
+        ``culling`` and ``ignore_start_contact``.
 
         A filter is given the hits of the shape at rest.
         """
