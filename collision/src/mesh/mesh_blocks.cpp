@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <span>
 #include <type_traits>
 
 #include "filter/kernel_bound.hpp"
@@ -124,7 +125,7 @@ template <typename Index>
 void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor,
                                      [[maybe_unused]] Slabs wanted) {
   blocks_.resize(offset(grid.lists().size(), grid.entries().size()) + slack);
-  if constexpr (std::is_same_v<Scalar, float>) octets_.resize(octet_offset(grid.entries().size()) + slack);
+  if constexpr (std::is_same_v<Scalar, float>) place_boxes(grid);
   using Four = Eigen::Matrix<Scalar, 4, 1>;
   using FourPoints = Eigen::Matrix<Scalar, 4, 4>;
   /// The largest components of some triangles: of their first corners, and of their edges from there.
@@ -183,8 +184,8 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
     const Scalar edge = sizes.edge.maxCoeff();
     const bool is_small = sizes.corner.maxCoeff() <= largest_size / 2 && edge <= largest_size;
     *edge_size = is_small ? edge : std::numeric_limits<Scalar>::infinity();
-    if constexpr (std::is_same_v<Scalar, float>) {
-      if (count >= min_boxed) fill_octets(list, count, octets_.data() + octet_offset(first));
+    if (has_boxes(count)) {
+      fill_boxes(list, count, boxes_.data() + box_coordinates * octet_places_.place(first_octet(first)));
     }
   };
   slabs_.clear();
@@ -195,9 +196,21 @@ void MeshBlocks<Scalar>::fill_blocks(const Corners<Index>& triangles, const Grid
   fill_all(grid, executor, fill);
 }
 
+/// Makes room for the boxes of long lists.
+template <typename Scalar>
+void MeshBlocks<Scalar>::place_boxes(const Grid& grid) {
+  const std::span<const CellList> lists = grid.lists();
+  octet_places_.reset(first_octet(grid.entries().size()));
+  for (std::size_t i = 0; i + 1 < lists.size(); ++i) {
+    const std::size_t count = lists[i + 1].first_entry - lists[i].first_entry;
+    if (has_boxes(count)) octet_places_.add(first_octet(lists[i].first_entry), count / octet);
+  }
+  boxes_.resize(box_coordinates * octet_places_.number() + slack);
+}
+
 /// Fills in the boxes around the octets of a list of `count` triangles.
 template <typename Scalar>
-void MeshBlocks<Scalar>::fill_octets(const Scalar* list, std::size_t count, Scalar* boxes) const noexcept {
+void MeshBlocks<Scalar>::fill_boxes(const Scalar* list, std::size_t count, Scalar* boxes) const noexcept {
   using Eight = Eigen::Array<Scalar, octet, 1>;
   const std::size_t box_count = count / octet;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -267,7 +280,8 @@ std::size_t MeshBlocks<Scalar>::memory_bytes() const noexcept {
   const std::size_t corner_bytes =
       with_corners([](const auto& triangles) { return triangles.capacity() * sizeof(triangles.front()); });
   return vertices_.capacity() * sizeof(Vector3<Scalar>) + corner_bytes +
-         (blocks_.capacity() + octets_.capacity()) * sizeof(Scalar) + slabs_.capacity() * sizeof(CellSlab);
+         (blocks_.capacity() + boxes_.capacity()) * sizeof(Scalar) + octet_places_.memory_bytes() +
+         slabs_.capacity() * sizeof(CellSlab);
 }
 
 template class MeshBlocks<float>;

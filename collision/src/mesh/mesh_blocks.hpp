@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "grid/grid.hpp"
+#include "mesh/octet_places.hpp"
 #include "support/default_init_allocator.hpp"
 #include "surehit/triangle_mesh_view.hpp"
 #include "surehit/vertex_view.hpp"
@@ -72,7 +73,8 @@ class MeshBlocks {
   /// longer than it saves. Coordinate k of box i is at k m + i, for m boxes: the three lowest and the three highest.
   /// They are exact. A vector load may read beyond the last one. All lists are short in double.
   [[nodiscard]] const Scalar* octet_boxes(std::size_t first_entry, std::size_t count) const noexcept {
-    return std::is_same_v<Scalar, float> && count >= min_boxed ? octets_.data() + octet_offset(first_entry) : nullptr;
+    if (!has_boxes(count)) return nullptr;
+    return boxes_.data() + box_coordinates * octet_places_.place(first_octet(first_entry));
   }
 
   /// Returns whether lists have slabs. On a smooth mesh, most slabs are much thinner than the boxes of their lists.
@@ -85,10 +87,15 @@ class MeshBlocks {
   static std::size_t offset(std::size_t list, std::size_t first_entry) noexcept {
     return coordinates * first_entry + list;  // Each earlier list has one edge size too.
   }
-  static constexpr std::size_t min_boxed = 4 * octet;  ///< The fewest triangles of a list whose octets have boxes.
   static constexpr std::size_t box_coordinates = 6;
-  /// No two lists share a place: `count / octet` boxes end before those of the next list begin.
-  static std::size_t octet_offset(std::size_t first_entry) noexcept { return box_coordinates * (first_entry / octet); }
+  /// Returns whether the octets of a list of `count` triangles have boxes.
+  static bool has_boxes(std::size_t count) noexcept {
+    constexpr std::size_t min_count = 4 * octet;
+    return std::is_same_v<Scalar, float> && count >= min_count;
+  }
+  /// Returns the number of a list's first octet among those of all lists. No two lists share one: the last of
+  /// `count / octet` octets comes before the first one of the next list.
+  static std::size_t first_octet(std::size_t first_entry) noexcept { return first_entry / octet; }
   enum class Slabs : std::uint8_t { none, where_smooth };
   template <typename Index>
   using Corners = detail::UnsetVector<std::array<Index, 3>>;
@@ -115,14 +122,16 @@ class MeshBlocks {
   void fill_blocks(const MeshBlocks& indexed, const Grid& grid, const Executor* executor, Slabs wanted);
   template <typename Index>
   void fill_blocks(const Corners<Index>& triangles, const Grid& grid, const Executor* executor, Slabs wanted);
-  void fill_octets(const Scalar* list, std::size_t count, Scalar* boxes) const noexcept;
+  void place_boxes(const Grid& grid);
+  void fill_boxes(const Scalar* list, std::size_t count, Scalar* boxes) const noexcept;
   template <typename Fill>
   bool try_fill_with_slabs(const Grid& grid, const Executor* executor, const Fill& fill);
 
   detail::UnsetVector<Vector3<Scalar>> vertices_;  ///< There is one extra vertex, for a vector load of the last one.
   AnyCorners corners_;
   detail::UnsetVector<Scalar> blocks_;
-  detail::RoomyVector<Scalar> octets_;  ///< The boxes of all octets. Short lists leave their part unset.
+  detail::UnsetVector<Scalar> boxes_;  ///< The boxes of all octets that have one.
+  detail::OctetPlaces octet_places_;
   detail::UnsetVector<CellSlab> slabs_;
 };
 
