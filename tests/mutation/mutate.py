@@ -31,6 +31,8 @@ def parse_arguments():
     parser.add_argument("--report", type=pathlib.Path, help="write the table to this file, mutant by mutant")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--list", action="store_true", help="print the mutants' names and end")
+    parser.add_argument("--check", action="store_true",
+                        help="end once each edit has its place in the sources, and each mutant its row in README.md")
     return parser.parse_args()
 
 
@@ -49,6 +51,15 @@ def mutated(mutant, text):
     if count != 1:
         sys.exit(f"{mutant['name']}: {mutant['file']} has {count} places like\n{mutant['before']}")
     return text.replace(mutant["before"], mutant["after"])
+
+
+def check_rows(mutants):
+    """The table of README.md has one row for each mutant, with its file."""
+    table = (root / "tests/mutation/README.md").read_text()
+    for mutant in mutants:
+        count = table.count(f"\n| {mutant['name']} | `{pathlib.Path(mutant['file']).name}` | ")
+        if count != 1:
+            sys.exit(f"{mutant['name']}: README.md has {count} rows")
 
 
 class Copy:
@@ -118,6 +129,9 @@ def main():
         return
     for mutant in mutants:
         mutated(mutant, (root / mutant["file"]).read_text())
+    if arguments.check:
+        check_rows(mutants)
+        return
     copy = Copy(arguments.build.resolve(), arguments.jobs)
     for test in dict.fromkeys(test for mutant in mutants for test in mutant["tests"]):
         built, output = copy.build(test)
