@@ -65,8 +65,8 @@ template <FloatOrDouble Scalar>
 /// Where the centre or the core is on the triangle, it is the triangle's normal, or its opposite if the shape moves
 /// along the normal. It is zero if they do not touch, or if nothing tells a direction.
 ///
-/// Each component is within 8 ulp(1) of the true one in double, and within 1 in float. Decides the pair again, with
-/// integers, which takes some ten microseconds. Allocates nothing. Uses as much stack as a query of a moving shape.
+/// Each component is within 8 ulp(1) of the true one in double, and within 1 in float. Decides the pair again,
+/// which takes up to some ten microseconds. Allocates nothing. Uses as much stack as a query of a moving shape.
 template <FloatOrDouble Scalar>
 [[nodiscard]] SUREHIT_API Vector3<Scalar> contact_normal(const std::type_identity_t<SweptShape<Scalar>>& shape,
                                                          const Triangle<Scalar>& triangle) noexcept;

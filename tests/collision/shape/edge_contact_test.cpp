@@ -183,7 +183,7 @@ TYPED_TEST(EdgeContactOf, stays_within_its_bounds_where_hill_climbing_makes_the_
         DoubleRange t;
         const EdgeContact contact(pair.sphere, pair.triangle, edge);
         if (contact.find(1, t) != Verdict::hit || t.upper == 0) continue;
-        worst = share_of(contact, edge, t, truth_of(pair.sphere, pair.triangle));
+        worst = std::max(worst, share_of(contact, edge, t, truth_of(pair.sphere, pair.triangle)));
       }
       return worst;
     };
