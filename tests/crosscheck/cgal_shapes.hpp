@@ -112,6 +112,8 @@ struct MeetingParts {
   [[nodiscard]] std::optional<OneRoot> time() const {
     const Rational discriminant = b * b - a * c;
     if (a == 0 || discriminant < 0) return std::nullopt;
+    // `Sqrt_extension` takes a root of zero for a positive one.
+    if (discriminant == 0) return OneRoot(-b / a);
     return OneRoot(-b / a, -1 / a, discriminant);
   }
 };

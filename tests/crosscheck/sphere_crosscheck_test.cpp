@@ -66,6 +66,17 @@ TEST(CgalSphereOracle, tells_of_wrong_answers) {
   }
 }
 
+/// A point that moves has a double contact, whose square root is zero.
+TEST(CgalSphereOracle, tells_the_face_from_the_edge_that_a_point_meets) {
+  const SweptSpheref point{{1, 1, 0}, {0, -3, 0}, 0};
+  const Trianglef triangle{{3, 0, 1}, {2, -2, 0}, {-3, 2, 0}};
+  // They meet at (13, -20, 0) / 24, which is on the edge from b to c.
+  ShapeHitf hit{11.0F / 24, 17.0F / 24, 7.0F / 24, 0, Feature::edge_bc, false};
+  EXPECT_EQ(cgal_error<float>(point, triangle, hit), std::nullopt);
+  hit.feature = Feature::face;
+  EXPECT_TRUE(cgal_error<float>(point, triangle, hit));
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, SphereCrosscheck, testing::ValuesIn(all_sphere_families),
                          [](const auto& family) { return name_of(family.param); });
 

@@ -1,5 +1,6 @@
-// Draws moving shapes and triangles of the families in any number, and holds every answer against exact roots in
-// integers; where asked to, against rationals and long floats too.
+// Draws moving shapes and triangles of the families in any number, and holds every answer against `swept_truth`: exact
+// roots in integers, and rationals about boxes. Where asked to, it holds them against CGAL too, and those about balls
+// and capsules against rationals and long floats.
 
 #include <algorithm>
 #include <array>
@@ -12,16 +13,19 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 #include "command_line/program.hpp"
-#include "support/box_oracle.hpp"
+#include "crosscheck/cgal_box_oracle.hpp"
+#include "crosscheck/cgal_capsule_oracle.hpp"
+#include "crosscheck/cgal_sphere_oracle.hpp"
 #include "support/capsule_oracle.hpp"
-#include "support/neighbour.hpp"
 #include "support/shape_families.hpp"
 #include "support/shape_text.hpp"
 #include "support/sphere_oracle.hpp"
 #include "support/swept_truth.hpp"
+#include "support/wrong_answers.hpp"
 #include "surehit/intersect.hpp"
 
 namespace surehit::test {
@@ -51,27 +55,6 @@ struct Counts {
   }
 };
 
-/// Whether an answer that is wrong in one field, by as little as can be, passes for right.
-template <typename Scalar>
-bool passes_wrong(const SweptTruth& truth, const std::optional<ShapeHit<Scalar>>& right) {
-  const auto accepts = [&](const std::optional<ShapeHit<Scalar>>& wrong) { return !find_error(truth, wrong); };
-  if (!right) return accepts(ShapeHit<Scalar>{.triangle = 0});
-  if (accepts(std::nullopt)) return true;
-  for (Scalar ShapeHit<Scalar>::*field : {&ShapeHit<Scalar>::t, &ShapeHit<Scalar>::u, &ShapeHit<Scalar>::v}) {
-    for (const int steps : {-1, 1}) {
-      ShapeHit<Scalar> wrong = *right;
-      wrong.*field = neighbour(wrong.*field, steps);
-      if (accepts(wrong)) return true;
-    }
-  }
-  ShapeHit<Scalar> wrong = *right;
-  wrong.feature = wrong.feature == Feature::face ? Feature::edge_ab : Feature::face;
-  if (accepts(wrong)) return true;
-  wrong = *right;
-  wrong.started_touching = !wrong.started_touching;
-  return accepts(wrong);
-}
-
 /// The finding's text, if there is one.
 template <typename Shape, typename Scalar>
 std::string check(const Shape& shape, const Triangle<Scalar>& triangle, bool confirm, Counts& counts) {
@@ -87,8 +70,16 @@ std::string check(const Shape& shape, const Triangle<Scalar>& triangle, bool con
   };
   tell(find_error(truth, answer));
   if (confirm) {
-    tell(find_error(shape, triangle, answer));
-    if (passes_wrong(truth, answer)) tell("the integers let a wrong answer pass");
+    constexpr bool is_box = std::is_same_v<Shape, SweptBox<Scalar>>;
+    tell(cgal_error(shape, triangle, answer));
+    // About a box, this would be the truth's own oracle.
+    if constexpr (!is_box) tell(find_error(shape, triangle, answer));
+    for (const auto& wrong : wrong_answers(answer)) {
+      if (!find_error(truth, wrong)) tell("the first oracle lets a wrong answer pass");
+      // CGAL finds the touched point of a box. It is told the part that a ball or a capsule touches, and two contacts
+      // may have the same rounded t.
+      if (is_box && !cgal_error(shape, triangle, wrong)) tell("CGAL lets a wrong answer pass");
+    }
   }
   if (finding.empty()) return finding;
   ++counts.findings;
@@ -182,7 +173,7 @@ example::Work describe(CLI::App& app) {
       ->capture_default_str();
   app.add_flag("--double", request->in_double, "In double instead of float");
   app.add_flag("--confirm", request->confirm,
-               "Ask the rationals about every pair as well, and the integers about wrong answers");
+               "Ask CGAL and rationals about every pair as well, and the oracles about wrong answers");
   app.add_option("--shape", request->shape, "What moves")
       ->check(CLI::IsMember({"sphere", "box", "capsule"}))
       ->capture_default_str();
