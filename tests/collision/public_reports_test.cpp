@@ -23,6 +23,7 @@
 /// Situations in which other libraries were publicly reported to let a ray slip through or to answer wrongly, made
 /// anew: each test names one, and the thread that tells of it. Others have their tests elsewhere:
 ///
+/// - moving shapes: public_shape_reports_test
 /// - rays through the edges and vertices of closed meshes in any direction
 ///   (https://github.com/dimforge/parry/issues/444, https://github.com/RenderKit/embree/issues/174 and /181):
 ///   grid/watertight_test
