@@ -208,7 +208,44 @@ class CapsulePairDrawer {
     return {{point(), point(), point(), std::fabs(draw())}, {point(), point(), point()}};
   }
 
+  /// All corners are within the radius of a point of the core: at the start, at the end, or in the middle of its way.
+  /// The core often meets the triangle.
+  CapsulePair<Scalar> contains() {
+    if (random_.one_in(3)) return contains_in_integers();
+    const Triangle<Scalar> triangle = this->triangle();
+    Vector3<Scalar> point = vector();
+    if (random_.one_in(3)) point = random_.one_in(2) ? inside(triangle) : triangle.a;
+    const Vector3<Scalar> axis = vector() * 3;
+    const Vector3<Scalar> centre = point + place() * axis;
+    // Two points of the cube are less than 3.47 apart.
+    const Scalar radius = Scalar{3.5} + random_.unit<Scalar>();
+    const Vector3<Scalar> way = vector() * 12;
+    const std::uint64_t kind = random_.below(3);
+    if (kind == 0) return {{centre, centre + way, axis, radius}, triangle};
+    if (kind == 1) return {{centre - way, centre, axis, radius}, triangle};
+    return {{centre - way, centre + way, axis, radius}, triangle};
+  }
+
  private:
+  /// An end or the centre of the core is often right over a corner or an edge, or in the plane.
+  CapsulePair<Scalar> contains_in_integers() {
+    IntegerPair pair;
+    for (IntegerVector& corner : pair.corners) corner = flat(30, 0);
+    IntegerVector point = flat(30, 0);
+    if (random_.one_in(3)) point = pair.corners[0];
+    if (random_.one_in(3)) point = (pair.corners[0] + pair.corners[1]) / 2;
+    point[2] = random_.one_in(3) ? 0 : random_.between(0, 30);
+    pair.axis = flat(40, 0);
+    const std::uint64_t kind = random_.below(4);
+    if (kind == 0) pair.axis = pair.corners[1] - pair.corners[0];
+    if (kind == 1) pair.axis = {0, 0, random_.between(-40, 40)};
+    if (kind == 2) pair.axis[2] = random_.between(-40, 40);
+    pair.start = point + random_.between(-1, 1) * pair.axis;
+    pair.end = flat(200, random_.between(-200, 200));
+    if (random_.one_in(2)) std::swap(pair.start, pair.end);
+    pair.radius = 100;  // 60² + 60² + 30² is less than its square.
+    return turned(pair);
+  }
   IntegerPair tangent_in_integers() {
     IntegerPair pair;
     pair.radius = random_.between(1, 40);
@@ -344,6 +381,8 @@ std::string name_of(CapsuleFamily family) {
       return "small_integers";
     case CapsuleFamily::mixed_magnitudes:
       return "mixed_magnitudes";
+    case CapsuleFamily::inside:
+      return "inside";
   }
   return "unknown";
 }
@@ -410,6 +449,8 @@ CapsulePair<Scalar> draw_capsule_pair(CapsuleFamily family, Random& random) {
       return draw.small_integers();
     case CapsuleFamily::mixed_magnitudes:
       return draw.mixed_magnitudes();
+    case CapsuleFamily::inside:
+      return draw.contains();
   }
   return draw.general();
 }

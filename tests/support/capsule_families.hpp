@@ -35,6 +35,7 @@ enum class CapsuleFamily : std::uint8_t {
   no_axis,
   small_integers,
   mixed_magnitudes,  ///< from the least denormal to the largest number
+  inside,            ///< The whole triangle is in the capsule: at the start, at the end or on the way.
 };
 
 inline constexpr std::array all_capsule_families = {
@@ -60,6 +61,7 @@ inline constexpr std::array all_capsule_families = {
     CapsuleFamily::no_axis,
     CapsuleFamily::small_integers,
     CapsuleFamily::mixed_magnitudes,
+    CapsuleFamily::inside,
 };
 
 [[nodiscard]] std::string name_of(CapsuleFamily family);

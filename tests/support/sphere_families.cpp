@@ -187,7 +187,37 @@ class SpherePairDrawer {
     return {{point(), point(), std::fabs(draw())}, {point(), point(), point()}};
   }
 
+  /// All corners are within the radius of the centre: at the start, at the end, or in the middle of its way. The centre
+  /// is often on the triangle.
+  SpherePair<Scalar> contains() {
+    if (random_.one_in(3)) return contains_in_integers();
+    const Triangle<Scalar> triangle = {vector(), vector(), vector()};
+    Vector3<Scalar> centre = vector();
+    if (random_.one_in(3)) centre = random_.one_in(2) ? inside(triangle) : triangle.a;
+    // Two points of the cube are less than 3.47 apart.
+    const Scalar radius = Scalar{3.5} + random_.unit<Scalar>();
+    const Vector3<Scalar> way = vector() * 12;
+    const std::uint64_t kind = random_.below(3);
+    if (kind == 0) return {{centre, centre + way, radius}, triangle};
+    if (kind == 1) return {{centre - way, centre, radius}, triangle};
+    return {{centre - way, centre + way, radius}, triangle};
+  }
+
  private:
+  /// The centre is often right over a corner or an edge, or in the plane.
+  SpherePair<Scalar> contains_in_integers() {
+    const auto draw = [&](std::int64_t size) { return random_.between(-size, size); };
+    const std::array<IntegerVector, 3> corners = {IntegerVector{draw(30), draw(30), 0},
+                                                  IntegerVector{draw(30), draw(30), 0},
+                                                  IntegerVector{draw(30), draw(30), 0}};
+    IntegerVector centre = {draw(30), draw(30), 0};
+    if (random_.one_in(3)) centre = corners[0];
+    if (random_.one_in(3)) centre = (corners[0] + corners[1]) / 2;
+    centre[2] = random_.one_in(3) ? 0 : random_.between(0, 30);
+    const IntegerVector other = {draw(200), draw(200), draw(200)};
+    // 60² + 60² + 30² is less than 100².
+    return random_.one_in(2) ? turned(centre, other, 100, corners) : turned(other, centre, 100, corners);
+  }
   Vector3<Scalar> vector() {
     const Scalar x = random_.symmetric<Scalar>();
     const Scalar y = random_.symmetric<Scalar>();
@@ -260,6 +290,8 @@ std::string name_of(SphereFamily family) {
       return "small_integers";
     case SphereFamily::mixed_magnitudes:
       return "mixed_magnitudes";
+    case SphereFamily::inside:
+      return "inside";
   }
   return "unknown";
 }
@@ -307,6 +339,8 @@ SpherePair<Scalar> draw_sphere_pair(SphereFamily family, Random& random) {
       return draw.small_integers();
     case SphereFamily::mixed_magnitudes:
       return draw.mixed_magnitudes();
+    case SphereFamily::inside:
+      return draw.contains();
   }
   return draw.general();
 }

@@ -29,6 +29,7 @@ enum class SphereFamily : std::uint8_t {
   no_radius,
   small_integers,
   mixed_magnitudes,  ///< from the least denormal to the largest number
+  inside,            ///< The whole triangle is in the ball: at the start, at the end or on the way.
 };
 
 inline constexpr std::array all_sphere_families = {
@@ -37,7 +38,7 @@ inline constexpr std::array all_sphere_families = {
     SphereFamily::small_steps,      SphereFamily::small_radii,     SphereFamily::huge_radii,
     SphereFamily::far_away,         SphereFamily::slivers,         SphereFamily::degenerate_triangles,
     SphereFamily::at_rest,          SphereFamily::no_radius,       SphereFamily::small_integers,
-    SphereFamily::mixed_magnitudes,
+    SphereFamily::mixed_magnitudes, SphereFamily::inside,
 };
 
 [[nodiscard]] std::string name_of(SphereFamily family);
