@@ -17,10 +17,10 @@ std::size_t cell_count(const GridFrame& frame) { return std::size_t{frame.cells[
 
 constexpr double largest = std::numeric_limits<float>::max();
 
-/// Returns whether some of the mesh's box is within the range of float on each axis.
+/// Returns whether the mesh's box is within the range of float.
 bool is_among_floats(const GridFrame& frame) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (frame.low[axis] > largest || frame.high[axis] < -largest) return false;
+    if (frame.low[axis] < -largest || frame.high[axis] > largest) return false;
   }
   return true;
 }
@@ -39,8 +39,8 @@ MainGrid::OtherBox box_around(const Grid& grid, const detail::ListCell& cell) {
       const double scaled = (position - double{frame.margin[axis]}) / frame.scale[axis] + frame.origin[axis];
       return (scaled + outward * rounding) / frame.unit[0] / frame.unit[1];
     };
-    const double low = std::clamp(unscaled(box.low(axis), -1), std::max(frame.low[axis], -largest), largest);
-    const double high = std::clamp(unscaled(box.high(axis), 1), -largest, std::min(frame.high[axis], largest));
+    const double low = std::clamp(unscaled(box.low(axis), -1), frame.low[axis], largest);
+    const double high = std::clamp(unscaled(box.high(axis), 1), -largest, frame.high[axis]);
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const auto nearest_low = static_cast<float>(low);
     const auto nearest_high = static_cast<float>(high);
@@ -73,7 +73,7 @@ MainGrid::MainGrid(const Grid& grid) {
   });
   if (max_cells == 0 || lists > cells.size()) return;
   const GridFrame& frame = grid.inner_frame(cells[main].word);
-  if (!frame.has_floats || !is_among_floats(grid.frame())) return;
+  if (!is_among_floats(grid.frame())) return;
   for (std::size_t i = 0; i < lists; ++i) {
     const bool has_main = i == main;
     if (has_main && grid.entry_count(cells[i].word) == 0) continue;
@@ -82,6 +82,7 @@ MainGrid::MainGrid(const Grid& grid) {
   }
   frame_index_ = static_cast<std::size_t>(&frame - grid.inner_frames().data());
   exists_ = true;
+  takes_floats_ = frame.has_floats;
 }
 
 }  // namespace surehit

@@ -28,6 +28,8 @@ class MainGrid {
   explicit MainGrid(const Grid& grid);
 
   [[nodiscard]] bool exists() const noexcept { return exists_; }
+  /// Returns whether it exists and paths of floats can be clipped to it in float.
+  [[nodiscard]] bool takes_floats() const noexcept { return takes_floats_; }
   /// Returns the index of its frame among the inner frames.
   [[nodiscard]] std::size_t frame_index() const noexcept { return frame_index_; }
   /// Returns the boxes around all that the cells of the outermost grid list, and that is not in the main grid.
@@ -35,6 +37,7 @@ class MainGrid {
 
  private:
   bool exists_ = false;
+  bool takes_floats_ = false;
   std::size_t frame_index_ = 0;
   std::size_t box_count_ = 0;
   std::array<OtherBox, max_boxes> boxes_ = {};

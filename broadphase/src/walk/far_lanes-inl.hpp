@@ -23,20 +23,34 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// Paths of floats, one in each lane, with the ranges that count.
-struct PathLanes {
-  Floats start[3];   ///< The starts.
-  Floats toward[3];  ///< The ends or directions.
-  Floats first_t;    ///< The begins of the ranges.
-  Floats last_t;     ///< The ends of the ranges.
-  bool is_segment;   ///< True if all paths are segments.
+/// Paths, one in each lane, with the ranges that count.
+template <typename AnyTag>
+struct PathVectors {
+  using Tag = AnyTag;
+  using Numbers = hn::Vec<Tag>;
 
+  Numbers start[3];   ///< The starts.
+  Numbers toward[3];  ///< The ends or directions.
+  Numbers first_t;    ///< The begins of the ranges.
+  Numbers last_t;     ///< The ends of the ranges.
+  bool is_segment;    ///< True if all paths are segments.
+
+  /// Returns the computed directions on an axis.
+  [[nodiscard]] HWY_INLINE Numbers way(std::size_t axis) const {
+    return is_segment ? hn::Sub(toward[axis], start[axis]) : toward[axis];
+  }
+};
+
+/// Paths of floats.
+struct PathLanes : PathVectors<FloatTag> {
   /// Loads paths of six floats, which must be readable for all lanes. An end of the range is one float for all paths,
   /// or a vector.
   template <typename Ends>
-  HWY_INLINE PathLanes(const float* paths, bool are_segments, Ends first, Ends last)
-      : first_t(in_all_lanes(first)), last_t(in_all_lanes(last)), is_segment(are_segments) {
+  HWY_INLINE PathLanes(const float* paths, bool are_segments, Ends first, Ends last) {
     const FloatTag d;
+    first_t = in_all_lanes(first);
+    last_t = in_all_lanes(last);
+    is_segment = are_segments;
     // In each half, starts and ends alternate.
     Floats near_half[3];
     Floats far_half[3];
@@ -47,48 +61,65 @@ struct PathLanes {
       toward[k] = hn::ConcatOdd(d, far_half[k], near_half[k]);
     }
   }
+};
 
-  /// Returns the computed directions on an axis.
-  [[nodiscard]] HWY_INLINE Floats way(std::size_t axis) const {
-    return is_segment ? hn::Sub(toward[axis], start[axis]) : toward[axis];
+/// Paths of doubles.
+struct DoublePathLanes : PathVectors<hn::CappedTag<double, 8>> {
+  /// Loads paths of `LaneClip::DoublePaths` from lane `from` on.
+  template <typename DoublePaths>
+  HWY_INLINE DoublePathLanes(const DoublePaths& paths, bool are_segments, std::size_t from) {
+    const Tag d;
+    first_t = hn::LoadU(d, &paths.first_t[from]);
+    last_t = hn::LoadU(d, &paths.last_t[from]);
+    is_segment = are_segments;
+    for (std::size_t k = 0; k < 3; ++k) {
+      start[k] = hn::LoadU(d, &paths.start[k][from]);
+      toward[k] = hn::LoadU(d, &paths.toward[k][from]);
+    }
   }
 };
 
 /// Returns x + |x| share, rounded. It is infinite if x is.
-HWY_INLINE Floats scaled(Floats x, float share) {
-  const FloatTag d;
+template <typename Tag>
+HWY_INLINE hn::Vec<Tag> scaled(Tag d, hn::Vec<Tag> x, float share) {
   const auto is_positive = hn::Gt(x, hn::Zero(d));
-  return hn::Mul(x, hn::IfThenElse(is_positive, hn::Set(d, 1 + share), hn::Set(d, 1 - share)));
+  const auto factor = [&](float y) { return hn::Set(d, hn::TFromD<Tag>{y}); };
+  return hn::Mul(x, hn::IfThenElse(is_positive, factor(1 + share), factor(1 - share)));
 }
 
-/// The parts of paths that may be in a box whose corners are floats (L17).
+/// The parts of paths that may be in a box whose corners are floats (L17). `Paths` is `PathLanes` or `DoublePathLanes`.
+template <typename Paths>
 struct BoxLanes {
-  Floats enters;              ///< Where each part begins, as computed. It is not before the range.
-  Floats leaves;              ///< Where it ends.
-  hn::Mask<FloatTag> misses;  ///< The paths that miss the box.
+  using Tag = typename Paths::Tag;
+  using Numbers = hn::Vec<Tag>;
 
-  HWY_INLINE BoxLanes(const PathLanes& paths, const Float4& low, const Float4& high)
+  Numbers enters;        ///< Where each part begins, as computed. It is not before the range.
+  Numbers leaves;        ///< Where it ends.
+  hn::Mask<Tag> misses;  ///< The paths that miss the box.
+
+  HWY_INLINE BoxLanes(const Paths& paths, const Float4& low, const Float4& high)
       : enters(paths.first_t), leaves(paths.last_t), misses(hn::Gt(paths.first_t, paths.last_t)) {
-    const FloatTag d;
-    const Floats infinity = hn::Inf(d);
+    const Tag d;
+    const auto number = [&](float x) { return hn::Set(d, hn::TFromD<Tag>{x}); };
+    const Numbers infinity = hn::Inf(d);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Floats way = paths.way(k);
-      const Floats to_low = hn::Sub(hn::Set(d, low[k]), paths.start[k]);
-      const Floats to_high = hn::Sub(hn::Set(d, high[k]), paths.start[k]);
+      const Numbers way = paths.way(k);
+      const Numbers to_low = hn::Sub(number(low[k]), paths.start[k]);
+      const Numbers to_high = hn::Sub(number(high[k]), paths.start[k]);
       const auto is_beside = hn::Or(hn::Gt(to_low, hn::Zero(d)), hn::Lt(to_high, hn::Zero(d)));
       misses = hn::Or(misses, hn::And(hn::Eq(way, hn::Zero(d)), is_beside));
-      const Floats size = hn::Abs(way);
-      const auto is_usual = hn::And(hn::Ge(size, hn::Set(d, min_way)), hn::Le(size, hn::Set(d, max_way)));
-      const Floats max_distance = hn::Max(hn::Abs(to_low), hn::Abs(to_high));
+      const Numbers size = hn::Abs(way);
+      const auto is_usual = hn::And(hn::Ge(size, number(min_way)), hn::Le(size, number(max_way)));
+      const Numbers max_distance = hn::Max(hn::Abs(to_low), hn::Abs(to_high));
       const auto counts = hn::And(is_usual, hn::Lt(max_distance, infinity));
-      const Floats inverse = hn::Div(hn::Set(d, 1.0F), way);
-      const Floats at_low = hn::Mul(to_low, inverse);
-      const Floats at_high = hn::Mul(to_high, inverse);
+      const Numbers inverse = hn::Div(number(1), way);
+      const Numbers at_low = hn::Mul(to_low, inverse);
+      const Numbers at_high = hn::Mul(to_high, inverse);
       enters = hn::Max(enters, hn::IfThenElse(counts, hn::Min(at_low, at_high), hn::Neg(infinity)));
       leaves = hn::Min(leaves, hn::IfThenElse(counts, hn::Max(at_low, at_high), infinity));
     }
-    const Floats first = scaled(enters, -slack);
-    const Floats last = hn::Add(scaled(leaves, slack), hn::Set(d, std::numeric_limits<float>::min()));
+    const Numbers first = scaled(d, enters, -slack);
+    const Numbers last = hn::Add(scaled(d, leaves, slack), number(std::numeric_limits<float>::min()));
     misses = hn::Or(misses, hn::Gt(first, last));
   }
 
@@ -100,8 +131,9 @@ struct BoxLanes {
 };
 
 /// Returns the lanes whose path may meet what is not in the main grid (L18).
-HWY_INLINE std::uint32_t lanes_beside(const MainGrid& main, const PathLanes& paths) {
-  const FloatTag d;
+template <typename Paths>
+HWY_INLINE std::uint32_t lanes_beside(const MainGrid& main, const Paths& paths) {
+  const typename Paths::Tag d;
   std::uint32_t lanes = 0;
   for (const MainGrid::OtherBox& box : main.boxes()) {
     lanes |= static_cast<std::uint32_t>(bits_of(d, hn::Not(BoxLanes(paths, box.low, box.high).misses)));
@@ -163,8 +195,8 @@ class alignas(max_lanes * sizeof(double)) FarLanes {
     const Floats enters = hn::Max(enters_grid, first);
     const Floats leaves = hn::Min(leaves_grid, last);
     const auto inside = hn::And(hn::And(may_meet, is_known), hn::Le(enters, leaves));
-    const auto enters_later = hn::Le(scaled(first, inward), scaled(enters_grid, -inward));
-    const auto leaves_before = hn::Le(scaled(leaves_grid, inward), scaled(last, -inward));
+    const auto enters_later = hn::Le(scaled(d, first, inward), scaled(d, enters_grid, -inward));
+    const auto leaves_before = hn::Le(scaled(d, leaves_grid, inward), scaled(d, last, -inward));
     const auto is_end = mask_of(d, ends);
     const auto is_free = hn::And(inside, hn::And(enters_later, hn::Or(is_end, leaves_before)));
     for (std::size_t k = 0; k < 3; ++k) {
@@ -192,7 +224,7 @@ class alignas(max_lanes * sizeof(double)) FarLanes {
   static constexpr float inward = 0x1p-21F;
 
   /// Moves the starts, and counts the ranges from there. Sets `ends`.
-  HWY_INLINE void move(const GridFrame& frame, const PathLanes& paths, const BoxLanes& box) {
+  HWY_INLINE void move(const GridFrame& frame, const PathLanes& paths, const BoxLanes<PathLanes>& box) {
     const DoubleTag d;
     const HalfTag df;
     alignas(max_lanes * sizeof(float)) std::array<LaneFloats, 3> start;

@@ -392,31 +392,40 @@ class Batch {
 #endif  // HWY_TARGET != HWY_SCALAR
 
 #if HWY_TARGET != HWY_SCALAR
+/// Returns those of `count` paths from path `first` on that may meet what is not in the main grid.
+template <typename Scalar, typename Queries>
+HWY_INLINE std::uint32_t paths_beside(const MainGrid& main, const Queries& queries, const PathSpan<Scalar>& paths,
+                                      std::size_t first, std::size_t count) {
+  const auto taken = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+  if constexpr (std::is_same_v<Scalar, float>) {
+    std::array<float, 6 * max_lanes> numbers = {};
+    for (std::size_t i = 0; i < count; ++i) paths.copy(first + i, &numbers[6 * i]);
+    const auto ends = queries.ends(first, count);
+    const PathLanes some(numbers.data(), paths.kind() == PathKind::segment, ends.first, ends.last);
+    return lanes_beside(main, some) & taken;
+  } else {
+    LaneClip::DoublePaths copies = {};
+    const std::uint32_t counting = copy_in_double(queries, paths, first, taken, copies);
+    return lanes_beside(main, copies, paths.kind(), counting);
+  }
+}
+
 /// Returns true if there is a main grid, and only few paths of a batch may meet what is not in it. It looks at the
-/// first paths. No answer depends on this. Paths of doubles always begin in the outermost grid.
+/// first paths. No answer depends on this.
 template <typename Scalar, typename Queries>
 HWY_INLINE bool is_mostly_in_main_grid(const Queries& queries, const PathSpan<Scalar>& paths) {
   constexpr std::size_t samples = 64;
   constexpr std::size_t few_share = 16;
-  if constexpr (std::is_same_v<Scalar, float>) {
-    const MainGrid& main = queries.of_batch().grid.main_grid();
-    if (!main.exists()) return false;
-    const std::size_t lanes = hn::Lanes(FloatTag());
-    std::size_t asked = 0;
-    std::size_t others = 0;
-    for (; asked < std::min(samples, paths.size()); asked += lanes) {
-      const std::size_t count = std::min(lanes, paths.size() - asked);
-      std::array<float, 6 * max_lanes> numbers = {};
-      for (std::size_t i = 0; i < count; ++i) paths.copy(asked + i, &numbers[6 * i]);
-      const auto ends = queries.ends(asked, count);
-      const PathLanes some(numbers.data(), paths.kind() == PathKind::segment, ends.first, ends.last);
-      const std::uint64_t taken = (std::uint64_t{1} << count) - 1;
-      others += static_cast<std::size_t>(std::popcount(lanes_beside(main, some) & taken));
-    }
-    return others * few_share <= asked;
-  } else {
-    return false;
+  const MainGrid& main = queries.of_batch().grid.main_grid();
+  if (!(std::is_same_v<Scalar, float> ? main.takes_floats() : main.exists())) return false;
+  const std::size_t lanes = hn::Lanes(FloatTag());
+  std::size_t asked = 0;
+  std::size_t others = 0;
+  for (; asked < std::min(samples, paths.size()); asked += lanes) {
+    const std::size_t count = std::min(lanes, paths.size() - asked);
+    others += static_cast<std::size_t>(std::popcount(paths_beside(main, queries, paths, asked, count)));
   }
+  return others * few_share <= asked;
 }
 #endif
 

@@ -28,6 +28,39 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
+/// Copies paths of a batch side by side in double, with their ranges. `lanes` tells which, from path `first` on.
+/// Returns those whose range is not empty.
+template <typename Scalar, typename Queries>
+HWY_INLINE std::uint32_t copy_in_double(const Queries& queries, const PathSpan<Scalar>& paths, std::size_t first,
+                                        std::uint32_t lanes, LaneClip::DoublePaths& copies) {
+  std::uint32_t taken = 0;
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const auto range = queries.range(first + lane);
+    if (range.is_empty()) continue;
+    taken |= std::uint32_t{1} << lane;
+    std::array<Scalar, 6> numbers;
+    paths.copy(first + lane, numbers.data());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      copies.start[axis][lane] = numbers[axis];
+      copies.toward[axis][lane] = numbers[3 + axis];
+    }
+    copies.first_t[lane] = range.first;
+    copies.last_t[lane] = range.last;
+  }
+  return taken;
+}
+
+/// Returns those of some lanes whose path may meet what is not in the main grid (L18).
+HWY_INLINE std::uint32_t lanes_beside(const MainGrid& main, const LaneClip::DoublePaths& paths, PathKind kind,
+                                      std::uint32_t lanes) {
+  std::uint32_t beside = 0;
+  for (std::size_t from = 0; lanes >> from != 0; from += hn::Lanes(DoublePathLanes::Tag())) {
+    beside |= lanes_beside(main, DoublePathLanes(paths, kind == PathKind::segment, from)) << from;
+  }
+  return beside & lanes;
+}
+
 /// The paths of a batch that do not walk yet. It clips as many at a time as a vector has lanes. `Queries` is
 /// `SharedQuery` or `OwnQueries`. The queue calls `alone(index)` for each path that no lane can walk.
 template <typename Scalar, typename Queries, typename Alone>
@@ -60,7 +93,7 @@ class PathQueue {
         if constexpr (is_float) {
           kernel_paths_.copy(from, enter(to, first_ + from, enters_rest_[from]));
         } else {
-          enter(to, first_ + from, taus_[from]) = kernel_paths_[from];
+          enter(to, first_ + from, taus_[from]) = KernelPath<Scalar>(paths_[first_ + from], frame_);
         }
         if constexpr (Queries::is_placed) {
           move_start(to, placer_.moved_t(from));
@@ -161,7 +194,9 @@ class PathQueue {
   /// away, stay apart.
   HWY_NOINLINE LaneClip::Clipped clip_apart(LaneClip::Clipped result) {
     LaneDoubles enters;
-    const LaneClip::Clipped clipped = clip_in_double(result.apart, enters);
+    LaneClip::DoublePaths copies = {};
+    const std::uint32_t taken = copy_in_double(queries_, paths_, first_, result.apart, copies);
+    const LaneClip::Clipped clipped = clip_.clip_in_double(copies, paths_.kind(), taken, clipped_, enters);
     for (std::uint32_t inside = clipped.inside; inside != 0; inside &= inside - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(inside));
       enters_rest_[lane] = LaneWalk::rest_of_enters(enters[lane]);
@@ -172,10 +207,14 @@ class PathQueue {
   /// Clips `count` paths of doubles. They walk in float, like all paths.
   HWY_NOINLINE LaneClip::Clipped clip_doubles(std::size_t count) {
     LaneDoubles enters;
-    LaneClip::Clipped result = clip_in_double(static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1), enters);
+    LaneClip::DoublePaths copies = {};
+    const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+    const std::uint32_t taken = copy_in_double(queries_, paths_, first_, all, copies);
+    const std::uint32_t others =
+        is_main_ ? lanes_beside(queries_.of_batch().grid.main_grid(), copies, paths_.kind(), taken) : 0;
+    LaneClip::Clipped result = clip_.clip_in_double(copies, paths_.kind(), taken & ~others, clipped_, enters);
     for (std::uint32_t inside = result.inside; inside != 0; inside &= inside - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(inside));
-      kernel_paths_[lane] = KernelPath<Scalar>(paths_[first_ + lane], frame_);
       taus_[lane] = {{1, 1, 1}, {0, 0, enters[lane]}};
     }
     for (std::uint32_t apart = std::exchange(result.apart, 0); apart != 0; apart &= apart - 1) {
@@ -187,34 +226,13 @@ class PathQueue {
       if (clipped.status != ClippedPath::Status::clipped) continue;
       result.inside |= std::uint32_t{1} << lane;
       LaneWalk::put(lane, frame_, clipped, clipped_);
-      kernel_paths_[lane] = KernelPath<Scalar>(path, frame_);
       taus_[lane] = clipped.tau;
     }
+    result.apart |= others;
     return result;
   }
 
   using LaneDoubles = std::array<double, max_lanes>;
-
-  /// Clips the paths of some lanes in double. A path with an empty range misses.
-  HWY_INLINE LaneClip::Clipped clip_in_double(std::uint32_t lanes, LaneDoubles& enters) {
-    LaneClip::DoublePaths paths = {};
-    std::uint32_t taken = 0;
-    for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-      const auto range = queries_.range(first_ + lane);
-      if (range.is_empty()) continue;
-      taken |= std::uint32_t{1} << lane;
-      std::array<Scalar, path_size> numbers;
-      paths_.copy(first_ + lane, numbers.data());
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        paths.start[axis][lane] = numbers[axis];
-        paths.toward[axis][lane] = numbers[3 + axis];
-      }
-      paths.first_t[lane] = range.first;
-      paths.last_t[lane] = range.last;
-    }
-    return clip_.clip_in_double(paths, paths_.kind(), taken, clipped_, enters);
-  }
 
   /// Fetches into the cache as many paths as are clipped together. The first of them is path `first`. The processor
   /// does not fetch them by itself, because the program reads much else in the meantime.
@@ -240,8 +258,8 @@ class PathQueue {
   struct None {};
 
   WalkingPaths clipped_ = {};  ///< The last paths that were clipped, one in each lane.
-  /// The same paths for the kernel.
-  std::conditional_t<is_float, KernelLanes, std::array<KernelPath<Scalar>, max_lanes>> kernel_paths_ = {};
+  /// The same paths for the kernel. Those of doubles are made when they begin to walk.
+  [[no_unique_address]] std::conditional_t<is_float, KernelLanes, None<2>> kernel_paths_ = {};
   /// What `WalkingPaths::enters` leaves out of the t where tau is 0, for paths of floats.
   LaneFloats enters_rest_ = {};
   /// The paths of floats that do not begin near the grid.

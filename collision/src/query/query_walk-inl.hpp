@@ -442,7 +442,7 @@ HWY_INLINE void walk(const Query<Scalar>& query, const Path<Scalar>& path, const
   if (query.grid.is_empty()) return;
   if constexpr (std::is_same_v<Scalar, float>) {
     const bool is_in_main =
-        query.grid.main_grid().exists() && misses_others(query.grid.main_grid(), path, range.first, range.last);
+        query.grid.main_grid().takes_floats() && misses_others(query.grid.main_grid(), path, range.first, range.last);
     const GridFrame& frame = is_in_main ? query.grid.main_frame() : query.grid.frame();
     ClippedPath clipped;
     const auto in_float = clipped.clip_in_float(frame, path, range.first, range.last);
