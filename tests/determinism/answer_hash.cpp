@@ -7,6 +7,7 @@
 #include "hard_prop.hpp"
 #include "hard_questions.hpp"
 #include "hard_scene.hpp"
+#include "hard_scene_shapes.hpp"
 #include "hard_shapes.hpp"
 #include "saved_hash.hpp"
 
@@ -59,16 +60,31 @@ bool shape_answers_are_published(const char* name, bool few) {
   surehit::test::HardShapes<Scalar> hard;
   if (few) surehit::test::keep_few(hard.shapes);
   const std::uint64_t hash = surehit::test::ShapeAnswers<Scalar>(hard.hard.collider(), hard.shapes).hash();
-  return is_published(
+  const std::uint64_t contacts = surehit::test::ShapeContacts<Scalar>(hard.hard.collider(), hard.shapes).hash();
+  const bool are_contacts = is_published("their contacts", contacts,
+                                         few ? surehit::test::published_shape_contact_hash_of_few<Scalar>
+                                             : surehit::test::published_shape_contact_hash<Scalar>);
+  const bool are_hits = is_published(
       name, hash,
       few ? surehit::test::published_shape_hash_of_few<Scalar> : surehit::test::published_shape_hash<Scalar>);
+  return are_hits && are_contacts;
+}
+
+template <typename Scalar>
+bool scene_shape_answers_are_published(const char* name, bool few) {
+  surehit::test::HardSceneShapes<Scalar> hard;
+  if (few) surehit::test::keep_few(hard.shapes);
+  const std::uint64_t hash = surehit::test::SceneShapeAnswers<Scalar>(hard.hard.scene(), hard.shapes).hash();
+  return is_published(name, hash,
+                      few ? surehit::test::published_scene_shape_hash_of_few<Scalar>
+                          : surehit::test::published_scene_shape_hash<Scalar>);
 }
 
 }  // namespace
 
-/// Hashes what a library answers that somebody else has compiled: to the hard questions, and about the hard prop, scene
-/// and shapes. The bytes of all but the shapes are hashed too. With `--few`, where nothing is optimized, it asks a
-/// sixteenth of all but the prop's questions.
+/// Hashes what a library answers that somebody else has compiled: to the hard questions, and about the hard prop,
+/// scene, shapes, and shapes in the scene. The bytes of all but the shapes are hashed too. With `--few`, where nothing
+/// is optimized, it asks a sixteenth of all but the prop's questions.
 int main(int argc, char** argv) {
   const bool few = argc == 2 && std::string_view(argv[1]) == "--few";
   if (argc > 1 && !few) {
@@ -83,6 +99,9 @@ int main(int argc, char** argv) {
   const bool double_scenes = scene_answers_are_published<double>("scene of doubles", few);
   const bool float_shapes = shape_answers_are_published<float>("shapes of floats", few);
   const bool double_shapes = shape_answers_are_published<double>("shapes of doubles", few);
+  const bool float_scene_shapes = scene_shape_answers_are_published<float>("shapes in a scene of floats", few);
+  const bool double_scene_shapes = scene_shape_answers_are_published<double>("shapes in a scene of doubles", few);
   const bool props = float_props && double_props;
-  return floats && doubles && props && float_scenes && double_scenes && float_shapes && double_shapes ? 0 : 1;
+  const bool shapes = float_shapes && double_shapes && float_scene_shapes && double_scene_shapes;
+  return floats && doubles && props && float_scenes && double_scenes && shapes ? 0 : 1;
 }

@@ -27,6 +27,22 @@ inline constexpr std::uint64_t published_shape_hash_of_few<float> = 0x958cb6e7ab
 template <>
 inline constexpr std::uint64_t published_shape_hash_of_few<double> = 0x21a1f265d8417642u;
 
+/// `ShapeContacts::hash` of the same shapes.
+template <typename Scalar>
+inline constexpr std::uint64_t published_shape_contact_hash = 0;
+template <>
+inline constexpr std::uint64_t published_shape_contact_hash<float> = 0xb2b6ba86fe1fe1a6u;
+template <>
+inline constexpr std::uint64_t published_shape_contact_hash<double> = 0x7a85e2f28f6f2debu;
+
+/// The same of the few that `keep_few` keeps.
+template <typename Scalar>
+inline constexpr std::uint64_t published_shape_contact_hash_of_few = 0;
+template <>
+inline constexpr std::uint64_t published_shape_contact_hash_of_few<float> = 0x75fffbf07c6081f5u;
+template <>
+inline constexpr std::uint64_t published_shape_contact_hash_of_few<double> = 0x007ac70557abe169u;
+
 /// Moving balls, boxes and capsules that are hard for the mesh of `HardQuestions`, the same on every platform. Half of
 /// them go along the segments of these questions. The others rest on vertices of the ground, at a height of exactly
 /// their size, so they graze. No step to a Scalar rounds.
@@ -154,6 +170,38 @@ class ShapeAnswers {
   }
 
   std::vector<ShapeAnswer<Scalar>> all;
+};
+
+/// Where moving shapes may stop in front of their first hits, where they touch, and in which direction.
+template <typename Scalar>
+class ShapeContacts {
+ public:
+  ShapeContacts(const Collider<Scalar>& collider, const std::vector<SweptShape<Scalar>>& shapes) {
+    for (std::size_t id = 0; id < shapes.size(); ++id) {
+      const ShapeQueryOptions<Scalar> options = ShapeAnswers<Scalar>::options_of(id);
+      const auto hit = collider.first_hit(shapes[id], options);
+      if (!hit) continue;
+      const Triangle<Scalar> triangle = collider.triangle(hit->triangle);
+      free_points.push_back(collider.last_free_point(shapes[id], *hit, options));
+      points.push_back(contact_point(triangle, *hit));
+      normals.push_back(contact_normal(shapes[id], triangle));
+    }
+  }
+
+  [[nodiscard]] std::uint64_t hash() const {
+    AnswerHash hash;
+    for (const auto* const vectors : {&free_points, &points, &normals}) {
+      for (const Vector3<Scalar>& vector : *vectors) {
+        for (const Scalar x : vector) hash.take(x);
+      }
+    }
+    return hash.value();
+  }
+
+  // Of those that hit, in their order.
+  std::vector<Vector3<Scalar>> free_points;
+  std::vector<Vector3<Scalar>> points;
+  std::vector<Vector3<Scalar>> normals;
 };
 
 }  // namespace surehit::test

@@ -55,6 +55,16 @@ class ShapesOfOneKind {
     }
   }
 
+  /// Has everything twice, so that a batch has several tasks.
+  void repeat() {
+    const std::size_t count = shapes_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      shapes_.push_back(Shape(shapes_[i]));
+      options_.push_back(ShapeQueryOptions<Scalar>(options_[i]));
+      firsts_.push_back(ShapeHit<Scalar>(firsts_[i]));
+    }
+  }
+
   void expect_same_of_batches(const Collider<Scalar>& collider, const std::optional<Executor>& executor = {}) const {
     std::vector<ShapeHit<Scalar>> hits(shapes_.size());
     std::vector<std::uint8_t> blocked(shapes_.size());
@@ -79,6 +89,11 @@ template <typename Scalar>
 struct ShapesByKind {
   explicit ShapesByKind(const HardShapes<Scalar>& hard) : balls(hard), boxes(hard), capsules(hard) {}
 
+  void repeat() {
+    balls.repeat();
+    boxes.repeat();
+    capsules.repeat();
+  }
   void expect_same_of_batches(const Collider<Scalar>& collider, const std::optional<Executor>& executor = {}) const {
     balls.expect_same_of_batches(collider, executor);
     boxes.expect_same_of_batches(collider, executor);
@@ -100,6 +115,26 @@ TYPED_TEST(ShapeDeterminism, answers_are_the_published_ones) {
   keep_few(this->hard.shapes);
   EXPECT_EQ(ShapeAnswers<TypeParam>(this->hard.hard.collider(), this->hard.shapes).hash(),
             published_shape_hash_of_few<TypeParam>);
+}
+
+TYPED_TEST(ShapeDeterminism, contacts_are_the_published_ones) {
+  const Collider<TypeParam> collider = this->hard.hard.collider();
+  const ShapeContacts<TypeParam> contacts(collider, this->hard.shapes);
+  EXPECT_GT(contacts.normals.size(), 400U);
+  EXPECT_EQ(contacts.hash(), published_shape_contact_hash<TypeParam>);
+  keep_few(this->hard.shapes);
+  EXPECT_EQ(ShapeContacts<TypeParam>(collider, this->hard.shapes).hash(),
+            published_shape_contact_hash_of_few<TypeParam>);
+}
+
+TYPED_TEST(ShapeDeterminism, contacts_are_the_same_on_every_instruction_set) {
+  const auto shapes = this->some(case_count(sizeof(TypeParam) == 4 ? 600 : 200));
+  const std::uint64_t expected = ShapeContacts<TypeParam>(this->hard.hard.collider(), shapes).hash();
+  for (const std::int64_t target : instruction_sets()) {
+    SCOPED_TRACE(name_of_instruction_set(target));
+    const ForcedInstructionSet forced(target);
+    EXPECT_EQ(ShapeContacts<TypeParam>(this->hard.hard.collider(), shapes).hash(), expected);
+  }
 }
 
 TYPED_TEST(ShapeDeterminism, answers_are_the_same_on_every_instruction_set) {
@@ -131,7 +166,8 @@ TYPED_TEST(ShapeDeterminism, batches_are_the_same_as_single_queries_on_every_ins
 }
 
 TYPED_TEST(ShapeDeterminism, batches_are_the_same_on_any_number_of_threads) {
-  const ShapesByKind<TypeParam> shapes(this->hard);
+  ShapesByKind<TypeParam> shapes(this->hard);
+  shapes.repeat();
   for (const std::size_t count : {1U, 2U, 3U, 8U}) {
     SCOPED_TRACE(std::to_string(count) + " threads");
     const Threads threads(count);
