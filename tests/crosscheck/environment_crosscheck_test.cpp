@@ -13,8 +13,11 @@
 
 #include "pair_cases.hpp"
 #include "support/floating_point_mode.hpp"
+#include "support/grid_breaking_meshes.hpp"
 #include "support/pair_text.hpp"
 #include "support/same_bits.hpp"
+#include "support/shape_families.hpp"
+#include "support/shape_text.hpp"
 #include "support/small_meshes.hpp"
 #include "surehit/collider.hpp"
 #include "surehit/intersect.hpp"
@@ -97,6 +100,56 @@ void check_pairs(const FloatingPointMode& mode) {
 TEST_P(FloatingPointModes, do_not_change_what_float_pairs_answer) { check_pairs<float>(GetParam()); }
 TEST_P(FloatingPointModes, do_not_change_what_double_pairs_answer) { check_pairs<double>(GetParam()); }
 
+/// All that is told of a moving shape and a triangle.
+template <typename Scalar>
+struct ShapePairAnswer {
+  std::optional<ShapeHit<Scalar>> hit;
+  Vector3<Scalar> point{0, 0, 0};
+  Vector3<Scalar> normal{0, 0, 0};
+
+  /// No answer is a NaN.
+  friend bool operator==(const ShapePairAnswer&, const ShapePairAnswer&) = default;
+};
+
+template <typename Scalar, typename Family>
+void check_shape_pairs(const FloatingPointMode& mode) {
+  for (const Family family : all_families<Family>) {
+    Random random(4 + static_cast<std::uint64_t>(family));
+    for (std::size_t i = case_count(sizeof(Scalar) == 4 ? 100 : 10); i > 0; --i) {
+      const auto [drawn, drawn_triangle] = draw_shape_pair<Scalar>(family, random);
+      const auto& shape = drawn;  // Lambdas may not capture bindings.
+      const Triangle<Scalar>& triangle = drawn_triangle;
+      ShapeQueryOptions<Scalar> options;
+      if (i % 4 == 0) options = {.max_t = random.unit<Scalar>(), .culling = Culling::back};
+      const auto call = [&] {
+        ShapePairAnswer<Scalar> answer{intersect(shape, triangle, options)};
+        if (answer.hit) answer.point = contact_point(triangle, *answer.hit);
+        if (answer.hit) answer.normal = contact_normal<Scalar>(shape, triangle);
+        return answer;
+      };
+      bool mode_is_kept = false;
+      const ShapePairAnswer<Scalar> expected = call();
+      const ShapePairAnswer<Scalar> answer = answer_in(mode, mode_is_kept, call);
+      EXPECT_TRUE(mode_is_kept) << name_of(family);
+      EXPECT_TRUE(answer == expected) << name_of(family) << ": " << hex_text(shape) << '\n' << hex_text(triangle);
+    }
+  }
+}
+
+template <typename Scalar>
+void check_shape_pairs_of_all_kinds(const FloatingPointMode& mode) {
+  check_shape_pairs<Scalar, SphereFamily>(mode);
+  check_shape_pairs<Scalar, BoxFamily>(mode);
+  check_shape_pairs<Scalar, CapsuleFamily>(mode);
+}
+
+TEST_P(FloatingPointModes, do_not_change_what_float_shapes_and_triangles_answer) {
+  check_shape_pairs_of_all_kinds<float>(GetParam());
+}
+TEST_P(FloatingPointModes, do_not_change_what_double_shapes_and_triangles_answer) {
+  check_shape_pairs_of_all_kinds<double>(GetParam());
+}
+
 /// All that a collider answers about the paths of its mesh.
 template <typename Scalar>
 struct ColliderAnswers {
@@ -148,6 +201,82 @@ void check_colliders(const FloatingPointMode& mode) {
 
 TEST_P(FloatingPointModes, do_not_change_what_float_colliders_answer) { check_colliders<float>(GetParam()); }
 TEST_P(FloatingPointModes, do_not_change_what_double_colliders_answer) { check_colliders<double>(GetParam()); }
+
+/// All that a collider answers about moving shapes, single and in a batch.
+template <typename Scalar>
+struct ColliderShapeAnswers {
+  std::vector<ShapeHit<Scalar>> hits;
+  std::vector<Scalar> free_ts;
+  std::vector<Vector3<Scalar>> free_points;
+  std::vector<std::uint8_t> blocked;
+
+  friend bool operator==(const ColliderShapeAnswers&, const ColliderShapeAnswers&) = default;
+};
+
+template <typename Shape, typename Scalar>
+void ask(const Collider<Scalar>& collider, const std::vector<Shape>& shapes, ColliderShapeAnswers<Scalar>& answers) {
+  std::vector<ShapeHit<Scalar>> hits;
+  for (const Shape& shape : shapes) {
+    answers.blocked.push_back(collider.any_hit(shape));
+    answers.blocked.push_back(collider.overlaps(shape));
+    collider.all_hits(shape, hits);
+    answers.hits.insert(answers.hits.end(), hits.begin(), hits.end());
+    const auto first = collider.first_hit(shape);
+    if (!first) continue;
+    answers.hits.push_back(*first);
+    answers.free_ts.push_back(collider.last_free_t(shape, *first));
+    answers.free_points.push_back(collider.last_free_point(shape, *first));
+  }
+  hits.resize(shapes.size());
+  collider.first_hits(shapes, hits);
+  answers.hits.insert(answers.hits.end(), hits.begin(), hits.end());
+  std::vector<std::uint8_t> blocked(shapes.size());
+  collider.any_hits(shapes, blocked);
+  answers.blocked.insert(answers.blocked.end(), blocked.begin(), blocked.end());
+}
+
+/// Each triangle has a shape of its own. Crowded cells are divided.
+template <typename Scalar, typename Family>
+void check_shapes_of_colliders(const FloatingPointMode& mode) {
+  for (const Family family : all_families<Family>) {
+    Random random(5 + static_cast<std::uint64_t>(family));
+    for (std::size_t i = case_count(sizeof(Scalar) == 4 ? 3 : 1); i > 0; --i) {
+      const auto [first_shape, first_triangle] = draw_shape_pair<Scalar>(family, random);
+      std::vector shapes(1, first_shape);
+      GeneratedMesh<Scalar> mesh;
+      mesh.add(first_triangle);
+      while (shapes.size() < (sizeof(Scalar) == 4 ? 16 : 5)) {
+        const auto [shape, triangle] = draw_shape_pair<Scalar>(family, random);
+        shapes.push_back(shape);
+        mesh.add(triangle);
+      }
+      const auto call = [&] {
+        ColliderShapeAnswers<Scalar> answers;
+        ask(Collider<Scalar>(mesh.view(), {.grid = {.resolution = {2, 2, 2}, .crowded = 2}}), shapes, answers);
+        return answers;
+      };
+      bool mode_is_kept = false;
+      const ColliderShapeAnswers<Scalar> expected = call();
+      const ColliderShapeAnswers<Scalar> answers = answer_in(mode, mode_is_kept, call);
+      EXPECT_TRUE(mode_is_kept) << name_of(family);
+      EXPECT_TRUE(answers == expected) << name_of(family);
+    }
+  }
+}
+
+template <typename Scalar>
+void check_shapes_of_all_kinds(const FloatingPointMode& mode) {
+  check_shapes_of_colliders<Scalar, SphereFamily>(mode);
+  check_shapes_of_colliders<Scalar, BoxFamily>(mode);
+  check_shapes_of_colliders<Scalar, CapsuleFamily>(mode);
+}
+
+TEST_P(FloatingPointModes, do_not_change_what_float_colliders_answer_about_shapes) {
+  check_shapes_of_all_kinds<float>(GetParam());
+}
+TEST_P(FloatingPointModes, do_not_change_what_double_colliders_answer_about_shapes) {
+  check_shapes_of_all_kinds<double>(GetParam());
+}
 
 INSTANTIATE_TEST_SUITE_P(All, FloatingPointModes, testing::ValuesIn(modes),
                          [](const auto& test) { return std::string(test.param.name); });

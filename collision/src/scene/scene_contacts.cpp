@@ -7,6 +7,7 @@
 #include "shape/capsule_contact.hpp"
 #include "shape/contact_normal.hpp"
 #include "shape/sphere_contact.hpp"
+#include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"
 #include "surehit/scene_queries.hpp"
 
@@ -28,6 +29,7 @@ Vector3<Scalar> of_touched_triangle(const detail::CommittedScene<Scalar>& scene,
 
 template <FloatOrDouble Scalar>
 Vector3<Scalar> SceneQueries<Scalar>::contact_point(const SceneShapeHit<Scalar>& hit) const noexcept {
+  const FloatingPointEnvironment environment;
   const auto is_share = [](Scalar x) { return x >= 0 && x <= 1; };
   if (!is_share(hit.t) || !is_share(hit.u) || !is_share(hit.v)) return Vector3<Scalar>::Zero();
   return of_touched_triangle(committed(), hit, [&](const detail::PlacedTriangle<Scalar>& triangle) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "collision/allocations.hpp"
+#include "collision/shape/crowded_ground.hpp"
 #include "support/random.hpp"
 #include "support/same_bits.hpp"
 #include "support/scalars.hpp"
@@ -98,26 +99,58 @@ TYPED_TEST(SceneAllocation, none_in_queries) {
   }
 }
 
-TYPED_TEST(SceneAllocation, none_in_queries_of_balls) {
-  const SweptSphere<TypeParam> ball{{0, 0, 100}, {TypeParam(0.3), 0, -100}, TypeParam{0.5}};
-  const std::vector<SweptSphere<TypeParam>> balls(64, ball);
-  std::vector<SceneShapeHit<TypeParam>> hits(balls.size());
-  std::vector<std::uint8_t> blocked(balls.size());
-  const auto odd = [](const SceneShapeHit<TypeParam>& hit) { return hit.instance.index % 2 == 1; };
+template <typename Shape, typename Scalar>
+void expect_no_allocation(const Scene<Scalar>& scene, const std::vector<Shape>& shapes) {
+  std::vector<SceneShapeHit<Scalar>> hits(shapes.size());
+  std::vector<std::uint8_t> blocked(shapes.size());
+  const auto odd = [](const SceneShapeHit<Scalar>& hit) { return (hit.instance.index + hit.triangle) % 2 == 1; };
+  std::size_t hit_count = 0;
   EXPECT_EQ(allocations_of([&] {
-              const auto hit = this->scene.first_hit(ball);
-              ASSERT_TRUE(hit);
-              static_cast<void>(this->scene.any_hit(ball, odd));
-              static_cast<void>(this->scene.overlaps(ball));
-              static_cast<void>(this->scene.overlaps(ball, odd));
-              static_cast<void>(this->scene.contact_point(*hit));
-              static_cast<void>(this->scene.contact_normal(ball, *hit));
-              static_cast<void>(this->scene.last_free_t(ball, *hit));
-              static_cast<void>(this->scene.last_free_point(ball, *hit));
-              this->scene.first_hits(balls, hits, {.filter = odd});
-              this->scene.any_hits(balls, blocked);
+              for (const Shape& shape : shapes) {
+                const auto hit = scene.first_hit(shape);
+                static_cast<void>(scene.any_hit(shape));
+                static_cast<void>(scene.first_hit(shape, odd));
+                static_cast<void>(scene.any_hit(shape, odd));
+                static_cast<void>(scene.overlaps(shape));
+                static_cast<void>(scene.overlaps(shape, odd));
+                if (!hit) continue;
+                ++hit_count;
+                static_cast<void>(scene.contact_point(*hit));
+                static_cast<void>(scene.contact_normal(shape, *hit));
+                static_cast<void>(scene.last_free_t(shape, *hit));
+                static_cast<void>(scene.last_free_point(shape, *hit));
+                static_cast<void>(scene.last_free_point(shape, *hit, odd));
+              }
+              scene.first_hits(shapes, hits, {.filter = odd});
+              scene.any_hits(shapes, blocked);
             }),
             0U);
+  EXPECT_GT(hit_count, shapes.size() / 2);
+}
+
+TYPED_TEST(SceneAllocation, none_in_queries_of_moving_shapes) {
+  const Vector3<TypeParam> start{0, 0, 100};
+  const Vector3<TypeParam> end{TypeParam(0.3), 0, -100};
+  const TypeParam size{0.5};
+  expect_no_allocation(this->scene, std::vector(3, SweptSphere<TypeParam>{start, end, size}));
+  expect_no_allocation(this->scene, std::vector(3, SweptBox<TypeParam>{start, end, {size, size / 2, size}}));
+  expect_no_allocation(this->scene, std::vector(3, SweptCapsule<TypeParam>{start, end, {0, size, size / 4}, size}));
+}
+
+/// They come to divided cells and to inner grids of instances, one of which moves.
+TYPED_TEST(SceneAllocation, none_in_queries_of_moving_shapes_in_crowded_cells) {
+  const CrowdedGround<TypeParam> ground;
+  const auto collider = std::make_shared<Collider<TypeParam>>(ground.mesh.view(), CrowdedGround<TypeParam>::options());
+  ASSERT_TRUE(ground.has_crowded_cells_and_inner_grids(*collider));
+  for (const int count : {1, 3}) {
+    Scene<TypeParam> crowded;
+    for (int i = 0; i < count; ++i) crowded.add(collider, this->turned(i));
+    if (count > 1) crowded.set_motion(crowded.instances().back(), {0, 0, -1});
+    crowded.commit();
+    expect_no_allocation(crowded, ground.template shapes<SweptSphere<TypeParam>>(30));
+    expect_no_allocation(crowded, ground.template shapes<SweptBox<TypeParam>>(30));
+    expect_no_allocation(crowded, ground.template shapes<SweptCapsule<TypeParam>>(30));
+  }
 }
 
 TYPED_TEST(SceneAllocation, all_hits_keeps_the_capacity_of_its_vector) {

@@ -29,6 +29,12 @@ class SceneEnvironment : public testing::Test {
         {{third, third / 7, -1}, {third / 3, third, 5}},         {{tiny, 2 * tiny, 1}, {2 * tiny, tiny, -1}},
         {{tiny, tiny, -3 * tiny}, {tiny, tiny, 4 * tiny}},       {{-1, third, 2}, {2, third / 5, 2}},
         {{third / 5, third / 9, 9}, {third / 7, third / 3, -9}}, {{0, 0, Limits::min()}, {tiny, Limits::min(), -tiny}}};
+    for (const auto& [start, end] : segments_) {
+      balls_.push_back({start, end, Scalar(0.1)});
+      if (balls_.size() % 2 == 0) continue;
+      boxes_.push_back({start, end, {tiny, Scalar(0.1), third}});
+      capsules_.push_back({start, end, {third, -tiny, Scalar(0.1)}, third / 7});
+    }
   }
 
   [[nodiscard]] std::vector<std::uint8_t> build_and_ask() {
@@ -101,8 +107,10 @@ class SceneEnvironment : public testing::Test {
       ask_path(scene, Ray<Scalar>{segment.start, segment.end});
       ask_path(scene, Line<Scalar>{segment.end, segment.start});
       if (const auto hit = scene.first_hit(segment)) add(scene.last_free_point(segment, *hit));
-      ask_shape(scene, SweptSphere<Scalar>{segment.start, segment.end, Scalar(0.1)});
     }
+    ask_shapes(scene, balls_);
+    ask_shapes(scene, boxes_);
+    ask_shapes(scene, capsules_);
     std::vector<SceneHit<Scalar>> hits(segments_.size());
     std::vector<std::uint8_t> blocked(segments_.size());
     scene.first_hits(segments_, hits);
@@ -119,16 +127,35 @@ class SceneEnvironment : public testing::Test {
     for (const auto& hit : hits) add(hit);
   }
 
-  void ask_shape(const Scene<Scalar>& scene, const SweptShape<Scalar>& shape) {
-    const auto hit = scene.first_hit(shape);
-    add(hit.value_or(SceneShapeHit<Scalar>{}));
-    add(scene.any_hit(shape));
-    add(scene.overlaps(shape));
-    if (hit) add(scene.last_free_point(shape, *hit));
+  template <typename Shape>
+  void ask_shapes(const Scene<Scalar>& scene, const std::vector<Shape>& shapes) {
+    for (const Shape& shape : shapes) {
+      const auto hit = scene.first_hit(shape);
+      add(hit.value_or(SceneShapeHit<Scalar>{}));
+      add(scene.any_hit(shape));
+      add(scene.overlaps(shape));
+      std::vector<SceneShapeHit<Scalar>> all;
+      scene.all_hits(shape, all);
+      for (const auto& one : all) add(one);
+      if (!hit) continue;
+      add(scene.last_free_t(shape, *hit));
+      add(scene.last_free_point(shape, *hit));
+      add(scene.contact_point(*hit));
+      add(scene.contact_normal(shape, *hit));
+    }
+    std::vector<SceneShapeHit<Scalar>> hits(shapes.size());
+    std::vector<std::uint8_t> blocked(shapes.size());
+    scene.first_hits(shapes, hits);
+    scene.any_hits(shapes, blocked);
+    for (const auto& hit : hits) add(hit);
+    bytes_.insert(bytes_.end(), blocked.begin(), blocked.end());
   }
 
   GeneratedMesh<Scalar> mesh_;
   std::vector<Segment<Scalar>> segments_;
+  std::vector<SweptSphere<Scalar>> balls_;
+  std::vector<SweptBox<Scalar>> boxes_;
+  std::vector<SweptCapsule<Scalar>> capsules_;
   std::vector<std::uint8_t> bytes_;
 };
 TYPED_TEST_SUITE(SceneEnvironment, Scalars, ScalarNames);
