@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -8,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "collider_state.hpp"
+#include "collision/in_levels.hpp"
 #include "collision/painted_stack.hpp"
 #include "collision/unit_triangles.hpp"
 #include "support/scalars.hpp"
@@ -147,6 +150,37 @@ TYPED_TEST(QueryStack, of_last_free_point) {
     static_cast<void>(collider.last_free_point(segment, Hit<TypeParam>{.t = TypeParam{0.5}, .triangle = 0}, options));
     static_cast<void>(collider.last_free_point(segment, Hit<TypeParam>{.t = 0x1p-60, .triangle = 0}, options));
   });
+}
+
+/// Paths walk through all inner grids to what decides with the longest integers for which levels have room around them.
+TYPED_TEST(QueryStack, of_queries_and_batches_in_inner_grids) {
+  using Scalar = TypeParam;
+  std::size_t in_deepest_grid = 0;
+  const auto with_room = [](const Vector3<Scalar>& point) -> Vector3<Scalar> {
+    return point.unaryExpr([](Scalar x) { return std::fabs(x) > 1 ? x * Scalar{0x1p-60F} : x; });
+  };
+  for (const auto& one : this->cases()) {
+    const Triangle<Scalar> triangle{with_room(one.triangle.a), with_room(one.triangle.b), with_room(one.triangle.c)};
+    const Segment<Scalar> segment{with_room(one.path.start), with_room(one.path.toward)};
+    const auto hit = intersect(segment, triangle);
+    if (!hit) continue;
+    const auto mesh = in_levels<Scalar>(triangle, point(segment, *hit), segment.start, Grid::max_depth);
+    const Collider<Scalar> collider(mesh.view(), {.grid = {.resolution = {2, 2, 2}, .crowded = 8}});
+    const Grid& grid = detail::ColliderState<Scalar>::of(collider).grid;
+    if (grid.levels() > 0 && grid.inner_frames().size() >= Grid::max_depth) ++in_deepest_grid;
+    const auto measure = [&](const std::string& query, std::size_t promised, const std::function<void()>& call) {
+      this->expect_less_than(promised, query + "_" + one.name, call);
+    };
+    measure("first_hit", promised_bytes, [&] { static_cast<void>(collider.first_hit(segment)); });
+    measure("any_hit", promised_bytes, [&] { static_cast<void>(collider.any_hit(segment)); });
+    measure("last_free_point", promised_bytes, [&] { static_cast<void>(collider.last_free_point(segment, *hit)); });
+    const std::vector<Segment<Scalar>> segments(40, segment);
+    std::vector<Hit<Scalar>> hits(segments.size());
+    std::vector<std::uint8_t> blocked(segments.size());
+    measure("first_hits", promised_bytes_of_batches<Scalar>, [&] { collider.first_hits(segments, hits); });
+    measure("any_hits", promised_bytes_of_batches<Scalar>, [&] { collider.any_hits(segments, blocked); });
+  }
+  EXPECT_GT(in_deepest_grid, 0U);
 }
 
 TYPED_TEST(QueryStack, of_point_and_normal) {

@@ -11,12 +11,15 @@
 #include <variant>
 #include <vector>
 
+#include "collider_state.hpp"
+#include "collision/in_levels.hpp"
 #include "collision/painted_stack.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 #include "support/scalars.hpp"
 #include "support/sphere_families.hpp"
+#include "surehit/intersect.hpp"
 #include "unit_scenes.hpp"
 
 #if defined(SUREHIT_TEST_PROMISES_STACK)
@@ -187,6 +190,55 @@ TYPED_TEST(SceneStack, of_moving_shapes) {
   EXPECT_LT(deepest, promised_bytes_of_shapes<Scalar>);
   // The longest integers are among the cases.
   EXPECT_GT(deepest, promised_bytes_of_shapes<Scalar> / 4);
+}
+
+/// Paths and shapes come to the deepest inner grid of an instance.
+TYPED_TEST(SceneStack, in_inner_grids) {
+  using Scalar = TypeParam;
+  PaintedStack stack;
+  std::size_t in_deepest_grid = 0;
+  for (const SphereFamily family : all_sphere_families) {
+    Random random(41 + static_cast<std::uint64_t>(family));
+    const auto [ball, triangle] = draw_sphere_pair<Scalar>(family, random);
+    const auto hit = intersect(ball, triangle);
+    if (!hit) continue;
+    const Vector3<Scalar> at = contact_point(triangle, *hit);
+    const auto mesh = in_levels<Scalar>(triangle, at, ball.start, Grid::max_depth);
+    const auto collider = std::make_shared<Collider<Scalar>>();
+    // Numbers may be too large for levels around them.
+    if (!collider->try_build(mesh.view(), {.grid = {.resolution = {2, 2, 2}, .crowded = 8}})) continue;
+    const Grid& grid = detail::ColliderState<Scalar>::of(*collider).grid;
+    if (grid.levels() > 0 && grid.inner_frames().size() >= Grid::max_depth) ++in_deepest_grid;
+    const std::string name = name_of(family);
+    // A scene with one instance has batches of its own.
+    for (const std::size_t count : {1U, 2U}) {
+      Scene<Scalar> scene;
+      for (std::size_t i = 0; i < count; ++i) scene.add(collider);
+      scene.commit();
+      const std::vector<Segment<Scalar>> segments(40, Segment<Scalar>{ball.start, at});
+      std::vector<SceneHit<Scalar>> hits(segments.size());
+      std::vector<std::uint8_t> blocked(segments.size());
+      this->expect_within_promise("first_hit_" + name, [&] { static_cast<void>(scene.first_hit(segments.front())); });
+      this->expect_within_promise("first_hits_" + name, [&] { scene.first_hits(segments, hits); });
+      this->expect_within_promise("any_hits_" + name, [&] { scene.any_hits(segments, blocked); });
+      const auto measure_shapes = [&](const auto& shape) {
+        const std::vector<std::remove_cvref_t<decltype(shape)>> shapes(2, shape);
+        std::vector<SceneShapeHit<Scalar>> shape_hits(shapes.size());
+        const auto measure = [&](const auto& call) {
+          EXPECT_LT(stack.bytes_used_by(call), promised_bytes_of_shapes<Scalar>) << name;
+        };
+        measure([&] { static_cast<void>(scene.first_hit(shape)); });
+        measure([&] { static_cast<void>(scene.any_hit(shape)); });
+        measure([&] { scene.first_hits(shapes, shape_hits); });
+        measure([&] { scene.any_hits(shapes, std::span(blocked).first(shapes.size())); });
+        measure([&] { static_cast<void>(scene.last_free_point(shape, shape_hits.front())); });
+      };
+      measure_shapes(ball);
+      measure_shapes(SweptBox<Scalar>{ball.start, ball.end, {ball.radius, ball.radius, ball.radius}});
+      measure_shapes(SweptCapsule<Scalar>{ball.start, ball.end, (triangle.b - triangle.a) / 2, ball.radius});
+    }
+  }
+  EXPECT_GT(in_deepest_grid, 0U);
 }
 
 TYPED_TEST(SceneStack, of_triangles_and_normals) {
