@@ -59,8 +59,8 @@ struct BuildOptions {
 /// floating-point mode do not change them. A path with a NaN or an infinity hits nothing.
 ///
 /// Queries are const and may run in many threads at the same time. All except `all_hits` are noexcept and allocate
-/// nothing. In an optimized build, a query uses less than 16 KiB of stack. A batch uses less than 32 KiB in float and
-/// 48 KiB in double. No query may run while the collider changes.
+/// nothing. In an optimized build, a query uses less than 24 KiB of stack. A batch uses less than 48 KiB in float and
+/// 64 KiB in double. No query may run while the collider changes.
 ///
 /// A query walks through the cells of a grid along its path, and tests the triangles that they list. A path that starts
 /// farther from the mesh than 2^60 times its size is tested against all triangles. `QueryStatistics::unclipped` counts
@@ -243,7 +243,7 @@ class SUREHIT_API Collider {
   [[nodiscard]] Scalar max_t_keeping(const Path<Scalar>& path, const Hit<Scalar>& hit) const noexcept;
 
   // Moving shapes. Their hits are exact too. They take more time than those of points. In an optimized build, they use
-  // less than 32 KiB of stack in float and 256 KiB in double.
+  // less than 48 KiB of stack in float and 256 KiB in double.
 
   /// Returns the hit of a moving shape with the lowest exact t, and then with the lowest triangle id. Returns nothing
   /// if the shape touches no triangle. Adds its work to `statistics`, unless this is null.

@@ -24,7 +24,7 @@ struct Weights {
 /// two lower ends.
 ///
 /// The steps are not inlined into each other, so each stack frame ends with its step. The integers are large enough for
-/// all of double. One frame for all steps would exceed the 16 KiB of stack that a query may use.
+/// all of double. One frame for all steps would exceed the 24 KiB of stack that a query may use.
 ///
 /// `Size` is `AnySize`, or `PlacedSize` for placed triangles, or `CompactSize` if the scale is compact.
 template <typename Scalar, typename Size>

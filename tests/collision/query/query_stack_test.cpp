@@ -22,10 +22,10 @@
 namespace surehit::test {
 namespace {
 
-constexpr std::size_t promised_bytes = 16 * 1024;
+constexpr std::size_t promised_bytes = 24 * 1024;
 /// Batches walk many paths at once.
 template <typename Scalar>
-constexpr std::size_t promised_bytes_of_batches = (std::is_same_v<Scalar, float> ? 32 : 48) * 1024;
+constexpr std::size_t promised_bytes_of_batches = (std::is_same_v<Scalar, float> ? 48 : 64) * 1024;
 
 template <typename Scalar>
 class QueryStack : public testing::Test {

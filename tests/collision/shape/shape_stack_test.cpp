@@ -25,7 +25,7 @@ namespace surehit::test {
 namespace {
 
 template <typename Scalar>
-constexpr std::size_t promised_bytes = (sizeof(Scalar) == 4 ? 32 : 256) * 1024;
+constexpr std::size_t promised_bytes = (sizeof(Scalar) == 4 ? 48 : 256) * 1024;
 
 using FamiliesAndScalars =
     testing::Types<std::pair<SphereFamily, float>, std::pair<SphereFamily, double>, std::pair<BoxFamily, float>,
