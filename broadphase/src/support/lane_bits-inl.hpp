@@ -29,6 +29,17 @@ HWY_INLINE hn::Mask<D> mask_of(D d, std::uint64_t bits) {
   return hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&bits));
 }
 
+/// Stores those lanes of x that a mask has. The others must have a number in memory, which stays. A masked store of
+/// AVX2 would take AMD's processors dozens of operations, so a number is loaded for each lane.
+template <typename D>
+HWY_INLINE void store_where(hn::Mask<D> mask, hn::Vec<D> x, D d, hn::TFromD<D>* to) {
+#if HWY_TARGET <= HWY_AVX3
+  hn::BlendedStore(x, mask, d, to);
+#else
+  hn::StoreU(hn::IfThenElse(mask, x, hn::LoadU(d, to)), d, to);
+#endif
+}
+
 }  // namespace surehit::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -203,8 +203,8 @@ class alignas(max_lanes * sizeof(double)) FarLanes {
       const Floats highest = hn::Set(d, frame.float_stop[k] * (1 - 0x1p-24F));
       const Floats rate = hn::Load(d, clipped.rate[k].data());
       const Floats entered = hn::Min(hn::Max(hn::MulAdd(enters, rate, from[k]), hn::Zero(d)), highest);
-      hn::BlendedStore(entered, inside, d, clipped.start[k].data());
-      hn::BlendedStore(hn::Floor(entered), inside, d, clipped.finest[k].data());
+      store_where(inside, entered, d, clipped.start[k].data());
+      store_where(inside, hn::Floor(entered), d, clipped.finest[k].data());
     }
     set_parameters(paths, enters, inside, clipped);
     free = static_cast<std::uint32_t>(bits_of(d, is_free));
@@ -304,8 +304,8 @@ class alignas(max_lanes * sizeof(double)) FarLanes {
     // Highway's emulated vectors make infinity the largest finite float when they demote it.
     const auto is_endless = hn::Eq(paths.last_t, hn::Inf(all));
     const Floats ends_at = hn::IfThenElse(is_endless, hn::Inf(all), hn::Load(all, end.data()));
-    hn::BlendedStore(ends_at, lanes, all, clipped.end.data());
-    hn::BlendedStore(hn::Load(all, entered.data()), lanes, all, clipped.enters.data());
+    store_where(lanes, ends_at, all, clipped.end.data());
+    store_where(lanes, hn::Load(all, entered.data()), all, clipped.enters.data());
     hn::Store(hn::IfThenElseZero(lanes, hn::Load(all, rest.data())), all, enters_rest.data());
   }
 

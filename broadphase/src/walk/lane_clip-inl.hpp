@@ -162,9 +162,7 @@ class LaneClip {
     const auto number = [&](double x) { return hn::Set(d, x); };
     const Doubles zero = hn::Zero(d);
     const auto taken = mask_of(df, some);
-    const auto keep_floats = [&](LaneFloats& of, hn::Vec<decltype(df)> x) {
-      hn::BlendedStore(x, taken, df, &of[from]);
-    };
+    const auto keep_floats = [&](LaneFloats& of, hn::Vec<decltype(df)> x) { store_where(taken, x, df, &of[from]); };
     const auto keep = [&](LaneFloats& of, Doubles x) { keep_floats(of, hn::DemoteTo(df, x)); };
     const auto keep_end = [&](LaneFloats& of, Doubles x) {
       // Highway's emulated vectors make infinity the largest finite float.

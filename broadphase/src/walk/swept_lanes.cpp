@@ -45,12 +45,12 @@ class SweptStep {
     }
     auto inside = hn::Le(enters, load(lanes_.end));
     const Mask begins = mask_of(d, entering);
-    hn::BlendedStore(enters, begins, d, &lanes_.t[from_]);
+    store_where(begins, enters, d, &lanes_.t[from_]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Floats first = first_cell(axis, enters);
       inside = hn::And(inside, hn::Lt(first, stop(axis)));
       const Floats last = hn::Max(first, hn::Min(last_cell(axis, enters), hn::Sub(stop(axis), one())));
-      hn::BlendedStore(axis == 0 ? first : hn::Add(last, one()), begins, d, &lanes_.horizon[axis][from_]);
+      store_where(begins, axis == 0 ? first : hn::Add(last, one()), d, &lanes_.horizon[axis][from_]);
     }
     return static_cast<std::uint32_t>(bits_of(d, inside)) & entering;
   }
@@ -264,7 +264,7 @@ class SweptEntry {
     const V per_cell = hn::Set(d, 1.0 / frame.division);
     const auto taken = mask_of(df, entering);
     const auto keep = [&](SweptLanes::Row<float>& row, hn::Vec<decltype(df)> x)
-                          HWY_ATTR { hn::BlendedStore(x, taken, df, &row[from]); };
+                          HWY_ATTR { store_where(taken, x, df, &row[from]); };
     const auto scaled = [&](const SweptLanes::Row<double>& row) HWY_ATTR {
       return hn::Mul(hn::Mul(hn::LoadU(d, &row[from]), hn::Set(d, frame.unit[0])), hn::Set(d, frame.unit[1]));
     };
@@ -303,7 +303,7 @@ class SweptEntry {
     keep(lanes.first, hn::DemoteTo(df, first_cell));
     const hn::Rebind<std::int32_t, Tag> di;
     const hn::Rebind<std::uint32_t, Tag> du;
-    hn::BlendedStore(hn::BitCast(du, hn::DemoteTo(di, octant)), hn::RebindMask(du, taken), du, &lanes.octant[from]);
+    store_where(hn::RebindMask(du, taken), hn::BitCast(du, hn::DemoteTo(di, octant)), du, &lanes.octant[from]);
     return static_cast<std::uint32_t>(bits_of(d, is_plain)) & entering;
   }
 };

@@ -17,6 +17,7 @@
 #include "filter/kernel_bound.hpp"
 #include "filter/kernel_path.hpp"
 #include "grid/grid_frame.hpp"
+#include "support/lane_bits-inl.hpp"
 #include "walk/lane_walk-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -59,7 +60,7 @@ class alignas(max_lanes * sizeof(float)) KernelLanes {
       far = hn::Max(far, hn::Abs(hn::Sub(point, hn::Set(d, frame.float_box_high[k]))));
       const Floats low_size = hn::Set(d, std::fabs(frame.float_low[k]));
       all = hn::Max(all, hn::Add(hn::Add(hn::Abs(start), low_size), hn::Abs(point)));
-      hn::BlendedStore(point, lanes, d, start_[k].data());
+      store_where(lanes, point, d, start_[k].data());
     }
     const Floats of_double = hn::MulAdd(all, hn::Set(d, 0x1p-28F), hn::Set(d, std::numeric_limits<float>::min()));
     const Floats error = hn::MulAdd(point_size, hn::Set(d, 0.125F), of_double);  // P2, P3
@@ -68,8 +69,8 @@ class alignas(max_lanes * sizeof(float)) KernelLanes {
     const Floats half = hn::Set(d, KernelBound<float>::largest_size / 2);
     const auto are_small = hn::And(hn::And(hn::Le(reach, half), hn::Le(point_size, half)), hn::Le(way_size, largest));
     hn::Store(hn::Load(d, reach_.data()), d, reach_from_start_.data());
-    hn::BlendedStore(reach, lanes, d, reach_.data());
-    hn::BlendedStore(hn::IfThenElse(are_small, way_size, hn::Inf(d)), lanes, d, d_size_.data());
+    store_where(lanes, reach, d, reach_.data());
+    store_where(lanes, hn::IfThenElse(are_small, way_size, hn::Inf(d)), d, d_size_.data());
   }
   /// Returns the reach of the path of a lane whose start was moved, from its own start.
   [[nodiscard]] float reach_from_start(std::size_t lane) const { return reach_from_start_[lane]; }

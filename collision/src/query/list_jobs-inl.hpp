@@ -161,15 +161,17 @@ class ListJobs {
     for (const Job& job : some) {
       const std::size_t first_triangle = from + job.from;
       const Kernel kernel(kernel_path_[job.slot], lists_[job.slot], first_triangle);
-      open_[open].slot = job.slot;
-      open_[open].from = first_triangle;
-      open_[open].verdicts = kernel.classify(*weights_[job.slot], bounds_[job.slot]);
+      const Verdicts verdicts = kernel.classify(*weights_[job.slot], bounds_[job.slot]);
+      Open& next = open_[open];
+      next.slot = job.slot;
+      next.from = first_triangle;
+      next.verdicts = verdicts;
       if constexpr (Visitor::wants_order) {
         const typename Kernel::Crossing crossing = kernel.crossing();
         hn::Store(crossing.height, d, crossings_[open].height.data());
         hn::Store(crossing.det, d, crossings_[open].det.data());
       }
-      open += open_[open].verdicts.possible != 0 ? 1 : 0;
+      open += verdicts.possible != 0 ? 1 : 0;
     }
     if constexpr (Visitor::wants_order) {
       for (std::size_t i = 0; i < open; ++i) locate_first(i, visitors);
