@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -78,3 +79,12 @@ class [[nodiscard]] InstanceResult {
 };
 
 }  // namespace surehit
+
+/// Hashes an id, for unordered containers.
+template <>
+struct std::hash<surehit::InstanceId> {
+  /// Returns the hash of all bits of the id.
+  std::size_t operator()(const surehit::InstanceId& id) const noexcept {
+    return std::hash<std::uint64_t>()(std::uint64_t{id.generation} << 32 | id.index);
+  }
+};

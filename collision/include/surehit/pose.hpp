@@ -29,8 +29,8 @@ struct Pose {
 
   /// Returns a pose that turns the mesh, and then moves it. `quaternion` has x, y, z and w, and is a unit quaternion.
   ///
-  /// Each entry of the matrix is rounded a few times, so the result is a rotation within some ulp(1). The instance is
-  /// the exact image under the rounded matrix.
+  /// Each entry of the matrix is rounded a few times, so the result is a rotation within some ulp(1). Entries below
+  /// 2^-64 in magnitude become 0. The instance is the exact image under the rounded matrix.
   [[nodiscard]] SUREHIT_API static Pose rigid(const std::array<Scalar, 4>& quaternion,
                                               const Vector3<Scalar>& translation);
   /// Does the same for an `Eigen::Quaternion`, or for another type with x(), y(), z() and w().
@@ -41,10 +41,13 @@ struct Pose {
   }
 
   /// Returns this pose for a mesh that is stretched first, by a factor along each of its axes. A negative factor
-  /// mirrors the mesh. Each entry of the matrix is rounded once.
+  /// mirrors the mesh. Each entry of the matrix is rounded once. It becomes 0 below 2^-64 in magnitude.
   [[nodiscard]] SUREHIT_API Pose scaled(const Vector3<Scalar>& factors) const;
   /// Does the same with one factor for all axes.
   [[nodiscard]] Pose scaled(Scalar factor) const { return scaled(Vector3<Scalar>{factor, factor, factor}); }
+  /// Returns this pose with 0 for each entry of `linear` that is below 2^-64 in magnitude. A matrix of computed sines
+  /// and cosines has such entries where the true ones are 0, and a scene refuses them.
+  [[nodiscard]] SUREHIT_API Pose without_tiny_entries() const;
 };
 
 extern template struct SUREHIT_API Pose<float>;

@@ -46,14 +46,15 @@ struct SUREHIT_API DeleteSceneState {
 /// lowest triangle id. A scene of doubles takes colliders of float and of double.
 ///
 /// `add`, `remove` and the setters take effect with the next `commit`. Until then, queries answer as before. A commit
-/// costs what has changed: no triangle is looked at. The masks of a collider's triangles are the collider's, and take
-/// effect at once.
+/// looks at no triangle. The masks of a collider's triangles are the collider's, and take effect at once.
 ///
-/// Queries are const and may run in many threads at the same time. No query of the scene may run while it commits, or
-/// while one of its colliders changes. A query of a `snapshot` may run while the scene commits.
+/// Queries are const and may run in many threads at the same time, and while one thread adds, removes and sets. They
+/// are those of `SceneQueries`. The other functions tell what was set last, so none may run at the same time. No query
+/// of the scene may run while it commits, loads, or is assigned, or while one of its colliders changes. A query of a
+/// `snapshot` may run while the scene commits.
 ///
 /// A collider is shared by the instances that have it, and by its maker. It may be rebuilt. Then no query may run until
-/// the next commit, which sees the new mesh.
+/// a commit has succeeded, which sees the new mesh.
 template <FloatOrDouble Scalar>
 class SUREHIT_API Scene : public SceneQueries<Scalar> {
  public:
@@ -79,7 +80,7 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   InstanceResult try_add(FloatColliderPointer collider, const Pose<Scalar>& pose = {},
                          const InstanceOptions& options = {});
 
-  /// Removes an instance. Fails for a stale id.
+  /// Removes an instance. Fails for a stale id. A failure may throw std::bad_alloc, here and below.
   InstanceResult try_remove(InstanceId id);
   /// Sets the pose of an instance. Fails for a stale id, or for an invalid pose. Does not end its motion.
   InstanceResult try_set_pose(InstanceId id, const Pose<Scalar>& pose);
@@ -155,8 +156,8 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   [[nodiscard]] bool contains(InstanceId id) const noexcept;
   /// Returns the ids of all instances, in order. May throw std::bad_alloc.
   [[nodiscard]] std::vector<InstanceId> instances() const;
-  /// Returns the pose that was set last. The id must be that of an instance, here and below. The reference is valid
-  /// until an instance is added.
+  /// Returns the pose that was set last. The id must be that of an instance, here and below, or of one that was removed
+  /// since the last commit: a hit may have it. The reference is valid until an instance is added.
   [[nodiscard]] const Pose<Scalar>& pose(InstanceId id) const noexcept;
   /// Returns the motion that was set last. It is zero if none was set. The reference is valid as that of the pose.
   [[nodiscard]] const Vector3<Scalar>& motion(InstanceId id) const noexcept;

@@ -20,7 +20,7 @@ struct SceneQueryOptions {
   Culling culling = Culling::none;                  ///< Leaves out hits by the side of the placed triangle.
   std::uint32_t mask = ~std::uint32_t{0};           ///< Leaves out triangles whose mask shares no bit with this.
   std::uint32_t instance_mask = ~std::uint32_t{0};  ///< Leaves out instances whose mask shares no bit with this.
-  InstanceId ignored_instance = {};                 ///< Leaves out this instance, or one triangle of it.
+  InstanceId ignored_instance = {};  ///< Leaves out this instance, or one triangle of it. A stale id means nothing.
   /// Leaves out this triangle of `ignored_instance`, and keeps its others. Without an ignored instance it means
   /// nothing.
   std::uint32_t ignored_triangle = no_triangle;

@@ -1,5 +1,7 @@
 #include "surehit/pose.hpp"
 
+#include <cmath>
+
 #include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"
 
@@ -15,13 +17,20 @@ Pose<Scalar> Pose<Scalar>::rigid(const std::array<Scalar, 4>& quaternion, const 
       entry(2 * (x * y + w * z)), entry(1 - 2 * (x * x + z * z)), entry(2 * (y * z - w * x)),
       entry(2 * (x * z - w * y)), entry(2 * (y * z + w * x)), entry(1 - 2 * (x * x + y * y));
   pose.translation = translation;
-  return pose;
+  return pose.without_tiny_entries();
 }
 
 template <FloatOrDouble Scalar>
 Pose<Scalar> Pose<Scalar>::scaled(const Vector3<Scalar>& factors) const {
   const FloatingPointEnvironment environment;
-  return {linear * factors.asDiagonal(), translation};
+  return Pose{linear * factors.asDiagonal(), translation}.without_tiny_entries();
+}
+
+template <FloatOrDouble Scalar>
+Pose<Scalar> Pose<Scalar>::without_tiny_entries() const {
+  const FloatingPointEnvironment environment;
+  constexpr Scalar min_size = 0x1p-64;
+  return {linear.unaryExpr([](Scalar entry) { return std::fabs(entry) < min_size ? Scalar{0} : entry; }), translation};
 }
 
 template struct Pose<float>;

@@ -58,11 +58,7 @@ InstanceResult Scene<Scalar>::add_instance(ColliderPointer collider,
   if (std::optional<InvalidInstance> invalid = detail::find_invalid(pose)) return *std::move(invalid);
   // The pose may be that of an instance of this scene, which moves when the scene grows.
   const detail::Placement<Scalar> placement = {pose};
-  if (!state_) {
-    StatePointer made(new SceneStateOf<Scalar>);
-    this->committed_ = detail::CommittedShare<Scalar>(new detail::CommittedScene<Scalar>);
-    state_ = std::move(made);
-  }
+  if (!state_) state_ = StatePointer(new SceneStateOf<Scalar>);
   auto& pending = state_->pending;
   if (state_->unused.empty()) {
     // An index is below the bit of the tree that marks an instance.
@@ -164,7 +160,12 @@ InstanceResult Scene<Scalar>::try_set_mask(InstanceId id, std::uint32_t mask) {
 template <FloatOrDouble Scalar>
 void Scene<Scalar>::commit(const std::optional<Executor>& executor) {
   const FloatingPointEnvironment environment;
-  if (state_) state_->commit(this->committed_, detail::address_of(executor));
+  if (!state_) return;
+  // The first commit makes it, because queries may run while instances are added.
+  if (this->committed_.get() == nullptr) {
+    this->committed_ = detail::CommittedShare<Scalar>(new detail::CommittedScene<Scalar>);
+  }
+  state_->commit(this->committed_, detail::address_of(executor));
 }
 
 template <FloatOrDouble Scalar>
@@ -206,32 +207,32 @@ std::vector<InstanceId> Scene<Scalar>::instances() const {
 
 template <FloatOrDouble Scalar>
 const Pose<Scalar>& Scene<Scalar>::pose(InstanceId id) const noexcept {
-  assert(contains(id));
-  return state().find(id)->placement.pose;
+  assert(state().find_of_hit(id) != nullptr);
+  return state().find_of_hit(id)->placement.pose;
 }
 
 template <FloatOrDouble Scalar>
 const Vector3<Scalar>& Scene<Scalar>::motion(InstanceId id) const noexcept {
-  assert(contains(id));
-  return state().find(id)->placement.motion;
+  assert(state().find_of_hit(id) != nullptr);
+  return state().find_of_hit(id)->placement.motion;
 }
 
 template <FloatOrDouble Scalar>
 std::uint32_t Scene<Scalar>::mask(InstanceId id) const noexcept {
-  assert(contains(id));
-  return state().find(id)->options.mask;
+  assert(state().find_of_hit(id) != nullptr);
+  return state().find_of_hit(id)->options.mask;
 }
 
 template <FloatOrDouble Scalar>
 std::uint64_t Scene<Scalar>::user_data(InstanceId id) const noexcept {
-  assert(contains(id));
-  return state().find(id)->options.user_data;
+  assert(state().find_of_hit(id) != nullptr);
+  return state().find_of_hit(id)->options.user_data;
 }
 
 template <FloatOrDouble Scalar>
 std::size_t Scene<Scalar>::triangle_count(InstanceId id) const noexcept {
-  assert(contains(id));
-  return detail::triangle_count(state().find(id)->mesh());
+  assert(state().find_of_hit(id) != nullptr);
+  return detail::triangle_count(state().find_of_hit(id)->mesh());
 }
 
 template <FloatOrDouble Scalar>
@@ -242,15 +243,15 @@ std::size_t Scene<Scalar>::memory_bytes() const noexcept {
 
 template <FloatOrDouble Scalar>
 Triangle<Scalar> Scene<Scalar>::triangle(InstanceId id, std::uint32_t triangle) const noexcept {
-  assert(contains(id));
-  const detail::PendingInstance<Scalar>& instance = *state().find(id);
+  assert(state().find_of_hit(id) != nullptr);
+  const detail::PendingInstance<Scalar>& instance = *state().find_of_hit(id);
   return detail::placed_corners(instance.mesh(), instance.placement, triangle);
 }
 
 template <FloatOrDouble Scalar>
 Vector3<Scalar> Scene<Scalar>::normal(InstanceId id, std::uint32_t triangle) const noexcept {
-  assert(contains(id));
-  const detail::PendingInstance<Scalar>& instance = *state().find(id);
+  assert(state().find_of_hit(id) != nullptr);
+  const detail::PendingInstance<Scalar>& instance = *state().find_of_hit(id);
   return detail::placed_normal(instance.mesh(), instance.placement, triangle);
 }
 

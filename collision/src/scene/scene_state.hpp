@@ -86,6 +86,15 @@ struct SceneState {
   [[nodiscard]] PendingInstance<Scalar>* find(InstanceId id) {
     return const_cast<PendingInstance<Scalar>*>(std::as_const(*this).find(id));
   }
+  /// Returns the same. The instance may also have been removed since the last commit: queries still hit it, and its
+  /// index is not used again before the next one.
+  [[nodiscard]] const PendingInstance<Scalar>* find_of_hit(InstanceId id) const {
+    if (id.index >= pending.size()) return nullptr;
+    const PendingInstance<Scalar>& instance = pending[id.index];
+    const bool is_known = instance.is_removed() ? instance.generation == id.generation + 1
+                                                : instance.is_there && instance.generation == id.generation;
+    return is_known ? &instance : nullptr;
+  }
   /// Notes that an instance has changed. There is room in `changed`.
   void note_change(std::uint32_t index) {
     if (!pending[index].has_changed) changed.push_back(index);

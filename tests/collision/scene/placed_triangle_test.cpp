@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "support/case_count.hpp"
@@ -15,6 +16,7 @@
 #include "support/scalars.hpp"
 #include "support/scene_drawer.hpp"
 #include "support/scene_text.hpp"
+#include "surehit/scene.hpp"
 #include "unit_scenes.hpp"
 
 namespace surehit::test {
@@ -197,6 +199,39 @@ TYPED_TEST(PoseOf, rigid_one_turns_as_its_quaternion_does) {
 TYPED_TEST(PoseOf, half_turn_is_exact) {
   const auto pose = Pose<TypeParam>::rigid({0, 0, 1, 0}, {0, 0, 0});
   EXPECT_EQ(pose.linear, with_rows<TypeParam>({-1, 0, 0}, {0, -1, 0}, {0, 0, 1}).linear);
+}
+
+/// A body that comes to rest has such rotations. Their true entries are 0, or as good as 0.
+TYPED_TEST(PoseOf, rotations_that_are_nearly_none_are_valid) {
+  const auto collider = std::make_shared<const Collider<TypeParam>>();
+  Scene<TypeParam> scene;
+  const auto expect_valid = [&](const Pose<TypeParam>& pose) {
+    const InstanceResult added = scene.try_add(collider, pose);
+    EXPECT_TRUE(added) << added.error().what();
+  };
+  for (const double size : {1e-3, 1e-9, 1e-10, 1e-15, 1e-17, 1e-20, 1e-30}) {
+    const auto tiny = static_cast<TypeParam>(size);
+    for (const std::array<TypeParam, 4>& q : {std::array<TypeParam, 4>{tiny, 0, 0, 1},
+                                              {tiny, -tiny, 0, 1},
+                                              {tiny, -tiny / 3, tiny * 3, 1},
+                                              {1, tiny, 0, 0},
+                                              {tiny, 1, tiny, tiny}}) {
+      const auto pose = Pose<TypeParam>::rigid(q, {0, 0, 0});
+      expect_valid(pose);
+      expect_valid(pose.scaled(TypeParam(0.001)));
+    }
+    // Two quarter turns of computed sines and cosines.
+    const Pose<TypeParam> turned = {with_rows<TypeParam>({tiny * tiny, -1, tiny}, {1, tiny, 0}, {0, 0, 1}).linear};
+    expect_valid(turned.without_tiny_entries());
+  }
+}
+
+TYPED_TEST(PoseOf, only_tiny_entries_become_0) {
+  const TypeParam least = 0x1p-64;
+  const TypeParam less = std::nextafter(least, TypeParam{0});
+  const auto pose = with_rows<TypeParam>({1, least, less}, {-less, 1, -least}, {0, -0x1p-30, -1});
+  EXPECT_EQ(pose.without_tiny_entries().linear,
+            with_rows<TypeParam>({1, least, 0}, {0, 1, -least}, {0, -0x1p-30, -1}).linear);
 }
 
 TYPED_TEST(PoseOf, scaled_one_stretches_the_mesh_before_it_is_turned) {

@@ -117,6 +117,12 @@ TYPED_TEST(SceneIds, removed_instance_answers_until_the_commit_by_its_old_id) {
   const auto before = this->scene.first_hit(this->across());
   ASSERT_TRUE(before);
   EXPECT_EQ(before->instance, old);
+  // What it was is known as long as queries hit it.
+  EXPECT_EQ(this->scene.pose(old).translation[2], 0);
+  EXPECT_EQ(this->scene.user_data(old), 0U);
+  EXPECT_EQ(this->scene.triangle_count(old), 1U);
+  EXPECT_EQ(this->scene.normal(old, 0), (Vector3<TypeParam>{0, 0, 1}));
+  EXPECT_FALSE(this->scene.contains(old));
   this->scene.commit();
   const auto after = this->scene.first_hit(this->across());
   ASSERT_TRUE(after);

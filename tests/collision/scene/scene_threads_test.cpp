@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -102,6 +103,74 @@ TYPED_TEST(SceneThreads, many_on_one_scene_get_the_same_answers) {
   }
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(differences, 0U);
+}
+
+/// Queries know nothing of changes before the commit. ThreadSanitizer shows that they do not read what changes.
+TYPED_TEST(SceneThreads, are_asked_while_one_thread_adds_and_sets_and_removes) {
+  Scene<TypeParam> scene;
+  const auto collider = collider_of<TypeParam>(this->drawn_.meshes[0]);
+  for (const bool is_empty : {true, false}) {
+    const auto expected = this->answers_of(scene);
+    std::atomic<bool> is_changing = true;
+    std::atomic<std::size_t> differences = 0;
+    std::vector<std::thread> threads;
+    for (std::size_t id = 0; id < 3; ++id) {
+      threads.emplace_back([&, id] {
+        for (std::size_t i = id; is_changing || i < 100; ++i) {
+          const std::size_t at = i % this->segments_.size();
+          const auto hit = scene.snapshot().first_hit(this->segments_[at]);
+          if (!same_bits(hit.value_or(SceneHit<TypeParam>{}), expected.hits[at])) ++differences;
+          if (scene.any_hit(this->segments_[at]) != (expected.blocked[at] == 1)) ++differences;
+        }
+      });
+    }
+    std::vector<InstanceId> ids;
+    for (const auto& instance : this->drawn_.instances) ids.push_back(scene.add(collider, instance.placement.pose));
+    for (const InstanceId id : ids) scene.set_pose(id, {});
+    for (std::size_t i = 0; i < ids.size(); i += 2) scene.remove(ids[i]);
+    is_changing = false;
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(differences, 0U);
+    EXPECT_EQ(std::count(expected.blocked.begin(), expected.blocked.end(), 1) == 0, is_empty);
+    for (std::size_t i = 1; i < ids.size(); i += 2) scene.set_pose(ids[i], this->drawn_.instances[i].placement.pose);
+    scene.commit();
+  }
+}
+
+/// Each task of a batch gives its paths their own options, and their own numbers to the filter.
+TYPED_TEST(SceneThreads, options_and_filters_are_those_of_each_path) {
+  std::vector<Segment<TypeParam>> segments;
+  while (segments.size() < 5000) segments.push_back(this->segments_[segments.size() % this->segments_.size()]);
+  std::vector<SceneQueryOptions<TypeParam>> options(segments.size());
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    options[i].max_t = i % 7 == 0 ? TypeParam(0.25) : TypeParam{1};
+    if (i % 11 == 0) options[i].culling = Culling::back;
+  }
+  const auto accepts = [](std::size_t path, const SceneHit<TypeParam>& hit) {
+    return (path + hit.triangle + hit.instance.index) % 5 != 0;
+  };
+  std::size_t hits_there = 0;
+  std::vector<SceneHit<TypeParam>> expected(segments.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const auto of_path = [&](const SceneHit<TypeParam>& hit) { return accepts(i, hit); };
+    expected[i] = this->judged_.scene.first_hit(segments[i], of_path, options[i]).value_or(SceneHit<TypeParam>{});
+    hits_there += expected[i].triangle != no_triangle ? 1 : 0;
+  }
+  EXPECT_GT(hits_there, 500U);
+  for (const std::size_t count : {1U, 8U}) {
+    SCOPED_TRACE(std::to_string(count) + " threads");
+    const Threads threads(count);
+    std::vector<SceneHit<TypeParam>> hits(segments.size());
+    std::vector<std::uint8_t> blocked(segments.size());
+    const SceneBatchOptions<TypeParam> batch = {
+        .path_options = options, .filter = accepts, .executor = Executor(threads)};
+    this->judged_.scene.first_hits(segments, hits, batch);
+    this->judged_.scene.any_hits(segments, blocked, batch);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      ASSERT_TRUE(same_bits(hits[i], expected[i])) << i;
+      ASSERT_EQ(blocked[i] != 0, expected[i].triangle != no_triangle) << i;
+    }
+  }
 }
 
 TYPED_TEST(SceneThreads, commits_are_the_same_on_any_number_of_threads) {

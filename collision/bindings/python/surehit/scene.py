@@ -24,7 +24,8 @@ def rigid_pose(quaternion: ArrayLike, translation: ArrayLike = (0, 0, 0),
                dtype: DTypeLike = np.float64) -> NDArray[Any]:
     """Returns a pose that turns a mesh by a unit quaternion (x, y, z, w), and then moves it.
 
-    Its entries are rounded a few times. The instance is the exact image under the rounded entries.
+    Its entries are rounded a few times, and become 0 below 2^-64 in magnitude. The instance is the exact image under
+    the rounded entries.
     """
     layouts = layouts_of(dtype)
     turn = converted(quaternion, layouts.dtype, "quaternion")

@@ -70,7 +70,7 @@ typedef struct surehit_scene_batch_optionsd {
 SUREHIT_C_API surehit_posed surehit_posed_identity(void);
 
 /// Returns a pose that turns a mesh by a unit quaternion, and then moves it. The entries of its axes are rounded a few
-/// times. The instance is the exact image under the rounded axes.
+/// times, and become 0 below 2^-64 in magnitude. The instance is the exact image under the rounded axes.
 SUREHIT_C_API surehit_posed surehit_posed_rigid(double x, double y, double z, double w, surehit_vector3d translation);
 
 /// Returns the options that leave out only what has a mask of 0.

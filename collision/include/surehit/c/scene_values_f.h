@@ -70,7 +70,7 @@ typedef struct surehit_scene_batch_optionsf {
 SUREHIT_C_API surehit_posef surehit_posef_identity(void);
 
 /// Returns a pose that turns a mesh by a unit quaternion, and then moves it. The entries of its axes are rounded a few
-/// times. The instance is the exact image under the rounded axes.
+/// times, and become 0 below 2^-64 in magnitude. The instance is the exact image under the rounded axes.
 SUREHIT_C_API surehit_posef surehit_posef_rigid(float x, float y, float z, float w, surehit_vector3f translation);
 
 /// Returns the options that leave out only what has a mask of 0.
