@@ -52,8 +52,8 @@ SUREHIT_C_API surehit_status surehit_colliderd_shape_any_hits(const surehit_coll
                                                               uint8_t* blocked);
 
 /// Sets `touches` to 1 if the shape has a contact at its start that the filter accepts, and to 0 otherwise. Its end
-/// plays no part, and neither do `max_t`, `culling` and `ignore_start_contact`. The filter is given the hits of the shape
-/// at rest. Allocates nothing. After `SUREHIT_STOPPED`, `touches` is 0.
+/// plays no part, and neither do `max_t`, `culling` and `ignore_start_contact`. The filter is given the hits of the
+/// shape at rest. Allocates nothing. After `SUREHIT_STOPPED`, `touches` is 0.
 SUREHIT_C_API surehit_status surehit_colliderd_shape_overlaps(const surehit_colliderd* collider,
                                                               const surehit_swept_shaped* shape,
                                                               const surehit_shape_query_optionsd* options,
