@@ -80,11 +80,13 @@ class [[nodiscard]] InstanceResult {
 
 }  // namespace surehit
 
-/// Hashes an id, for unordered containers.
+/// \cond Doxygen finds no scope for it.
+// Hashes an id, for unordered containers.
 template <>
 struct std::hash<surehit::InstanceId> {
-  /// Returns the hash of all bits of the id.
+  // Returns the hash of all bits of the id.
   std::size_t operator()(const surehit::InstanceId& id) const noexcept {
     return std::hash<std::uint64_t>()(std::uint64_t{id.generation} << 32 | id.index);
   }
 };
+/// \endcond
