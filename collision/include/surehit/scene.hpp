@@ -49,9 +49,9 @@ struct SUREHIT_API DeleteSceneState {
 /// looks at no triangle. The masks of a collider's triangles are the collider's, and take effect at once.
 ///
 /// Queries are const and may run in many threads at the same time, and while one thread adds, removes and sets. They
-/// are those of `SceneQueries`. The other functions tell what was set last, so none may run at the same time. No query
-/// of the scene may run while it commits, loads, or is assigned, or while one of its colliders changes. A query of a
-/// `snapshot` may run while the scene commits.
+/// are those of `SceneQueries`. The other const functions tell what was set last, so none may run while the scene
+/// changes or commits. No query of the scene may run while it commits, loads, or is assigned, or while one of its
+/// colliders changes. A query of a `snapshot` may run while the scene commits.
 ///
 /// A collider is shared by the instances that have it, and by its maker. It may be rebuilt. Then no query may run until
 /// a commit has succeeded, which sees the new mesh.
