@@ -162,9 +162,13 @@ class LaneWalk {
     Floats low[3];  ///< The low corners of the cells, in finest cells.
     Floats size;    ///< The edges of the cells, in finest cells.
   };
-  /// Returns the cells of the walking lanes. `has_levels` must be true if the grid has levels.
-  template <bool has_levels>
+  /// Returns the cells of the walking lanes.
   HWY_INLINE Cells look(const WalkingPaths& paths, std::uint32_t walking) const {
+    return grid_.levels() > 0 ? look_in<true>(paths, walking) : look_in<false>(paths, walking);
+  }
+  /// Does the same for a grid that has levels, or for one that has none.
+  template <bool has_levels>
+  HWY_INLINE Cells look_in(const WalkingPaths& paths, std::uint32_t walking) const {
     const FloatTag d;
     const IntTag di;
     const BitsTag du;

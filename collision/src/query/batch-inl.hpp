@@ -20,6 +20,7 @@
 #include "query/batch_rounding-inl.hpp"
 #include "query/query_walk-inl.hpp"
 #if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
+#include "query/batch_frame-inl.hpp"
 #include "query/list_jobs-inl.hpp"
 #include "query/path_queue-inl.hpp"
 #include "walk/lane_walk-inl.hpp"
@@ -29,6 +30,14 @@ HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
+
+/// A path of a batch. It becomes a Path only where one is needed.
+template <typename Scalar>
+struct PathOfBatch {
+  const PathSpan<Scalar>& paths;  ///< The paths of the batch.
+  std::size_t index;              ///< The index of this path.
+  operator Path<Scalar>() const { return paths[index]; }
+};
 
 /// Walks the paths of a batch side by side, in several vectors. While one vector waits for its cells, the next one
 /// steps. A path that has come to a list meets the triangles alone, a vector of triangles at a time. When paths have
@@ -54,12 +63,32 @@ class Batch {
     for (WalkingPaths& walks : walks_) walk_.set_stops(walks);
   }
 
-  /// Answers all paths.
+  /// Answers all paths. Each round is one step of all lanes.
   HWY_INLINE void run() {
-    if (query_.grid.levels() > 0) {
-      run_levels<true>();
-    } else {
-      run_levels<false>();
+    const BitsTag du;
+    for (;;) {
+      for (std::size_t i = 0; i < vectors; ++i) fill(i);
+      if (walking_ == 0) return;
+      query_.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking_));
+      // Each loop does one thing for all vectors, so that they do not wait for each other.
+      const std::size_t used = (static_cast<std::size_t>(std::bit_width(walking_)) + max_lanes - 1) / max_lanes;
+      for (std::size_t i = 0; i < used; ++i) {
+        cells_[i] = walk_.look(walks_[i], lanes_of(i, walking_));
+      }
+      std::uint64_t arriving = 0;
+      for (std::size_t i = 0; i < used; ++i) {
+        const std::uint32_t in_lists = LaneWalk::in_lists(cells_[i], lanes_of(i, walking_));
+        arriving |= slots_of(i, walk_.meet_lists(cells_[i], in_lists, walks_[i]));
+        hn::Store(cells_[i].word, du, &words_[i * max_lanes]);
+      }
+      const std::uint64_t walked = walking_;  // The paths that are done end together with the others.
+      walking_ &= ~visit_lists(arriving);
+      std::uint64_t still = 0;
+      for (std::size_t i = 0; i < used; ++i) {
+        still |= slots_of(i, walk_.advance(cells_[i], lanes_of(i, walking_), walks_[i]));
+      }
+      if (has_inner_grids_) still = change_grids(still);
+      end_paths(walked & ~still);
     }
   }
 
@@ -82,43 +111,6 @@ class Batch {
     return {((void)slot, Visitor(query))...};
   }
 
-  /// A path of the batch. It becomes a Path only where one is needed.
-  struct PathOfSlot {
-    const PathSpan<Scalar>& paths;  ///< The paths of the batch.
-    std::size_t index;              ///< The index of this path.
-    operator Path<Scalar>() const { return paths[index]; }
-  };
-
-  /// Walks until all paths have ended. Each round is one step of all lanes.
-  template <bool has_levels>
-  HWY_INLINE void run_levels() {
-    const BitsTag du;
-    for (;;) {
-      for (std::size_t i = 0; i < vectors; ++i) fill<has_levels>(i);
-      if (walking_ == 0) return;
-      query_.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking_));
-      // Each loop does one thing for all vectors, so that they do not wait for each other.
-      const std::size_t used = (static_cast<std::size_t>(std::bit_width(walking_)) + max_lanes - 1) / max_lanes;
-      for (std::size_t i = 0; i < used; ++i) {
-        cells_[i] = walk_.look<has_levels>(walks_[i], lanes_of(i, walking_));
-      }
-      std::uint64_t arriving = 0;
-      for (std::size_t i = 0; i < used; ++i) {
-        const std::uint32_t in_lists = LaneWalk::in_lists(cells_[i], lanes_of(i, walking_));
-        arriving |= slots_of(i, walk_.meet_lists(cells_[i], in_lists, walks_[i]));
-        hn::Store(cells_[i].word, du, &words_[i * max_lanes]);
-      }
-      const std::uint64_t walked = walking_;  // The paths that are done end together with the others.
-      walking_ &= ~visit_lists(arriving);
-      std::uint64_t still = 0;
-      for (std::size_t i = 0; i < used; ++i) {
-        still |= slots_of(i, walk_.advance(cells_[i], lanes_of(i, walking_), walks_[i]));
-      }
-      if (has_inner_grids_) still = change_grids(still);
-      end_paths(walked & ~still);
-    }
-  }
-
   /// Returns the lanes of a vector that belong to a set of slots.
   static std::uint32_t lanes_of(std::size_t vector, std::uint64_t set) {
     constexpr std::uint64_t all = (std::uint64_t{1} << max_lanes) - 1;
@@ -130,7 +122,6 @@ class Batch {
   }
 
   /// Fills the idle lanes of a vector with waiting paths, if enough lanes are idle.
-  template <bool has_levels>
   HWY_INLINE void fill(std::size_t vector) {
     const std::size_t lanes = hn::Lanes(FloatTag());
     const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << lanes) - 1);
@@ -154,11 +145,11 @@ class Batch {
       if constexpr (is_float) jobs_.move_start(vector * max_lanes + lane, numbers...);
       if constexpr (Queries::is_placed) queries_.move_start(vector * max_lanes + lane, numbers...);
     };
-    walking_ |= slots_of(vector, queue_.template fill<has_levels>(idle, walks_[vector], enter, move_start));
+    walking_ |= slots_of(vector, queue_.fill(idle, walks_[vector], enter, move_start));
   }
 
   /// Gives the lists of these paths' cells to their visitors. Returns the paths that are done.
-  HWY_INLINE std::uint64_t visit_lists(std::uint64_t arriving) {
+  HWY_NOINLINE std::uint64_t visit_lists(std::uint64_t arriving) {
     std::uint64_t done = 0;
     in_inner_ = 0;
     for (std::size_t from = 0; arriving != 0; from += Jobs::max_at_once) {
@@ -306,10 +297,11 @@ class Batch {
     visited_ |= std::uint64_t{1} << slot;
     const auto& query = queries_.query(index_[slot]);
     const auto& range = queries_.range(index_[slot]);
-    const PathOfSlot path{paths_, index_[slot]};
-    const bool shorter = visit(CandidateBlock<Scalar, PathOfSlot>{query, range, path, jobs_.list(slot),
-                                                                  jobs_.reach_from_start(slot), from, verdicts, first},
-                               visitors_[slot]);
+    const PathOfBatch<Scalar> path{paths_, index_[slot]};
+    const bool shorter =
+        visit(CandidateBlock<Scalar, PathOfBatch<Scalar>>{query, range, path, jobs_.list(slot),
+                                                          jobs_.reach_from_start(slot), from, verdicts, first},
+              visitors_[slot]);
     if constexpr (Visitor::wants_order) {
       if (shorter) shorten(slot, visitors_[slot].limit());
       return 0;
@@ -328,7 +320,7 @@ class Batch {
   }
 
   /// Frees the slots of ended paths. Calls `finish` for those whose visitor was given a triangle.
-  HWY_INLINE void end_paths(std::uint64_t ended) {
+  HWY_NOINLINE void end_paths(std::uint64_t ended) {
     walking_ &= ~ended;
     for (std::uint64_t visited = ended & visited_; visited != 0; visited &= visited - 1) {
       const auto slot = static_cast<std::size_t>(std::countr_zero(visited));
@@ -391,44 +383,6 @@ class Batch {
 
 #endif  // HWY_TARGET != HWY_SCALAR
 
-#if HWY_TARGET != HWY_SCALAR
-/// Returns those of `count` paths from path `first` on that may meet what is not in the main grid.
-template <typename Scalar, typename Queries>
-HWY_INLINE std::uint32_t paths_beside(const MainGrid& main, const Queries& queries, const PathSpan<Scalar>& paths,
-                                      std::size_t first, std::size_t count) {
-  const auto taken = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
-  if constexpr (std::is_same_v<Scalar, float>) {
-    std::array<float, 6 * max_lanes> numbers = {};
-    for (std::size_t i = 0; i < count; ++i) paths.copy(first + i, &numbers[6 * i]);
-    const auto ends = queries.ends(first, count);
-    const PathLanes some(numbers.data(), paths.kind() == PathKind::segment, ends.first, ends.last);
-    return lanes_beside(main, some) & taken;
-  } else {
-    LaneClip::DoublePaths copies = {};
-    const std::uint32_t counting = copy_in_double(queries, paths, first, taken, copies);
-    return lanes_beside(main, copies, paths.kind(), counting);
-  }
-}
-
-/// Returns true if there is a main grid, and only few paths of a batch may meet what is not in it. It looks at the
-/// first paths. No answer depends on this.
-template <typename Scalar, typename Queries>
-HWY_INLINE bool is_mostly_in_main_grid(const Queries& queries, const PathSpan<Scalar>& paths) {
-  constexpr std::size_t samples = 64;
-  constexpr std::size_t few_share = 16;
-  const MainGrid& main = queries.of_batch().grid.main_grid();
-  if (!(std::is_same_v<Scalar, float> ? main.takes_floats() : main.exists())) return false;
-  const std::size_t lanes = hn::Lanes(FloatTag());
-  std::size_t asked = 0;
-  std::size_t others = 0;
-  for (; asked < std::min(samples, paths.size()); asked += lanes) {
-    const std::size_t count = std::min(lanes, paths.size() - asked);
-    others += static_cast<std::size_t>(std::popcount(paths_beside(main, queries, paths, asked, count)));
-  }
-  return others * few_share <= asked;
-}
-#endif
-
 /// Answers all paths. They walk side by side if lanes can walk them. Otherwise `alone(index)` answers each path.
 template <typename Visitor, typename Scalar, typename Queries, typename Finish, typename Alone>
 HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[maybe_unused]] Finish& finish,
@@ -440,7 +394,7 @@ HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[
   }
 #if HWY_TARGET != HWY_SCALAR
   if (!queries.admits_nothing() && !grid.is_one_list()) {
-    const GridFrame& frame = is_mostly_in_main_grid(queries, paths) ? grid.main_frame() : grid.frame();
+    const GridFrame& frame = frame_of_batch(queries, paths);
     Batch<Scalar, Visitor, Queries, Finish, Alone>(queries, frame, paths, finish, alone).run();
     return;
   }

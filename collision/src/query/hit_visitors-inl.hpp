@@ -90,27 +90,28 @@ HWY_INLINE OpenLanes look_again(const CandidateBlock<float, AnyPath>& block, con
   return {(lanes & ~again) | left, close};
 }
 
-/// Returns the lanes of `lanes` whose triangle has a box that meets the box of the path up to `limit`. It is not
-/// inlined, so that its frame is gone when the exact stage needs the stack.
-template <typename Scalar, typename AnyPath>
-HWY_NOINLINE std::uint64_t lanes_near(const CandidateBlock<Scalar, AnyPath>& block, const Path<Scalar>& path,
+/// Returns the lanes of `lanes` whose triangle has a box that meets the box of the path up to `limit`. The list has the
+/// triangle of lane 0 at index `from`. It is not inlined, so that its frame is gone when the exact stage needs the
+/// stack.
+template <typename Scalar>
+HWY_NOINLINE std::uint64_t lanes_near(const TriangleList<Scalar>& list, std::size_t from, const Path<Scalar>& path,
                                       double limit, std::uint64_t lanes) {
-  return lanes & lanes_that_meet(PathBox<Scalar>(path, limit), block.list, block.from);
+  return lanes & lanes_that_meet(PathBox<Scalar>(path, limit), list, from);
 }
 
 /// Removes from `lanes` those that a path in the plane of a wall certainly misses. Returns those of the others that
 /// contain the start of the path.
-template <typename Scalar, typename AnyPath>
-HWY_NOINLINE std::uint64_t look_at_start(const CandidateBlock<Scalar, AnyPath>& block, const Path<Scalar>& path,
+template <typename Scalar>
+HWY_NOINLINE std::uint64_t look_at_start(const TriangleList<Scalar>& list, std::size_t from, const Path<Scalar>& path,
                                          std::uint64_t& lanes) {
   // A triangle alone is decided as fast without this.
   if (!path.has_start() || std::has_single_bit(lanes)) return 0;
-  const SharingLanes sharing = lanes_that_share(path, block.list, block.from);
+  const SharingLanes sharing = lanes_that_share(path, list, from);
   std::uint64_t at_start = sharing.corner;
   for (std::size_t axis = 0; axis < 3 && path.has_end(); ++axis) {
     const auto on = static_cast<Eigen::Index>(axis);
     if (path.start[on] != path.toward[on] || (sharing.plane[axis] & lanes) == 0) continue;
-    const SeenLanes seen = lanes_seen_along(axis, path, block.list, block.from, lanes);
+    const SeenLanes seen = lanes_seen_along(axis, path, list, from, lanes);
     lanes &= ~seen.misses;
     at_start |= seen.around & sharing.plane[axis];
   }
@@ -141,10 +142,10 @@ HWY_NOINLINE bool visit_one_by_one(const CandidateBlock<Scalar, AnyPath>& block,
     if constexpr (std::is_same_v<Scalar, float>) {
       lanes &= lanes_that_meet(PathBox<Scalar>(path, limit), block.list, block.from);
     } else {
-      lanes = lanes_near(block, path, limit, lanes);  // Stack is scarce in double.
+      lanes = lanes_near(block.list, block.from, path, limit, lanes);  // Stack is scarce in double.
     }
     if (lanes == 0) return shorter;
-    at_start = look_at_start(block, path, lanes);
+    at_start = look_at_start(block.list, block.from, path, lanes);
   }
   const typename Visitor::Narrowphase narrowphase(path, block.query.options, block.range, block.query.statistics);
   OpenLanes open = {lanes, 0};
@@ -166,7 +167,7 @@ HWY_NOINLINE bool visit_one_by_one(const CandidateBlock<Scalar, AnyPath>& block,
     at_start = 0;
     if constexpr (Visitor::shortens && std::is_same_v<typename Visitor::AnyPath, Path<Scalar>>) {
       open.lanes = visitor.lanes_that_may_come_first(block, open.lanes);
-      if (open.lanes != 0) open.lanes = lanes_near(block, path, visitor.limit(), open.lanes);
+      if (open.lanes != 0) open.lanes = lanes_near(block.list, block.from, path, visitor.limit(), open.lanes);
     }
   }
   return shorter;

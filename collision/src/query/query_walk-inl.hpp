@@ -212,7 +212,7 @@ HWY_NOINLINE void walk_in_pieces(float enters, const Query<float>& query, const 
   const KernelInput<float> input(path, range, query.grid.frame());
   auto walking = static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(BitsTag())) - 1);
   while (walking != 0) {
-    const LaneWalk::Cells cells = walk.look<false>(pieces, walking);
+    const LaneWalk::Cells cells = walk.look_in<false>(pieces, walking);
     visit_cells(query, range, path, input, walk, cells, walking, pieces, visitor);
     if (visitor.is_done()) return;
     walking = walk.advance(cells, walking, pieces);
@@ -232,7 +232,7 @@ HWY_NOINLINE void walk_all_cells(float enters, const Query<float>& query, const 
   float from = 0;
   do {
     const std::uint32_t walking = walk.enter_crossings(crossings, from, lanes);
-    const LaneWalk::Cells cells = walk.look<false>(lanes, walking);
+    const LaneWalk::Cells cells = walk.look_in<false>(lanes, walking);
     visit_cells(query, range, path, input, walk, cells, walking, lanes, visitor);
     from += static_cast<float>(hn::Lanes(FloatTag()));
   } while (from <= crossings.last && !visitor.is_done());
