@@ -29,6 +29,22 @@ double surface(const InstanceBox& box) {
   return x < 0 ? 0 : x * y + y * z + z * x;
 }
 
+/// Returns true if no coordinate is infinite, NaN or huge.
+bool is_bounded(const InstanceBox& box) {
+  bool is_bounded = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    is_bounded &= std::fabs(box.low[axis]) <= 0x1p1000 && std::fabs(box.high[axis]) <= 0x1p1000;
+  }
+  return is_bounded;
+}
+
+/// Returns the length of a box on its longest axis.
+double largest_side(const InstanceBox& box) {
+  double size = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) size = std::max(size, box.high[axis] - box.low[axis]);
+  return size;
+}
+
 double middle(const InstanceBox& box, std::size_t axis) {
   const double sum = box.low[axis] + box.high[axis];
   return std::isfinite(sum) ? sum / 2 : 0;  // A box without bounds may be anywhere.
@@ -196,6 +212,31 @@ void set_child(InstanceTree::Node& node, std::size_t lane, const Planes& planes,
   node.child[lane] = child;
 }
 
+/// Returns the planes around all children of a node.
+Planes planes_around(const InstanceTree::Node& node) {
+  Planes planes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    planes[axis] = *std::min_element(node.planes[axis].begin(), node.planes[axis].end());
+    planes[3 + axis] = *std::max_element(node.planes[3 + axis].begin(), node.planes[3 + axis].end());
+  }
+  return planes;
+}
+
+/// Returns the place of a child in its node.
+std::size_t lane_of(const InstanceTree::Node& node, std::uint32_t child) {
+  std::size_t lane = 0;
+  while (node.child[lane] != child) ++lane;
+  return lane;
+}
+
+/// Returns what a box adds to the cost of a tree: half of its surface, if it has bounds.
+double cost_of(const Planes& planes) {
+  std::array<double, 3> sides;
+  for (std::size_t axis = 0; axis < 3; ++axis) sides[axis] = double{planes[3 + axis]} - double{planes[axis]};
+  const double cost = sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
+  return std::isfinite(cost) ? cost : 0;
+}
+
 /// Returns the planes around two boxes.
 Planes joined(const Planes& x, const Planes& y) {
   Planes planes;
@@ -236,31 +277,60 @@ std::size_t lane_that_grows_least(const InstanceTree::Node& node, const Planes& 
 
 }  // namespace
 
-void InstanceTree::set_frame(std::span<const InstanceBox> boxes) noexcept {
-  // The boxes without bounds do not count.
-  InstanceBox all = no_box;
+void InstanceTree::set_box(std::span<const InstanceBox> boxes) noexcept {
   box_ = no_box;
   for (const Node& node : nodes_) {
     for (const std::uint32_t child : node.child) {
-      if (child == no_child || (child & instance_bit) == 0) continue;
-      const InstanceBox& box = boxes[child & ~instance_bit];
-      extend(box_, box);
-      bool is_bounded = true;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        is_bounded &= std::fabs(box.low[axis]) <= 0x1p1000 && std::fabs(box.high[axis]) <= 0x1p1000;
-      }
-      if (is_bounded) extend(all, box);
+      if (child != no_child && (child & instance_bit) != 0) extend(box_, boxes[child & ~instance_bit]);
     }
   }
-  double size = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    origin_[axis] = all.low[axis] <= all.high[axis] ? all.low[axis] : 0;
-    if (all.low[axis] <= all.high[axis]) size = std::max(size, all.high[axis] - all.low[axis]);
+}
+
+void InstanceTree::set_frame(std::span<const InstanceBox> boxes) noexcept {
+  // The boxes without bounds do not count.
+  InstanceBox all = box_;
+  if (!is_bounded(all)) {
+    all = no_box;
+    for (const Node& node : nodes_) {
+      for (const std::uint32_t child : node.child) {
+        if (child == no_child || (child & instance_bit) == 0) continue;
+        const InstanceBox& box = boxes[child & ~instance_bit];
+        if (is_bounded(box)) extend(all, box);
+      }
+    }
   }
-  scale_ = size > 0x1p-1000 ? std::ldexp(1.0, -std::ilogb(size) - 1) : 1;
+  const double size = largest_side(all);
+  // Around the instances there is room for those that move.
+  constexpr double room = 0x1p-4;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    origin_[axis] = all.low[axis] <= all.high[axis] ? all.low[axis] - size * room : 0;
+  }
+  scale_ = size > 0x1p-1000 ? std::ldexp(1.0, -std::ilogb(size * (1 + 2 * room)) - 1) : 1;
+}
+
+bool InstanceTree::frame_holds() const noexcept {
+  constexpr double min_share = 0x1p-3;  // A smaller box would be found more coarsely.
+  if (!is_bounded(box_) || largest_side(box_) * scale_ < min_share) return false;
+  bool holds = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    holds &= box_.low[axis] >= origin_[axis] && (box_.high[axis] - origin_[axis]) * scale_ < 1;
+  }
+  return holds;
+}
+
+Planes InstanceTree::planes_of(const InstanceBox& box) const noexcept {
+  Planes planes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // Two roundings, of the difference and of this margin.
+    const auto margin = [&](double x) { return (std::fabs(x) + std::fabs(origin_[axis])) * scale_ * 0x1p-51; };
+    planes[axis] = round_down((box.low[axis] - origin_[axis]) * scale_ - margin(box.low[axis]));
+    planes[3 + axis] = -round_down(-((box.high[axis] - origin_[axis]) * scale_ + margin(box.high[axis])));
+  }
+  return planes;
 }
 
 void InstanceTree::refit(std::span<const InstanceBox> boxes) noexcept {
+  set_box(boxes);
   set_frame(boxes);
   cost_ = 0;
   for (std::size_t i = nodes_.size(); i-- > 0;) {
@@ -268,25 +338,123 @@ void InstanceTree::refit(std::span<const InstanceBox> boxes) noexcept {
     for (std::size_t lane = 0; lane < width; ++lane) {
       const std::uint32_t child = node.child[lane];
       if (child == no_child) continue;
-      std::array<double, 3> sides;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        float& low = node.low(axis)[lane];
-        float& high = node.high(axis)[lane];
-        if ((child & instance_bit) != 0) {
-          const InstanceBox& box = boxes[child & ~instance_bit];
-          // Two roundings, of the difference and of this margin.
-          const auto margin = [&](double x) { return (std::fabs(x) + std::fabs(origin_[axis])) * scale_ * 0x1p-51; };
-          low = round_down((box.low[axis] - origin_[axis]) * scale_ - margin(box.low[axis]));
-          high = -round_down(-((box.high[axis] - origin_[axis]) * scale_ + margin(box.high[axis])));
-        } else {
-          Node& below = nodes_[child];
-          low = *std::min_element(below.low(axis).begin(), below.low(axis).end());
-          high = *std::max_element(below.high(axis).begin(), below.high(axis).end());
-        }
-        sides[axis] = double{high} - double{low};
+      const bool is_instance = (child & instance_bit) != 0;
+      const Planes planes = is_instance ? planes_of(boxes[child & ~instance_bit]) : planes_around(nodes_[child]);
+      set_child(node, lane, planes, child);
+      cost_ += cost_of(planes);
+    }
+  }
+}
+
+void InstanceTree::refit(std::span<const std::uint32_t> moved, std::span<const InstanceBox> boxes) noexcept {
+  if (is_empty()) return;
+  if (2 * moved.size() > node_of_.size()) {
+    refit(boxes);
+    return;
+  }
+  const Planes all = planes_around(nodes_[0]);
+  bool may_be_smaller = false;
+  for (const std::uint32_t instance : moved) {
+    const std::uint32_t at = node_of(instance);
+    if (at == no_child) continue;
+    const InstanceBox& box = boxes[instance];
+    // The same side of a box has the same plane. So only these instances may have been the outermost ones.
+    const Planes before = planes_of_child(nodes_[at], lane_of(nodes_[at], instance | instance_bit));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      may_be_smaller |= before[axis] == all[axis] && box.low[axis] > box_.low[axis];
+      may_be_smaller |= before[3 + axis] == all[3 + axis] && box.high[axis] < box_.high[axis];
+    }
+    extend(box_, box);
+  }
+  if (may_be_smaller) set_box(boxes);
+  if (!frame_holds()) {
+    refit(boxes);
+    return;
+  }
+  for (const std::uint32_t instance : moved) {
+    if (node_of(instance) == no_child) continue;
+    const Planes planes = planes_of(boxes[instance]);
+    if (has_left(instance, planes)) put_elsewhere(instance, planes);
+    set_planes(node_of_[instance], instance | instance_bit, planes);
+  }
+  // A node comes before its children, so the last ones are done first.
+  for (std::size_t word = changed_.size(); word-- > 0;) {
+    while (changed_[word] != 0) {
+      const auto bit = static_cast<std::uint32_t>(std::bit_width(changed_[word])) - 1;
+      changed_[word] &= ~(std::uint64_t{1} << bit);
+      const std::uint32_t node = static_cast<std::uint32_t>(word) * 64 + bit;
+      if (parents_[node] != no_child) set_planes(parents_[node], node, planes_around(nodes_[node]));
+    }
+  }
+}
+
+bool InstanceTree::has_left(std::uint32_t instance, const Planes& planes) const noexcept {
+  const std::uint32_t at = node_of_[instance];
+  if (at == 0 || nodes_.size() == nodes_.capacity() || !has_room_for(1)) return false;
+  const Planes all = planes_around(nodes_[at]);
+  bool has_left = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // It may be as far away as it is long.
+    const float length = planes[3 + axis] - planes[axis];
+    has_left |= planes[axis] - length > all[3 + axis] || planes[3 + axis] + length < all[axis];
+  }
+  return has_left;
+}
+
+void InstanceTree::put_elsewhere(std::uint32_t instance, const Planes& planes) noexcept {
+  const auto first_new = static_cast<std::uint32_t>(nodes_.size());
+  const std::uint32_t to = put_in(instance, planes);
+  if (to == no_child) return;
+  if (to == first_new) {
+    // The parent comes before the new node, and has it among its children.
+    const std::uint32_t other = nodes_[to].child[0] & ~instance_bit;
+    parents_[to] = node_of_[other];
+    node_of_[other] = to;
+  }
+  ++exchanged_;
+  const std::uint32_t from = node_of_[instance];
+  node_of_[instance] = to;
+  mark(to);
+  take_child_out(from, instance | instance_bit);
+}
+
+void InstanceTree::take_child_out(std::uint32_t node, std::uint32_t child) noexcept {
+  Node& of = nodes_[node];
+  const std::size_t lane = lane_of(of, child);
+  const std::size_t last = child_count(of) - 1;
+  cost_ -= cost_of(planes_of_child(of, lane));
+  set_child(of, lane, planes_of_child(of, last), of.child[last]);
+  set_child(of, last, planes_of_child(empty_node(), 0), no_child);
+  if (last > 0 || node == 0) {
+    mark(node);
+  } else {
+    take_child_out(parents_[node], node);
+    parents_[node] = no_child;
+  }
+}
+
+void InstanceTree::set_planes(std::uint32_t node, std::uint32_t child, const Planes& planes) noexcept {
+  const std::size_t lane = lane_of(nodes_[node], child);
+  const Planes before = planes_of_child(nodes_[node], lane);
+  if (before == planes) return;
+  cost_ += cost_of(planes) - cost_of(before);
+  set_child(nodes_[node], lane, planes, child);
+  mark(node);
+}
+
+void InstanceTree::link(std::size_t instances) {
+  nodes_.reserve(nodes_.size() + nodes_.size() / 8 + 1);  // `refit` makes nodes too, and may not throw.
+  node_of_.assign(instances, no_child);
+  parents_.assign(nodes_.capacity(), no_child);
+  changed_.assign((nodes_.capacity() + 63) / 64, 0);
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+    for (const std::uint32_t child : nodes_[i].child) {
+      if (child == no_child) continue;
+      if ((child & instance_bit) != 0) {
+        node_of_[child & ~instance_bit] = i;
+      } else {
+        parents_[child] = i;
       }
-      const double cost = sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
-      if (std::isfinite(cost)) cost_ += cost;
     }
   }
 }
@@ -299,6 +467,7 @@ std::uint32_t InstanceTree::only_instance() const noexcept {
 
 void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<const InstanceBox> boxes) {
   nodes_.clear();
+  node_of_.clear();
   if (instances.empty()) return;
   std::vector<std::uint32_t> order(instances.begin(), instances.end());
   Splitter splitter(order, boxes);
@@ -331,6 +500,7 @@ void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<con
     }
   }
   refit(boxes);
+  link(boxes.size());
   built_cost_ = cost_;
   built_scale_ = scale_;
   built_count_ = instances.size();
@@ -341,9 +511,10 @@ bool InstanceTree::exchange(std::span<const std::uint8_t> is_there, std::span<co
                             std::span<const InstanceBox> boxes) {
   exchanged_ += take_out(is_there) + added.size();
   for (const std::uint32_t instance : added) {
-    if (!put_in(instance, boxes[instance])) return false;
+    if (put_in(instance, planes_of(boxes[instance])) == no_child) return false;
   }
   refit(boxes);
+  link(boxes.size());
   return true;
 }
 
@@ -369,37 +540,35 @@ std::size_t InstanceTree::take_out(std::span<const std::uint8_t> is_there) noexc
   return taken;
 }
 
-bool InstanceTree::put_in(std::uint32_t instance, const InstanceBox& box) {
-  Planes planes;  // `refit` rounds them outward.
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    planes[axis] = static_cast<float>((box.low[axis] - origin_[axis]) * scale_);
-    planes[3 + axis] = static_cast<float>((box.high[axis] - origin_[axis]) * scale_);
-  }
+std::uint32_t InstanceTree::put_in(std::uint32_t instance, const Planes& planes) {
   std::uint32_t at = 0;
   std::uint32_t turn = instance;  // Where nothing tells children apart, each gets as many instances.
   for (std::size_t depth = 0; depth + 1 < max_depth; ++depth, turn /= std::uint32_t{width}) {
-    Node& node = nodes_[at];
-    const std::size_t count = child_count(node);
+    const std::size_t count = child_count(nodes_[at]);
     if (count < width) {
-      set_child(node, count, planes, instance | instance_bit);
-      return true;
+      set_child(nodes_[at], count, planes, instance | instance_bit);
+      cost_ += cost_of(planes);
+      return at;
     }
-    const std::size_t lane = lane_that_grows_least(node, planes, turn % width);
-    const std::uint32_t child = node.child[lane];
-    const Planes grown = joined(planes_of_child(node, lane), planes);
+    const std::size_t lane = lane_that_grows_least(nodes_[at], planes, turn % width);
+    const std::uint32_t child = nodes_[at].child[lane];
+    const Planes before = planes_of_child(nodes_[at], lane);
+    const Planes grown = joined(before, planes);
+    cost_ += cost_of(grown) - cost_of(before);
     if ((child & instance_bit) != 0) {
       // Both instances get a node of their own.
-      Node pair = empty_node();
-      set_child(pair, 0, planes_of_child(node, lane), child);
-      set_child(pair, 1, planes, instance | instance_bit);
-      set_child(node, lane, grown, static_cast<std::uint32_t>(nodes_.size()));
-      nodes_.push_back(pair);
-      return true;
+      const auto pair = static_cast<std::uint32_t>(nodes_.size());
+      nodes_.push_back(empty_node());
+      set_child(nodes_[pair], 0, before, child);
+      set_child(nodes_[pair], 1, planes, instance | instance_bit);
+      set_child(nodes_[at], lane, grown, pair);
+      cost_ += cost_of(before) + cost_of(planes);
+      return pair;
     }
-    set_child(node, lane, grown, child);
+    set_child(nodes_[at], lane, grown, child);
     at = child;
   }
-  return false;
+  return no_child;
 }
 
 }  // namespace surehit::detail

@@ -50,6 +50,10 @@ class InstanceTree {
                               std::span<const InstanceBox> boxes);
   /// Fits the boxes of the tree to new boxes of the same instances.
   void refit(std::span<const InstanceBox> boxes) noexcept;
+  /// Does the same if no other instances than these may have moved. Those that are not in the tree do not matter. It
+  /// takes the time of these instances and of the nodes above them, if the tree can keep its frame. Instances that have
+  /// left the place of their node get another one.
+  void refit(std::span<const std::uint32_t> moved, std::span<const InstanceBox> boxes) noexcept;
 
   [[nodiscard]] bool is_empty() const { return nodes_.empty(); }
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
@@ -66,25 +70,54 @@ class InstanceTree {
     const double unit = built_scale_ / scale_;  // Costs are surfaces in the frame of their time.
     return cost_ * unit * unit > 1.5 * built_cost_;
   }
-  [[nodiscard]] std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node); }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return nodes_.capacity() * sizeof(Node) + (node_of_.capacity() + parents_.capacity()) * sizeof(std::uint32_t) +
+           changed_.capacity() * sizeof(std::uint64_t);
+  }
 
  private:
   /// Takes out the instances whose `is_there` is 0, and the nodes that have no child then. Returns how many it took.
   std::size_t take_out(std::span<const std::uint8_t> is_there) noexcept;
-  /// Puts an instance where the boxes grow least. Returns false if the way down would become too long.
-  [[nodiscard]] bool put_in(std::uint32_t instance, const InstanceBox& box);
-  /// Sets the frame from the box of all instances.
+  /// Puts an instance where the boxes grow least. Returns its node, or `no_child` if the way down would become too
+  /// long. Does not throw if there is room for a node.
+  [[nodiscard]] std::uint32_t put_in(std::uint32_t instance, const std::array<float, 6>& planes);
+  /// Sets the box of all instances.
+  void set_box(std::span<const InstanceBox> boxes) noexcept;
+  /// Sets the frame from the boxes of all instances.
   void set_frame(std::span<const InstanceBox> boxes) noexcept;
+  /// Returns true if the frame is still right for the box of all instances (I9).
+  [[nodiscard]] bool frame_holds() const noexcept;
+  /// Returns a box in the frame, rounded outward.
+  [[nodiscard]] std::array<float, 6> planes_of(const InstanceBox& box) const noexcept;
+  /// Notes where each node and each instance is.
+  void link(std::size_t instances);
+  /// Returns the node that has an instance, or `no_child`.
+  [[nodiscard]] std::uint32_t node_of(std::uint32_t instance) const noexcept {
+    return instance < node_of_.size() ? node_of_[instance] : no_child;
+  }
+  /// Returns true if an instance belongs elsewhere in the tree now, and if there is room for this.
+  [[nodiscard]] bool has_left(std::uint32_t instance, const std::array<float, 6>& planes) const noexcept;
+  /// Puts an instance of the tree where it belongs now.
+  void put_elsewhere(std::uint32_t instance, const std::array<float, 6>& planes) noexcept;
+  /// Takes a child out of its node, and the node out of the tree if it has no other one.
+  void take_child_out(std::uint32_t node, std::uint32_t child) noexcept;
+  /// Notes that the boxes above a node must be set.
+  void mark(std::uint32_t node) noexcept { changed_[node / 64] |= std::uint64_t{1} << node % 64; }
+  /// Sets the box of a child, and marks its node.
+  void set_planes(std::uint32_t node, std::uint32_t child, const std::array<float, 6>& planes) noexcept;
 
   std::vector<Node> nodes_;  ///< Each node comes before its children.
   Double4 origin_ = {};
   double scale_ = 1;
   InstanceBox box_ = {};
-  double cost_ = 0;              ///< The sum of the surfaces of all boxes.
-  double built_cost_ = 0;        ///< The same when the tree was built.
-  double built_scale_ = 1;       ///< The scale when the tree was built.
-  std::size_t built_count_ = 0;  ///< The number of instances when the tree was built.
-  std::size_t exchanged_ = 0;    ///< The number of instances that came or went since then.
+  double cost_ = 0;                     ///< The sum of the surfaces of all boxes.
+  double built_cost_ = 0;               ///< The same when the tree was built.
+  double built_scale_ = 1;              ///< The scale when the tree was built.
+  std::size_t built_count_ = 0;         ///< The number of instances when the tree was built.
+  std::size_t exchanged_ = 0;           ///< The number of instances that came or went since then.
+  std::vector<std::uint32_t> node_of_;  ///< The node of each instance, or `no_child`.
+  std::vector<std::uint32_t> parents_;  ///< The node above each node, or `no_child`.
+  std::vector<std::uint64_t> changed_;  ///< A bit for each node. It is set while the box of a child has changed.
 };
 
 }  // namespace surehit::detail

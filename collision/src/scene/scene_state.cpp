@@ -180,10 +180,12 @@ void SceneState<Scalar>::commit(CommittedShare<Scalar>& current, const Executor*
   watched.resize(pending.size());
   for (std::size_t i = 0; i < changed.size(); ++i) apply(next, changed[i], made[i]);
   if (!keeps || !has_this_tree) next.tree = std::move(other_tree);
-  if (keeps) {
-    next.tree.refit(boxes);
-  } else {
+  if (!keeps) {
     set_up = commits;
+  } else if (&next == &before) {
+    next.tree.refit(changed, boxes);
+  } else {
+    next.tree.refit(boxes);
   }
   next.count = count;
   next.commit = commits;

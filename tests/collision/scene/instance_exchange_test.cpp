@@ -134,6 +134,18 @@ TEST_F(InstanceExchange, instances_come_and_go) {
       build();
     }
     expect_all_are_in_their_boxes();
+    // Some of them move, and some that are not there.
+    std::vector<std::uint32_t> moved;
+    for (int i = 0; i < 5; ++i) {
+      moved.push_back(static_cast<std::uint32_t>(random.below(boxes.size())));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double step = 100 * random.symmetric<double>();
+        boxes[moved.back()].low[axis] += step;
+        boxes[moved.back()].high[axis] += step;
+      }
+    }
+    tree.refit(moved, boxes);
+    expect_all_are_in_their_boxes();
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(exchanges, 150);

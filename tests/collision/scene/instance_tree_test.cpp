@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -85,6 +86,8 @@ void expect_tree_of(const InstanceTree& tree, const std::vector<InstanceBox>& bo
   std::vector<std::size_t> depths(nodes.size(), 0);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Node node = nodes[i];
+    // Nodes whose last child has gone elsewhere are not in the tree.
+    if (i > 0 && depths[i] == 0 && node.child[0] == InstanceTree::no_child) continue;
     ASSERT_NE(node.child[0], InstanceTree::no_child);
     EXPECT_EQ(depths[i] == 0, i == 0) << "node " << i << " has no parent before it";
     EXPECT_LT(depths[i], InstanceTree::max_depth);
@@ -140,23 +143,134 @@ TEST(InstanceTree, HasBoxesAroundAllInstances) {
 }
 
 /// The box of all instances with bounds is at most 1 wide, as I9 says.
+void expect_is_at_most_one_wide(const InstanceTree& tree, const std::vector<InstanceBox>& boxes) {
+  EXPECT_EQ(std::exp2(std::ilogb(tree.scale())), tree.scale());
+  for (const InstanceBox& box : boxes) {
+    const auto is_bounded = [](double x) { return std::fabs(x) <= 0x1p1000; };
+    if (!std::all_of(box.low.begin(), box.low.end(), is_bounded)) continue;
+    if (!std::all_of(box.high.begin(), box.high.end(), is_bounded)) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_GE(box.low[axis], tree.origin()[axis]);
+      EXPECT_LE((mpq_class(box.high[axis]) - mpq_class(tree.origin()[axis])) * mpq_class(tree.scale()), 1);
+    }
+  }
+}
+
 TEST(InstanceTree, IsAtMostOneWide) {
   Random random(3);
   for (int round = 0; round < 200; ++round) {
-    std::vector<InstanceBox> boxes = draw_boxes(random, 1 + random.below(20));
+    const std::vector<InstanceBox> boxes = draw_boxes(random, 1 + random.below(20));
     InstanceTree tree;
     tree.build(all_of(boxes), boxes);
-    EXPECT_EQ(std::exp2(std::ilogb(tree.scale())), tree.scale());
-    for (const InstanceBox& box : boxes) {
-      const auto is_bounded = [](double x) { return std::fabs(x) <= 0x1p1000; };
-      if (!std::all_of(box.low.begin(), box.low.end(), is_bounded)) continue;
-      if (!std::all_of(box.high.begin(), box.high.end(), is_bounded)) continue;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        EXPECT_GE(box.low[axis], tree.origin()[axis]);
-        EXPECT_LE((mpq_class(box.high[axis]) - mpq_class(tree.origin()[axis])) * mpq_class(tree.scale()), 1);
-      }
+    expect_is_at_most_one_wide(tree, boxes);
+  }
+}
+
+/// Returns the box around all boxes.
+InstanceBox around(const std::vector<InstanceBox>& boxes) {
+  InstanceBox all = boxes.front();
+  for (const InstanceBox& box : boxes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      all.low[axis] = std::min(all.low[axis], box.low[axis]);
+      all.high[axis] = std::max(all.high[axis], box.high[axis]);
     }
   }
+  return all;
+}
+
+/// Some instances move at a time: a little, anywhere, far outside, or into one place.
+TEST(InstanceTree, FollowsThoseThatMove) {
+  Random random(20261128);
+  for (std::size_t count = 1; count < 400; count = count * 2 + 1) {
+    std::vector<InstanceBox> boxes = draw_boxes(random, count);
+    InstanceTree tree;
+    tree.build(all_of(boxes), boxes);
+    InstanceTree refitted = tree;
+    for (int commit = 0; commit < 40; ++commit) {
+      SCOPED_TRACE(std::to_string(count) + " instances, commit " + std::to_string(commit));
+      const std::vector<InstanceBox> elsewhere = draw_boxes(random, count);
+      const double by = tree.scale() > 0 ? random.symmetric<double>() / tree.scale() : 0;
+      const std::uint64_t way = random.below(4);
+      std::vector<std::uint32_t> moved;
+      for (std::size_t i = 1 + random.below(count); i-- > 0;) {
+        const auto instance = static_cast<std::uint32_t>(random.below(count));
+        moved.push_back(instance);
+        InstanceBox& box = boxes[instance];
+        if (way == 0) box = elsewhere[instance];
+        if (way == 1) box = boxes.front();
+        for (std::size_t axis = 0; axis < 3 && way > 1; ++axis) {
+          const double step = way == 2 ? by * 0x1p-6 : 4 * by;
+          box.low[axis] += step;
+          box.high[axis] += step;
+        }
+      }
+      moved.push_back(static_cast<std::uint32_t>(count) + 7);  // It is not in the tree.
+      tree.refit(moved, boxes);
+      expect_tree_of(tree, boxes);
+      expect_is_at_most_one_wide(tree, boxes);
+      EXPECT_EQ(tree.box().low, around(boxes).low);
+      EXPECT_EQ(tree.box().high, around(boxes).high);
+      refitted.refit(boxes);
+      EXPECT_EQ(tree.is_worn(), refitted.is_worn());
+    }
+  }
+}
+
+/// A commit takes the time of what has moved. So nobody looks at the boxes of the others.
+TEST(InstanceTree, ReadsTheBoxesOfThoseThatMoveAlone) {
+  Random random(5);
+  std::vector<InstanceBox> boxes = {{{-100, -100, -100}, {100, 100, 100}}};
+  while (boxes.size() < 500) {
+    const auto coordinate = [&] { return 90 * random.symmetric<double>(); };
+    boxes.push_back(draw_box(random, {coordinate(), coordinate(), coordinate()}, 1));
+  }
+  InstanceTree tree;
+  tree.build(all_of(boxes), boxes);
+  const std::vector<std::uint32_t> moved = {3, 77, 78, 400};
+  std::vector<InstanceBox> known(boxes.size(), InstanceBox{{infinity, infinity, infinity}, {0, 0, 0}});
+  for (const std::uint32_t instance : moved) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      boxes[instance].low[axis] += 2;
+      boxes[instance].high[axis] += 3;
+    }
+    known[instance] = boxes[instance];
+  }
+  tree.refit(moved, known);
+  expect_tree_of(tree, boxes);
+  EXPECT_EQ(tree.box().low, boxes.front().low);
+  EXPECT_EQ(tree.box().high, boxes.front().high);
+}
+
+/// Those that appear elsewhere get a place there. So the tree needs no new sorting for long.
+TEST(InstanceTree, PutsThoseThatHaveLeftElsewhere) {
+  Random random(6);
+  std::vector<InstanceBox> boxes;
+  const auto draw = [&] {
+    const auto coordinate = [&] { return 100 * random.symmetric<double>(); };
+    return draw_box(random, {coordinate(), coordinate(), coordinate()}, 1);
+  };
+  while (boxes.size() < 2000) boxes.push_back(draw());
+  InstanceTree tree;
+  tree.build(all_of(boxes), boxes);
+  const auto move_some = [&] {
+    std::vector<std::uint32_t> moved;
+    for (int i = 0; i < 20; ++i) {
+      moved.push_back(static_cast<std::uint32_t>(random.below(boxes.size())));
+      boxes[moved.back()] = draw();
+    }
+    tree.refit(moved, boxes);
+  };
+  for (int commit = 0; commit < 45; ++commit) {
+    move_some();
+    ASSERT_FALSE(tree.is_worn()) << "after " << commit << " commits";
+  }
+  expect_tree_of(tree, boxes);
+  EXPECT_TRUE(tree.has_room_for(50));
+  EXPECT_FALSE(tree.has_room_for(300)) << "those that were put elsewhere are not counted";
+  // Then they stay in their nodes, whose boxes grow.
+  for (int commit = 0; commit < 200 && !tree.is_worn(); ++commit) move_some();
+  EXPECT_TRUE(tree.is_worn());
+  expect_tree_of(tree, boxes);
 }
 
 /// Each instance is half as large as the one before it, and inside of it. A split leaves few of them behind.
