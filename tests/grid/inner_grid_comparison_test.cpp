@@ -270,27 +270,35 @@ TYPED_TEST(InnerGridComparison, of_walls_in_the_middle_of_the_box) {
   }
 }
 
+/// It also leaves the level, far beyond, and comes back. Each step is a rebuild.
 TYPED_TEST(InnerGridComparison, of_a_prop_that_moves_through_the_level) {
   const auto level = this->level(1);
   const auto prop = this->prop(1e3F, {0, 0, 0});
   Collider<TypeParam> moving(joined(level, prop).view(), BuildOptions{this->grids().front(), {}});
-  for (int step = 0; step < 6; ++step) {
-    const TypeParam at = TypeParam{0.9F} - static_cast<TypeParam>(step) * TypeParam{0.37F};
+  const Grid& grid = detail::ColliderState<TypeParam>::of(moving).grid;
+  for (const TypeParam at : {0.9F, 0.53F, 0.16F, -0.21F, -0.58F, -0.95F, -3.F, -1e6F, 1e20F, 0.4F, 0.1F}) {
+    SCOPED_TRACE(at);
     const auto moved = placed<TypeParam>(prop, 1, {at, at / 3, at / 5});
     const auto mesh = joined(level, moved);
     moving.rebuild(mesh.vertices);
+    EXPECT_FALSE(grid.inner_frames().empty());
     const Collider<TypeParam> fresh(mesh.view());
     PathDrawer<TypeParam> of_mesh(mesh.view(), 1);
     PathDrawer<TypeParam> of_prop(moved.view(), 2);
     const Box<TypeParam> box = box_of(moved.view());
-    for (std::size_t i = 0; i < case_count(200); ++i) {
+    std::vector<Segment<TypeParam>> segments;
+    std::vector<Ray<TypeParam>> rays;
+    for (std::size_t i = 0; i < case_count(100); ++i) {
       const Path<TypeParam> path = this->draw(of_mesh, of_prop, box);
-      const auto expected = brute_force_hits(mesh.view(), path, {}, {});
-      const auto hit = moving.first_hit(path);
-      EXPECT_TRUE(same_bits(hit.value_or(Hit<TypeParam>{}), expected.empty() ? Hit<TypeParam>{} : expected.front()))
+      this->expect_as_all(moving, mesh, path);
+      EXPECT_TRUE(same_bits(moving.first_hit(path).value_or(Hit<TypeParam>{}),
+                            fresh.first_hit(path).value_or(Hit<TypeParam>{})))
           << hex_text(path);
-      EXPECT_TRUE(same_bits(hit.value_or(Hit<TypeParam>{}), fresh.first_hit(path).value_or(Hit<TypeParam>{})));
+      segments.push_back({path.start, path.toward});
+      rays.push_back({path.start, path.toward});
     }
+    expect_batch<TypeParam, Segment<TypeParam>>(moving, segments);
+    expect_batch<TypeParam, Ray<TypeParam>>(moving, rays);
   }
 }
 

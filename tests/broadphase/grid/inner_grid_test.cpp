@@ -76,14 +76,16 @@ class InnerGrid : public testing::Test {
     expect_complete_and_tight(mesh, grid, grid.frame(), all);
   }
 
-  /// Every inner grid belongs to one cell, and every list to one cell.
+  /// Every inner grid belongs to one cell and is not empty. Every list belongs to one cell.
   static void expect_well_formed(const Grid& grid) {
     std::vector<const GridFrame*> frames = {&grid.frame()};
     std::set<std::uint32_t> lists;
     std::size_t entries = 0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
+      bool is_empty = true;
       for (const LeafCell& leaf : LeafCells(grid, *frames[i])) {
         if (leaf.word.is_empty()) continue;
+        is_empty = false;
         EXPECT_TRUE(lists.insert(leaf.word.list()).second);
         entries += grid.triangles(leaf.word).size();
         if (!leaf.word.has_inner_grid()) {
@@ -93,6 +95,7 @@ class InnerGrid : public testing::Test {
         EXPECT_TRUE(lists.insert(leaf.word.list() + 1).second);
         frames.push_back(&grid.inner_frame(leaf.word));
       }
+      EXPECT_FALSE(is_empty);
     }
     EXPECT_EQ(entries, grid.entry_count());
     EXPECT_EQ(lists.size() + 1, grid.lists().size());
