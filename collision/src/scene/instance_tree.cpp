@@ -442,11 +442,22 @@ void InstanceTree::set_planes(std::uint32_t node, std::uint32_t child, const Pla
   mark(node);
 }
 
+InstanceTree InstanceTree::with_room() const {
+  InstanceTree copy = *this;
+  copy.make_room();
+  return copy;
+}
+
+void InstanceTree::make_room() {
+  nodes_.reserve(nodes_.size() + nodes_.size() / 8 + 1);
+  parents_.resize(nodes_.capacity(), no_child);
+  changed_.resize((nodes_.capacity() + 63) / 64, 0);
+}
+
 void InstanceTree::link(std::size_t instances) {
-  nodes_.reserve(nodes_.size() + nodes_.size() / 8 + 1);  // `refit` makes nodes too, and may not throw.
+  make_room();
   node_of_.assign(instances, no_child);
-  parents_.assign(nodes_.capacity(), no_child);
-  changed_.assign((nodes_.capacity() + 63) / 64, 0);
+  parents_.assign(parents_.size(), no_child);
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     for (const std::uint32_t child : nodes_[i].child) {
       if (child == no_child) continue;

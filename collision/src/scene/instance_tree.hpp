@@ -48,6 +48,8 @@ class InstanceTree {
   /// Then the tree is of no use. May throw std::bad_alloc.
   [[nodiscard]] bool exchange(std::span<const std::uint8_t> is_there, std::span<const std::uint32_t> added,
                               std::span<const InstanceBox> boxes);
+  /// Returns a copy in which `refit` can put instances elsewhere. May throw std::bad_alloc.
+  [[nodiscard]] InstanceTree with_room() const;
   /// Fits the boxes of the tree to new boxes of the same instances.
   void refit(std::span<const InstanceBox> boxes) noexcept;
   /// Does the same if no other instances than these may have moved. Those that are not in the tree do not matter. It
@@ -89,6 +91,8 @@ class InstanceTree {
   [[nodiscard]] bool frame_holds() const noexcept;
   /// Returns a box in the frame, rounded outward.
   [[nodiscard]] std::array<float, 6> planes_of(const InstanceBox& box) const noexcept;
+  /// Makes room for nodes that `refit` adds.
+  void make_room();
   /// Notes where each node and each instance is.
   void link(std::size_t instances);
   /// Returns the node that has an instance, or `no_child`.

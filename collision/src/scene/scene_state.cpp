@@ -88,6 +88,15 @@ InstanceTree SceneState<Scalar>::next_tree(const CommittedScene<Scalar>& before,
 }
 
 template <FloatOrDouble Scalar>
+std::vector<std::uint32_t> SceneState<Scalar>::changed_after(std::uint64_t commit) const {
+  std::vector<std::uint32_t> indices = changed;
+  for (std::uint32_t i = 0; i < changed_in.size() && commit < commits; ++i) {
+    if (changed_in[i] > commit) indices.push_back(i);
+  }
+  return indices;
+}
+
+template <FloatOrDouble Scalar>
 CommittedShare<Scalar> SceneState<Scalar>::unshared(const CommittedShare<Scalar>& current) const {
   if (!current.get()->is_shared()) return current;
   // The last one has to catch up least.
@@ -165,7 +174,16 @@ void SceneState<Scalar>::commit(CommittedShare<Scalar>& current, const Executor*
   const std::size_t exchanged = count_exchanged(before, made);
   const bool keeps = exchanged == 0 && !before.tree.is_worn();
   const bool has_this_tree = set_up <= next.commit;
-  InstanceTree other_tree = !keeps ? next_tree(before, made, exchanged) : has_this_tree ? InstanceTree() : before.tree;
+  InstanceTree other_tree;
+  std::vector<std::uint32_t> moved;  // What the tree does not know yet.
+  if (!keeps) {
+    other_tree = next_tree(before, made, exchanged);
+  } else if (has_this_tree) {
+    moved = changed_after(next.commit);
+  } else {
+    other_tree = before.tree.with_room();
+    moved = changed;
+  }
   next.reserve(pending.capacity());
   boxes.reserve(pending.capacity());
   changed_in.reserve(pending.capacity());
@@ -180,12 +198,10 @@ void SceneState<Scalar>::commit(CommittedShare<Scalar>& current, const Executor*
   watched.resize(pending.size());
   for (std::size_t i = 0; i < changed.size(); ++i) apply(next, changed[i], made[i]);
   if (!keeps || !has_this_tree) next.tree = std::move(other_tree);
-  if (!keeps) {
-    set_up = commits;
-  } else if (&next == &before) {
-    next.tree.refit(changed, boxes);
+  if (keeps) {
+    next.tree.refit(moved, boxes);
   } else {
-    next.tree.refit(boxes);
+    set_up = commits;
   }
   next.count = count;
   next.commit = commits;

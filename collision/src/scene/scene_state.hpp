@@ -115,6 +115,8 @@ struct SceneState {
   /// Returns the tree of all instances, as they are after the changes. If few come and go, they are exchanged.
   [[nodiscard]] InstanceTree next_tree(const CommittedScene<Scalar>& before,
                                        const std::vector<CommittedInstance<Scalar>>& made, std::size_t exchanged) const;
+  /// Returns the changes, and the indices that have changed after a commit.
+  [[nodiscard]] std::vector<std::uint32_t> changed_after(std::uint64_t commit) const;
   /// Returns a committed scene that no one else shares: the current one, a former one, or else a new one.
   [[nodiscard]] CommittedShare<Scalar> unshared(const CommittedShare<Scalar>& current) const;
   /// Sets all that has changed since a committed scene was the current one. There is room for all instances.
