@@ -9,6 +9,7 @@ works, and leaves figures without meaning: put the files back afterwards.
 
 import argparse
 import csv
+import datetime
 import math
 import re
 import shlex
@@ -50,8 +51,9 @@ def fail(reason):
 class Figures:
     """All rows of the program's CSV files, in the order in which they were measured."""
 
-    def __init__(self):
+    def __init__(self, rounds):
         self.rows = []
+        self.rounds = rounds
 
     def add(self, path, run):
         with open(path, newline="", encoding="utf-8") as file:
@@ -109,6 +111,13 @@ def machine(figures):
     generation = [f"family {family}" for family in told("cpu family")] + [f"model {model}" for model in told("model")]
     instruction_set = name_of_instruction_set(figures.instruction_sets[0])
     return ", ".join((names or ["unknown processor"]) + generation + [instruction_set])
+
+
+def run_of(figures):
+    """When the figures were measured, of which sources, and how often."""
+    commit = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--dirty"], check=True, stdout=subprocess.PIPE,
+                            encoding="utf-8").stdout.strip()  # fmt: skip
+    return f"{datetime.date.today()}, commit {commit}, medians of {figures.rounds} rounds"
 
 
 def queries(figures):
@@ -482,7 +491,7 @@ def summaries(_):
 
 BLOCKS_OF_README = [wrong, summaries]
 BLOCKS_OF_FIGURES = [
-    machine, summary, all_batches, all_batches_on_avx2, all_single_calls, all_doubles, all_builds, queries, ranges,
+    machine, run_of, summary, all_batches, all_batches_on_avx2, all_single_calls, all_doubles, all_builds, queries, ranges,
     instruction_sets, builds, ticks, scenes, commits, growth, threads, exactness, bounds,
 ]  # fmt: skip
 BLOCKS = {block.__name__: block for block in [*BLOCKS_OF_README, *BLOCKS_OF_FIGURES, pages]}
@@ -529,7 +538,10 @@ def main():
                         help="where CMake was configured, in Release (default: build/release)")  # fmt: skip
     parser.add_argument("--z-up", action="append", default=[], metavar="NAME",
                         help="a mesh of the folder whose upward axis is z")  # fmt: skip
+    parser.add_argument("--rounds", default="9", metavar="COUNT",
+                        help="how often each contender is measured (default: 9)")  # fmt: skip
     arguments, passed_on = parser.parse_known_args()
+    passed_on += ["--rounds", arguments.rounds]
     if not (arguments.build / "CMakeCache.txt").exists():
         fail(f"{arguments.build} is not configured; cmake --preset release does it for build/release")
     subprocess.run(["cmake", "--build", arguments.build, "--target", "surehit_benchmark"], check=True)
@@ -542,7 +554,7 @@ def main():
         fail(f"{TEMPLATE.name} lacks the line {ALL_TABLES.strip()}")
     program = arguments.build / "tests" / "benchmarks" / "surehit_benchmark"
 
-    figures = Figures()
+    figures = Figures(arguments.rounds)
     sections = []
     with tempfile.TemporaryDirectory() as folder:
         csv_path, chart_path = Path(folder, "figures.csv"), Path(folder, "ratios.svg")
