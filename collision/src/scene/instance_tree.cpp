@@ -352,22 +352,31 @@ void InstanceTree::refit(std::span<const std::uint32_t> moved, std::span<const I
     refit(boxes);
     return;
   }
+  update({}, {}, moved, boxes);
+}
+
+void InstanceTree::update(std::span<const std::uint32_t> removed, std::span<const std::uint32_t> added,
+                          std::span<const std::uint32_t> moved, std::span<const InstanceBox> boxes) noexcept {
   const Planes all = planes_around(nodes_[0]);
   bool may_be_smaller = false;
   for (const std::uint32_t instance : moved) {
-    const std::uint32_t at = node_of(instance);
-    if (at == no_child) continue;
-    const InstanceBox& box = boxes[instance];
-    // The same side of a box has the same plane. So only these instances may have been the outermost ones.
-    const Planes before = planes_of_child(nodes_[at], lane_of(nodes_[at], instance | instance_bit));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      may_be_smaller |= before[axis] == all[axis] && box.low[axis] > box_.low[axis];
-      may_be_smaller |= before[3 + axis] == all[3 + axis] && box.high[axis] < box_.high[axis];
-    }
-    extend(box_, box);
+    if (node_of(instance) == no_child) continue;
+    may_be_smaller |= reaches_a_side_of(all, instance);
+    extend(box_, boxes[instance]);
   }
+  for (const std::uint32_t instance : removed) {
+    may_be_smaller |= reaches_a_side_of(all, instance);
+    take_child_out(node_of_[instance], instance | instance_bit);
+    node_of_[instance] = no_child;
+  }
+  for (const std::uint32_t instance : added) {
+    extend(box_, boxes[instance]);
+    node_of_[instance] = put_and_link(instance, planes_of(boxes[instance]));
+  }
+  exchanged_ += removed.size() + added.size();
   if (may_be_smaller) set_box(boxes);
   if (!frame_holds()) {
+    std::fill(changed_.begin(), changed_.end(), 0);
     refit(boxes);
     return;
   }
@@ -388,6 +397,15 @@ void InstanceTree::refit(std::span<const std::uint32_t> moved, std::span<const I
   }
 }
 
+bool InstanceTree::reaches_a_side_of(const Planes& all, std::uint32_t instance) const noexcept {
+  // The same side of a box has the same plane. So only these instances may be the outermost ones.
+  const Node& node = nodes_[node_of_[instance]];
+  const Planes planes = planes_of_child(node, lane_of(node, instance | instance_bit));
+  bool reaches = false;
+  for (std::size_t i = 0; i < planes.size(); ++i) reaches |= planes[i] == all[i];
+  return reaches;
+}
+
 bool InstanceTree::has_left(std::uint32_t instance, const Planes& planes) const noexcept {
   const std::uint32_t at = node_of_[instance];
   if (at == 0 || nodes_.size() == nodes_.capacity() || !has_room_for(1)) return false;
@@ -401,20 +419,26 @@ bool InstanceTree::has_left(std::uint32_t instance, const Planes& planes) const 
   return has_left;
 }
 
-void InstanceTree::put_elsewhere(std::uint32_t instance, const Planes& planes) noexcept {
+std::uint32_t InstanceTree::put_and_link(std::uint32_t instance, const Planes& planes) noexcept {
   const auto first_new = static_cast<std::uint32_t>(nodes_.size());
   const std::uint32_t to = put_in(instance, planes);
-  if (to == no_child) return;
+  if (to == no_child) return to;
   if (to == first_new) {
     // The parent comes before the new node, and has it among its children.
     const std::uint32_t other = nodes_[to].child[0] & ~instance_bit;
     parents_[to] = node_of_[other];
     node_of_[other] = to;
   }
+  mark(to);
+  return to;
+}
+
+void InstanceTree::put_elsewhere(std::uint32_t instance, const Planes& planes) noexcept {
+  const std::uint32_t to = put_and_link(instance, planes);
+  if (to == no_child) return;
   ++exchanged_;
   const std::uint32_t from = node_of_[instance];
   node_of_[instance] = to;
-  mark(to);
   take_child_out(from, instance | instance_bit);
 }
 
@@ -444,20 +468,23 @@ void InstanceTree::set_planes(std::uint32_t node, std::uint32_t child, const Pla
 
 InstanceTree InstanceTree::with_room() const {
   InstanceTree copy = *this;
-  copy.make_room();
+  copy.make_room(0, node_of_.size());
   return copy;
 }
 
-void InstanceTree::make_room() {
-  nodes_.reserve(nodes_.size() + nodes_.size() / 8 + 1);
+void InstanceTree::make_room(std::size_t added, std::size_t instances) {
+  if (node_of_.size() < instances) node_of_.resize(instances, no_child);
+  if (nodes_.capacity() - nodes_.size() < added + 1) nodes_.reserve(nodes_.size() + nodes_.size() / 8 + added + 1);
   parents_.resize(nodes_.capacity(), no_child);
   changed_.resize((nodes_.capacity() + 63) / 64, 0);
 }
 
 void InstanceTree::link(std::size_t instances) {
-  make_room();
+  make_room(0, instances);
   node_of_.assign(instances, no_child);
   parents_.assign(parents_.size(), no_child);
+  deepest_ = 0;
+  std::vector<std::uint32_t> depths(nodes_.size(), 0);
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     for (const std::uint32_t child : nodes_[i].child) {
       if (child == no_child) continue;
@@ -465,6 +492,8 @@ void InstanceTree::link(std::size_t instances) {
         node_of_[child & ~instance_bit] = i;
       } else {
         parents_[child] = i;
+        depths[child] = depths[i] + 1;
+        deepest_ = std::max<std::size_t>(deepest_, depths[child]);
       }
     }
   }
@@ -574,6 +603,7 @@ std::uint32_t InstanceTree::put_in(std::uint32_t instance, const Planes& planes)
       set_child(nodes_[pair], 1, planes, instance | instance_bit);
       set_child(nodes_[at], lane, grown, pair);
       cost_ += cost_of(before) + cost_of(planes);
+      deepest_ = std::max(deepest_, depth + 1);
       return pair;
     }
     set_child(nodes_[at], lane, grown, child);

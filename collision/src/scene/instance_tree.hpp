@@ -48,6 +48,17 @@ class InstanceTree {
   /// Then the tree is of no use. May throw std::bad_alloc.
   [[nodiscard]] bool exchange(std::span<const std::uint8_t> is_there, std::span<const std::uint32_t> added,
                               std::span<const InstanceBox> boxes);
+  /// Returns true if `update` can take out and put in as many instances.
+  [[nodiscard]] bool can_update(std::size_t removed, std::size_t added) const {
+    constexpr std::size_t min_count = 2 * width;  // Half of them stay, so the tree does not become empty.
+    return built_count_ >= min_count && has_room_for(removed + added) && deepest_ + added + 2 <= max_depth;
+  }
+  /// Makes room for instances that `update` adds, and for as many in all. May throw std::bad_alloc.
+  void make_room(std::size_t added, std::size_t instances);
+  /// Takes instances out, puts others in, and fits the boxes of others that have moved, as `refit` does. `can_update`
+  /// must hold, and there must be room.
+  void update(std::span<const std::uint32_t> removed, std::span<const std::uint32_t> added,
+              std::span<const std::uint32_t> moved, std::span<const InstanceBox> boxes) noexcept;
   /// Returns a copy in which `refit` can put instances elsewhere. May throw std::bad_alloc.
   [[nodiscard]] InstanceTree with_room() const;
   /// Fits the boxes of the tree to new boxes of the same instances.
@@ -91,8 +102,6 @@ class InstanceTree {
   [[nodiscard]] bool frame_holds() const noexcept;
   /// Returns a box in the frame, rounded outward.
   [[nodiscard]] std::array<float, 6> planes_of(const InstanceBox& box) const noexcept;
-  /// Makes room for nodes that `refit` adds.
-  void make_room();
   /// Notes where each node and each instance is.
   void link(std::size_t instances);
   /// Returns the node that has an instance, or `no_child`.
@@ -101,6 +110,10 @@ class InstanceTree {
   }
   /// Returns true if an instance belongs elsewhere in the tree now, and if there is room for this.
   [[nodiscard]] bool has_left(std::uint32_t instance, const std::array<float, 6>& planes) const noexcept;
+  /// Returns true if an instance may be the outermost one of all on a side.
+  [[nodiscard]] bool reaches_a_side_of(const std::array<float, 6>& all, std::uint32_t instance) const noexcept;
+  /// Puts an instance in, and notes where the nodes are then. Returns the node of the instance.
+  std::uint32_t put_and_link(std::uint32_t instance, const std::array<float, 6>& planes) noexcept;
   /// Puts an instance of the tree where it belongs now.
   void put_elsewhere(std::uint32_t instance, const std::array<float, 6>& planes) noexcept;
   /// Takes a child out of its node, and the node out of the tree if it has no other one.
@@ -119,6 +132,7 @@ class InstanceTree {
   double built_scale_ = 1;              ///< The scale when the tree was built.
   std::size_t built_count_ = 0;         ///< The number of instances when the tree was built.
   std::size_t exchanged_ = 0;           ///< The number of instances that came or went since then.
+  std::size_t deepest_ = 0;             ///< No node has more nodes above it.
   std::vector<std::uint32_t> node_of_;  ///< The node of each instance, or `no_child`.
   std::vector<std::uint32_t> parents_;  ///< The node above each node, or `no_child`.
   std::vector<std::uint64_t> changed_;  ///< A bit for each node. It is set while the box of a child has changed.

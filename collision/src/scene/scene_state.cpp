@@ -50,33 +50,32 @@ void SceneState<Scalar>::note_rebuilt_colliders() {
 }
 
 template <FloatOrDouble Scalar>
-std::size_t SceneState<Scalar>::count_exchanged(const CommittedScene<Scalar>& before,
-                                                const std::vector<CommittedInstance<Scalar>>& made) const {
-  std::size_t exchanged = 0;
+typename SceneState<Scalar>::Exchange SceneState<Scalar>::exchange_of(
+    const CommittedScene<Scalar>& before, const std::vector<CommittedInstance<Scalar>>& made) const {
+  Exchange exchange;
   for (std::size_t i = 0; i < changed.size(); ++i) {
-    if (before.has_in_tree(changed[i]) != made[i].is_in_tree) ++exchanged;
+    const bool was_in_tree = before.has_in_tree(changed[i]);
+    if (was_in_tree && !made[i].is_in_tree) exchange.removed.push_back(changed[i]);
+    if (!was_in_tree && made[i].is_in_tree) exchange.added.push_back(changed[i]);
   }
-  return exchanged;
+  return exchange;
 }
 
 template <FloatOrDouble Scalar>
 InstanceTree SceneState<Scalar>::next_tree(const CommittedScene<Scalar>& before,
                                            const std::vector<CommittedInstance<Scalar>>& made,
-                                           std::size_t exchanged) const {
+                                           const Exchange& exchange) const {
   std::vector<InstanceBox> all_boxes = boxes;
   all_boxes.resize(pending.size());
   std::vector<std::uint8_t> is_in_tree(pending.size(), 0);
   for (std::size_t i = 0; i < before.instances.size(); ++i) is_in_tree[i] = before.instances[i].is_in_tree ? 1 : 0;
-  std::vector<std::uint32_t> added;
   for (std::size_t i = 0; i < changed.size(); ++i) {
-    const std::uint32_t index = changed[i];
-    if (made[i].is_in_tree && is_in_tree[index] == 0) added.push_back(index);
-    all_boxes[index] = made[i].box();
-    is_in_tree[index] = made[i].is_in_tree ? 1 : 0;
+    all_boxes[changed[i]] = made[i].box();
+    is_in_tree[changed[i]] = made[i].is_in_tree ? 1 : 0;
   }
-  if (before.tree.has_room_for(exchanged)) {
+  if (before.tree.has_room_for(exchange.size())) {
     InstanceTree tree = before.tree;
-    if (tree.exchange(is_in_tree, added, all_boxes)) return tree;
+    if (tree.exchange(is_in_tree, exchange.added, all_boxes)) return tree;
   }
   std::vector<std::uint32_t> indices;
   for (std::uint32_t i = 0; i < is_in_tree.size(); ++i) {
@@ -171,19 +170,22 @@ void SceneState<Scalar>::commit(CommittedShare<Scalar>& current, const Executor*
   });
   const CommittedShare<Scalar> share = unshared(current);
   CommittedScene<Scalar>& next = *share.get();
-  const std::size_t exchanged = count_exchanged(before, made);
-  const bool keeps = exchanged == 0 && !before.tree.is_worn();
+  const Exchange exchange = exchange_of(before, made);
   const bool has_this_tree = set_up <= next.commit;
+  const bool updates =
+      exchange.size() > 0 && &next == &before && before.tree.can_update(exchange.removed.size(), exchange.added.size());
+  const bool keeps = updates || (exchange.size() == 0 && !before.tree.is_worn());
   InstanceTree other_tree;
   std::vector<std::uint32_t> moved;  // What the tree does not know yet.
   if (!keeps) {
-    other_tree = next_tree(before, made, exchanged);
+    other_tree = next_tree(before, made, exchange);
   } else if (has_this_tree) {
     moved = changed_after(next.commit);
   } else {
     other_tree = before.tree.with_room();
     moved = changed;
   }
+  if (updates) next.tree.make_room(exchange.added.size(), pending.size());
   next.reserve(pending.capacity());
   boxes.reserve(pending.capacity());
   changed_in.reserve(pending.capacity());
@@ -198,11 +200,12 @@ void SceneState<Scalar>::commit(CommittedShare<Scalar>& current, const Executor*
   watched.resize(pending.size());
   for (std::size_t i = 0; i < changed.size(); ++i) apply(next, changed[i], made[i]);
   if (!keeps || !has_this_tree) next.tree = std::move(other_tree);
-  if (keeps) {
+  if (updates) {
+    next.tree.update(exchange.removed, exchange.added, moved, boxes);
+  } else if (keeps) {
     next.tree.refit(moved, boxes);
-  } else {
-    set_up = commits;
   }
+  if (!keeps || updates) set_up = commits;
   next.count = count;
   next.commit = commits;
   if (&next != &before) {

@@ -109,12 +109,19 @@ struct SceneState {
  private:
   /// Notes the instances whose colliders were rebuilt since the last commit. There is room for all indices.
   void note_rebuilt_colliders();
-  /// Returns the number of instances that come into the tree or leave it. `made` has an instance for each change.
-  [[nodiscard]] std::size_t count_exchanged(const CommittedScene<Scalar>& before,
-                                            const std::vector<CommittedInstance<Scalar>>& made) const;
+  /// The instances that leave the tree and those that come into it.
+  struct Exchange {
+    std::vector<std::uint32_t> removed;
+    std::vector<std::uint32_t> added;
+    [[nodiscard]] std::size_t size() const { return removed.size() + added.size(); }
+  };
+  /// Returns what the changes exchange. `made` has an instance for each change.
+  [[nodiscard]] Exchange exchange_of(const CommittedScene<Scalar>& before,
+                                     const std::vector<CommittedInstance<Scalar>>& made) const;
   /// Returns the tree of all instances, as they are after the changes. If few come and go, they are exchanged.
   [[nodiscard]] InstanceTree next_tree(const CommittedScene<Scalar>& before,
-                                       const std::vector<CommittedInstance<Scalar>>& made, std::size_t exchanged) const;
+                                       const std::vector<CommittedInstance<Scalar>>& made,
+                                       const Exchange& exchange) const;
   /// Returns the changes, and the indices that have changed after a commit.
   [[nodiscard]] std::vector<std::uint32_t> changed_after(std::uint64_t commit) const;
   /// Returns a committed scene that no one else shares: the current one, a former one, or else a new one.

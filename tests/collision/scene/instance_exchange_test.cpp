@@ -59,6 +59,20 @@ class InstanceExchange : public testing::Test {
     ASSERT_LE(longest_way, InstanceTree::max_depth);
   }
 
+  /// The box of the tree is that of all instances.
+  void expect_box_of_all() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    InstanceBox all = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      for (std::size_t axis = 0; axis < 3 && is_there[i] != 0; ++axis) {
+        all.low[axis] = std::min(all.low[axis], boxes[i].low[axis]);
+        all.high[axis] = std::max(all.high[axis], boxes[i].high[axis]);
+      }
+    }
+    EXPECT_EQ(tree.box().low, all.low);
+    EXPECT_EQ(tree.box().high, all.high);
+  }
+
   std::vector<InstanceBox> boxes;
   std::vector<std::uint8_t> is_there;
   InstanceTree tree;
@@ -149,6 +163,89 @@ TEST_F(InstanceExchange, instances_come_and_go) {
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(exchanges, 150);
+}
+
+/// The tree of a commit that nobody else has changes in place.
+TEST_F(InstanceExchange, instances_come_and_go_in_place) {
+  add_small(300, 0, 1000);
+  add_small(300, 5000, 50);
+  build();
+  int updates = 0;
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE(round);
+    std::vector<std::uint32_t> out;
+    std::vector<std::uint32_t> moved;
+    for (int i = 0; i < 6; ++i) {
+      const auto index = static_cast<std::uint32_t>(random.below(boxes.size()));
+      if (is_there[index] != 0 && std::find(out.begin(), out.end(), index) == out.end()) out.push_back(index);
+    }
+    for (const std::uint32_t index : out) is_there[index] = 0;
+    for (int i = 0; i < 4; ++i) {
+      moved.push_back(static_cast<std::uint32_t>(random.below(boxes.size())));
+      const double step = random.one_in(3) ? 4000 * random.symmetric<double>() : random.symmetric<double>();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        boxes[moved.back()].low[axis] += step;
+        boxes[moved.back()].high[axis] += step;
+      }
+    }
+    const auto first_new = static_cast<std::uint32_t>(boxes.size());
+    add_small(1 + random.below(7), 6000.0 * random.unit<double>(), random.one_in(20) ? 9000 : 10);
+    std::vector<std::uint32_t> in;
+    for (std::uint32_t index = first_new; index < boxes.size(); ++index) in.push_back(index);
+    if (tree.can_update(out.size(), in.size())) {
+      ++updates;
+      tree.make_room(in.size(), boxes.size());
+      for (const std::uint32_t index : in) is_there[index] = 1;
+      tree.update(out, in, moved, boxes);
+    } else {
+      for (const std::uint32_t index : in) is_there[index] = 1;
+      build();
+    }
+    expect_all_are_in_their_boxes();
+    expect_box_of_all();
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(updates, 200);
+}
+
+/// A tree may not become deeper than a walk can keep, and there must always be an instance.
+TEST_F(InstanceExchange, few_instances_change_in_place) {
+  add_small(15, 0, 1000);
+  build();
+  EXPECT_FALSE(tree.can_update(1, 0));
+  add_small(985, 0, 1000);
+  build();
+  EXPECT_TRUE(tree.can_update(1, 1));
+  EXPECT_TRUE(tree.can_update(500, 0));
+  EXPECT_FALSE(tree.can_update(501, 0));
+  EXPECT_TRUE(tree.can_update(0, 30));
+  EXPECT_FALSE(tree.can_update(0, InstanceTree::max_depth));
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < 400; ++i) out.push_back(i);
+  for (const std::uint32_t i : out) is_there[i] = 0;
+  tree.update(out, {}, {}, boxes);
+  expect_all_are_in_their_boxes();
+  EXPECT_TRUE(tree.can_update(100, 0));
+  EXPECT_FALSE(tree.can_update(101, 0));
+}
+
+/// Each box is in the one before it, so it joins that one.
+TEST_F(InstanceExchange, way_down_does_not_become_too_long_in_place) {
+  add_small(1000, 0, 1000);
+  build();
+  double size = 1;
+  std::size_t updates = 0;
+  for (; updates < 500 && tree.can_update(0, 1); ++updates) {
+    size *= 0.9;
+    const std::uint32_t index = add({0, 0, 0}, {size, size, size});
+    is_there[index] = 1;
+    tree.make_room(1, boxes.size());
+    tree.update({}, std::array{index}, {}, boxes);
+    expect_all_are_in_their_boxes();
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(longest_way, InstanceTree::max_depth / 2);
+  EXPECT_LT(updates, 500U);
 }
 
 TEST_F(InstanceExchange, crowd_that_leaves_leaves_no_node_behind) {
