@@ -5,29 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/instance_splitter.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-constexpr InstanceBox no_box = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-
-void extend(InstanceBox& box, const InstanceBox& by) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.low[axis] = std::min(box.low[axis], by.low[axis]);
-    box.high[axis] = std::max(box.high[axis], by.high[axis]);
-  }
-}
-
-/// Returns half of the surface of a box. It is NaN or infinite for boxes without bounds.
-double surface(const InstanceBox& box) {
-  const double x = box.high[0] - box.low[0];
-  const double y = box.high[1] - box.low[1];
-  const double z = box.high[2] - box.low[2];
-  return x < 0 ? 0 : x * y + y * z + z * x;
-}
 
 /// Returns true if no coordinate is infinite, NaN or huge.
 bool is_bounded(const InstanceBox& box) {
@@ -44,133 +26,6 @@ double largest_side(const InstanceBox& box) {
   for (std::size_t axis = 0; axis < 3; ++axis) size = std::max(size, box.high[axis] - box.low[axis]);
   return size;
 }
-
-double middle(const InstanceBox& box, std::size_t axis) {
-  const double sum = box.low[axis] + box.high[axis];
-  return std::isfinite(sum) ? sum / 2 : 0;  // A box without bounds may be anywhere.
-}
-
-/// Some instances of the tree, and their box.
-struct Group {
-  std::uint32_t first;
-  std::uint32_t last;
-  InstanceBox box;
-};
-
-/// Splits groups of instances.
-class Splitter {
- public:
-  Splitter(std::vector<std::uint32_t>& order, std::span<const InstanceBox> boxes) : order_(order), boxes_(boxes) {}
-
-  [[nodiscard]] Group group(std::uint32_t first, std::uint32_t last) const {
-    Group group = {first, last, no_box};
-    for (std::uint32_t i = first; i < last; ++i) extend(group.box, boxes_[order_[i]]);
-    return group;
-  }
-
-  /// Splits a group of at least two instances, where the surfaces of both parts, each times its instances, are least.
-  /// If `evenly`, or if nothing parts them, each part has half of the instances.
-  [[nodiscard]] std::array<Group, 2> split(const Group& group, bool evenly) {
-    Doubles low = {infinity, infinity, infinity};
-    Doubles high = {-infinity, -infinity, -infinity};
-    for (std::uint32_t i = group.first; i < group.last; ++i) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double at = middle(boxes_[order_[i]], axis);
-        low[axis] = std::min(low[axis], at);
-        high[axis] = std::max(high[axis], at);
-      }
-    }
-    std::size_t axis = 0;
-    for (std::size_t other = 1; other < 3; ++other) {
-      if (high[other] - low[other] > high[axis] - low[axis]) axis = other;
-    }
-    std::uint32_t middle_at = group.first;
-    const double size = high[axis] - low[axis];
-    if (!evenly && size > 0 && std::isfinite(size)) middle_at = part_by_bins(group, axis, low[axis], size);
-    if (middle_at == group.first || middle_at == group.last) {
-      middle_at = group.first + (group.last - group.first) / 2;
-      std::nth_element(place(group.first), place(middle_at), place(group.last), [&](std::uint32_t x, std::uint32_t y) {
-        return middle(boxes_[x], axis) < middle(boxes_[y], axis);
-      });
-    }
-    return {this->group(group.first, middle_at), this->group(middle_at, group.last)};
-  }
-
-  /// Splits the first one of some groups until there are as many as there is room for, or until all are single
-  /// instances. Returns the number of groups.
-  std::size_t split_all(std::span<Group> groups, bool evenly) {
-    std::size_t count = 1;
-    while (count < groups.size()) {
-      // The group with the largest surface is split next.
-      std::size_t largest = groups.size();
-      double largest_cost = -1;
-      for (std::size_t i = 0; i < count; ++i) {
-        if (groups[i].last - groups[i].first < 2) continue;
-        double cost = surface(groups[i].box);
-        if (!std::isfinite(cost)) cost = std::numeric_limits<double>::max();
-        if (cost > largest_cost) {
-          largest_cost = cost;
-          largest = i;
-        }
-      }
-      if (largest == groups.size()) break;
-      const auto [left, right] = split(groups[largest], evenly);
-      groups[largest] = left;
-      groups[count++] = right;
-    }
-    return count;
-  }
-
- private:
-  static constexpr std::size_t bins = 16;
-
-  /// Where an index of the order lies.
-  [[nodiscard]] std::uint32_t* place(std::uint32_t i) const { return order_.data() + i; }
-
-  /// Brings the instances of the better part to the front, and returns where the other part begins.
-  std::uint32_t part_by_bins(const Group& group, std::size_t axis, double low, double size) {
-    struct Bin {
-      InstanceBox box = no_box;
-      std::uint32_t count = 0;
-    };
-    std::array<Bin, bins> bin;
-    const auto bin_of = [&](std::uint32_t index) {
-      const double share = (middle(boxes_[index], axis) - low) / size;
-      return std::min(static_cast<std::size_t>(share * bins), bins - 1);
-    };
-    for (std::uint32_t i = group.first; i < group.last; ++i) {
-      Bin& of = bin[bin_of(order_[i])];
-      extend(of.box, boxes_[order_[i]]);
-      ++of.count;
-    }
-    std::array<double, bins> after = {};  // The cost of the bins from one on.
-    Bin sum;
-    for (std::size_t i = bins - 1; i > 0; --i) {
-      extend(sum.box, bin[i].box);
-      sum.count += bin[i].count;
-      after[i] = surface(sum.box) * sum.count;
-    }
-    sum = Bin();
-    double best = infinity;
-    std::size_t best_bin = 0;
-    for (std::size_t i = 1; i < bins; ++i) {
-      extend(sum.box, bin[i - 1].box);
-      sum.count += bin[i - 1].count;
-      const double cost = surface(sum.box) * sum.count + after[i];
-      if (cost < best) {
-        best = cost;
-        best_bin = i;
-      }
-    }
-    if (best_bin == 0) return group.first;
-    const std::uint32_t* const other = std::partition(place(group.first), place(group.last),
-                                                      [&](std::uint32_t index) { return bin_of(index) < best_bin; });
-    return static_cast<std::uint32_t>(other - order_.data());
-  }
-
-  std::vector<std::uint32_t>& order_;
-  std::span<const InstanceBox> boxes_;
-};
 
 /// Returns a float that is at most x, and hardly less. The result is never plus infinity.
 float round_down(double x) {
@@ -510,9 +365,9 @@ void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<con
   node_of_.clear();
   if (instances.empty()) return;
   std::vector<std::uint32_t> order(instances.begin(), instances.end());
-  Splitter splitter(order, boxes);
+  InstanceSplitter splitter(order, boxes);
   struct Task {
-    Group group;
+    InstanceGroup group;
     std::uint32_t node;
     std::uint32_t depth;
   };
@@ -525,10 +380,10 @@ void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<con
     // Halves of n instances have at most (n + 1) / 2, so bit_width(n - 1) more nodes hold all of them.
     const std::uint32_t size = task.group.last - task.group.first;
     const bool evenly = task.depth + static_cast<std::uint32_t>(std::bit_width(size - 1)) >= max_depth;
-    std::array<Group, width> groups = {task.group};
+    std::array<InstanceGroup, width> groups = {task.group};
     const std::size_t count = splitter.split_all(groups, evenly);
     for (std::size_t lane = 0; lane < count; ++lane) {
-      const Group& group = groups[lane];
+      const InstanceGroup& group = groups[lane];
       if (group.last - group.first == 1) {
         nodes_[task.node].child[lane] = order[group.first] | instance_bit;
         continue;
