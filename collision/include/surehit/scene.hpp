@@ -114,9 +114,9 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   /// Lets all changes since the last commit take effect. No query may run at the same time. The executor spreads the
   /// work over threads, and the result is the same. May throw std::bad_alloc. Then the committed state is as before.
   ///
-  /// Takes time linear in the changes, and hardly any for the other instances. It looks at all of them if dozens come or
-  /// go, or if the box of the scene grows. It sorts them anew after half of them have come, gone or appeared elsewhere,
-  /// or once moved ones have made queries slow. `snapshot` says what a commit costs beside a snapshot.
+  /// Takes time linear in the changes, and hardly any for the other instances. It looks at all of them if dozens come
+  /// or go, or if the box of the scene grows. It sorts them anew after half of them have come, gone or appeared
+  /// elsewhere, or once moved ones have made queries slow. `snapshot` says what a commit costs beside a snapshot.
   void commit(const std::optional<Executor>& executor = {});
 
   /// Returns the committed state as it is now. It stays the same while the scene changes and commits.
