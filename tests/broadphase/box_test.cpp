@@ -10,7 +10,7 @@
 
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::box_test {
 namespace {
 
 template <typename Scalar>
@@ -71,4 +71,4 @@ TYPED_TEST(BoxTest, spans_the_whole_of_the_numbers) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::box_test

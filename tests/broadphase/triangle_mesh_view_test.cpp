@@ -10,7 +10,7 @@
 
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::triangle_mesh_view_test {
 namespace {
 
 using Reason = InvalidMesh::Reason;
@@ -184,4 +184,4 @@ TYPED_TEST(TriangleMeshViewTest, refuses_more_triangles_than_ids) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::triangle_mesh_view_test

@@ -17,7 +17,7 @@
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::batch_options_test {
 namespace {
 
 /// Batches in which each path is asked something of its own, beside single calls that ask the same.
@@ -186,4 +186,4 @@ TYPED_TEST(BatchOptionsTest, statistics_count_the_paths_of_a_collider_without_tr
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::batch_options_test

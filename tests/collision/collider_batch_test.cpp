@@ -10,7 +10,7 @@
 #include "surehit/collider.hpp"
 #include "unit_triangles.hpp"
 
-namespace surehit::test {
+namespace surehit::test::collider_batch_test {
 namespace {
 
 template <typename Scalar>
@@ -122,4 +122,4 @@ TYPED_TEST(ColliderBatch, never_throws) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::collider_batch_test

@@ -13,7 +13,7 @@
 #include "surehit/collider.hpp"
 #include "unit_triangles.hpp"
 
-namespace surehit::test {
+namespace surehit::test::collider_mesh_test {
 namespace {
 
 /// How a mesh gets into a collider, and what becomes of it there.
@@ -204,4 +204,4 @@ TYPED_TEST(ColliderMesh, is_of_no_triangles_where_it_was_moved_from) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::collider_mesh_test

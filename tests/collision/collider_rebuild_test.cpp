@@ -15,7 +15,7 @@
 #include "support/scalars.hpp"
 #include "unit_triangles.hpp"
 
-namespace surehit::test {
+namespace surehit::test::collider_rebuild_test {
 namespace {
 
 template <typename Scalar>
@@ -263,4 +263,4 @@ TYPED_TEST(ColliderRebuild, counts_its_memory) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::collider_rebuild_test

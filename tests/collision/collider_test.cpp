@@ -17,7 +17,7 @@
 #include "support/scalars.hpp"
 #include "unit_triangles.hpp"
 
-namespace surehit::test {
+namespace surehit::test::collider_test {
 namespace {
 
 template <typename Scalar>
@@ -360,4 +360,4 @@ TYPED_TEST(ColliderQueries, no_grid_changes_an_answer) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::collider_test

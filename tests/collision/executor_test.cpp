@@ -20,7 +20,7 @@
 #include "support/floating_point_mode.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::executor_test {
 namespace {
 
 void forwards(std::size_t count, const Executor::Task& task) {
@@ -377,4 +377,4 @@ TYPED_TEST(BuildOnExecutor, says_what_is_wrong_with_a_mesh) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::executor_test

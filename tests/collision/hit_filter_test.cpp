@@ -7,7 +7,7 @@
 
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::hit_filter_test {
 namespace {
 
 template <typename Scalar>
@@ -77,4 +77,4 @@ TYPED_TEST(HitFilterOf, what_cannot_be_called_with_a_hit_is_none) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::hit_filter_test

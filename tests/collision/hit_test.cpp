@@ -16,7 +16,7 @@
 #include "support/same_bits.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::hit_test {
 namespace {
 
 template <typename Scalar>
@@ -208,4 +208,4 @@ TYPED_TEST(NormalOf, degenerate_triangle_is_zero) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::hit_test

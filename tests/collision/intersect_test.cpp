@@ -14,7 +14,7 @@
 #include "support/scalars.hpp"
 #include "unit_triangles.hpp"
 
-namespace surehit::test {
+namespace surehit::test::intersect_test {
 namespace {
 
 template <typename Scalar>
@@ -146,4 +146,4 @@ INSTANTIATE_TEST_SUITE_P(Families, IntersectFamily, testing::ValuesIn(all_pair_f
                          [](const auto& family) { return name_of(family.param); });
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::intersect_test

@@ -14,7 +14,7 @@
 #include "surehit/collider.hpp"
 #include "unit_triangles.hpp"
 
-namespace surehit::test {
+namespace surehit::test::invalid_mesh_test {
 namespace {
 
 using Reason = InvalidMesh::Reason;
@@ -142,4 +142,4 @@ TYPED_TEST(InvalidMeshOf, successful_rebuild_replaces_all) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::invalid_mesh_test

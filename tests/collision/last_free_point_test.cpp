@@ -14,7 +14,7 @@
 #include "surehit/collider.hpp"
 #include "unit_triangles.hpp"
 
-namespace surehit::test {
+namespace surehit::test::last_free_point_test {
 namespace {
 
 template <typename Scalar>
@@ -184,4 +184,4 @@ TYPED_TEST(LastFreePoint, heeds_filter_and_mask_and_ignored_triangle) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::last_free_point_test

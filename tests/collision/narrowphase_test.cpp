@@ -18,7 +18,7 @@
 #include "support/scalars.hpp"
 #include "unit_triangles.hpp"
 
-namespace surehit::test {
+namespace surehit::test::narrowphase_test {
 namespace {
 
 using detail::Candidate;
@@ -244,4 +244,4 @@ TYPED_TEST(NarrowphaseOf, overlapping_bounds_are_told_apart_exactly) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::narrowphase_test

@@ -4,7 +4,7 @@
 
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::path_range_test {
 namespace {
 
 using detail::PathRange;
@@ -85,4 +85,4 @@ TYPED_TEST(PathRangeOf, finite_means_every_component) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::path_range_test

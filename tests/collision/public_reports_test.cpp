@@ -34,7 +34,7 @@
 ///   last_free_point_test, level/trial_test
 /// - a degenerate triangle that everything hits (https://github.com/libgdx/libgdx/issues/4901):
 ///   query_meaning_degenerate_test
-namespace surehit::test {
+namespace surehit::test::public_reports_test {
 namespace {
 
 template <typename Scalar>
@@ -368,4 +368,4 @@ TYPED_TEST(PublicReports, paths_of_no_length_and_of_no_number_among_others) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::public_reports_test

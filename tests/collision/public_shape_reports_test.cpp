@@ -23,7 +23,7 @@
 
 /// Situations in which other libraries were publicly reported to answer wrongly about a moving shape, made anew: each
 /// test names one, and the thread or the source that tells of it. public_reports_test has those of rays.
-namespace surehit::test {
+namespace surehit::test::public_shape_reports_test {
 namespace {
 
 template <typename Scalar>
@@ -311,4 +311,4 @@ TYPED_TEST(PublicShapeReports, ball_onto_plates_of_up_to_a_kilometre) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::public_shape_reports_test

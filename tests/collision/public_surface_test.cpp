@@ -14,7 +14,7 @@
 #include "support/scalars.hpp"
 #include "surehit/surehit.hpp"
 
-namespace surehit::test {
+namespace surehit::test::public_surface_test {
 namespace {
 
 // What would dangle, or read other memory than was meant, does not compile.
@@ -262,4 +262,4 @@ TYPED_TEST(PublicSurface, says_where_shapes_touch) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::public_surface_test

@@ -26,7 +26,7 @@ std::size_t allocation_count = 0;
 [[gnu::noinline]] void operator delete(void* block) noexcept { std::free(block); }
 [[gnu::noinline]] void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
-namespace surehit::test {
+namespace surehit::test::query_allocation_test {
 namespace {
 
 template <typename Call>
@@ -91,4 +91,4 @@ TYPED_TEST(QueryAllocation, all_hits_keeps_the_capacity_of_its_vector) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::query_allocation_test

@@ -16,7 +16,7 @@
 #include "surehit/intersect.hpp"
 #include "unit_triangles.hpp"
 
-namespace surehit::test {
+namespace surehit::test::query_environment_test {
 namespace {
 
 /// Bytes of every answer that every entry point gives on numbers that underflow, cancel and tie.
@@ -179,4 +179,4 @@ TYPED_TEST(QueryEnvironment, unmasked_exceptions_do_not_trap) {
 #endif
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::query_environment_test

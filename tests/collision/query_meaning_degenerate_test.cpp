@@ -5,7 +5,7 @@
 #include "query_meaning.hpp"
 #include "support/neighbour.hpp"
 
-namespace surehit::test {
+namespace surehit::test::query_meaning_degenerate_test {
 namespace {
 
 /// "Degenerate triangle: the segment or the point that its corners span, exactly."
@@ -163,4 +163,4 @@ TYPED_TEST(DegenerateMeaning, limits_and_ignored_ends_hold_for_needles_too) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::query_meaning_degenerate_test

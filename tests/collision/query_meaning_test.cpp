@@ -5,7 +5,7 @@
 
 #include "support/neighbour.hpp"
 
-namespace surehit::test {
+namespace surehit::test::query_meaning_test {
 namespace {
 
 TYPED_TEST_SUITE(QueryMeaning, Scalars, ScalarNames);
@@ -321,4 +321,4 @@ TYPED_TEST(QueryMeaning, non_finite_path_is_a_miss) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::query_meaning_test

@@ -7,7 +7,7 @@
 #include "query_meaning.hpp"
 #include "support/neighbour.hpp"
 
-namespace surehit::test {
+namespace surehit::test::query_options_test {
 namespace {
 
 /// Options in each query of a pair; masks and ids are the collider's alone and have their tests there.
@@ -167,4 +167,4 @@ TYPED_TEST(QueryOptionsOf, path_of_no_length_starts_and_ends_where_it_is) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::query_options_test

@@ -16,7 +16,7 @@
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::query_threads_test {
 namespace {
 
 /// All that a thread can ask about one segment.
@@ -135,4 +135,4 @@ TYPED_TEST(QueryThreads, many_with_batches_on_one_collider_get_the_same_answers)
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::query_threads_test

@@ -11,7 +11,7 @@
 #include "support/path_drawer.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::rebuild_allocation_test {
 namespace {
 
 template <typename Scalar>
@@ -124,4 +124,4 @@ TYPED_TEST(RebuildAllocation, that_fails_keeps_the_answers_from_before) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::rebuild_allocation_test

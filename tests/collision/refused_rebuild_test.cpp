@@ -12,7 +12,7 @@
 #include "support/scalars.hpp"
 #include "unit_triangles.hpp"
 
-namespace surehit::test {
+namespace surehit::test::refused_rebuild_test {
 namespace {
 
 using Reason = InvalidMesh::Reason;
@@ -132,4 +132,4 @@ TYPED_TEST(RefusedRebuild, leaves_the_next_one_to_succeed) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::refused_rebuild_test

@@ -12,7 +12,7 @@
 #include "support/floating_point_mode.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::tbb_executor_test {
 namespace {
 
 /// A temporary lives as long as the call that it is written in.
@@ -60,4 +60,4 @@ TYPED_TEST(BatchOnTbb, answers_the_same_in_any_floating_point_mode_of_the_caller
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::tbb_executor_test

@@ -10,7 +10,7 @@
 #include "support/wrong_answers.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::box_crosscheck_test {
 namespace {
 
 class BoxCrosscheck : public testing::TestWithParam<BoxFamily> {};
@@ -52,4 +52,4 @@ INSTANTIATE_TEST_SUITE_P(Families, BoxCrosscheck, testing::ValuesIn(all_box_fami
                          [](const auto& family) { return name_of(family.param); });
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::box_crosscheck_test

@@ -10,7 +10,7 @@
 #include "support/shape_text.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::capsule_crosscheck_test {
 namespace {
 
 class CapsuleCrosscheck : public testing::TestWithParam<CapsuleFamily> {};
@@ -67,4 +67,4 @@ INSTANTIATE_TEST_SUITE_P(Families, CapsuleCrosscheck, testing::ValuesIn(all_caps
                          [](const auto& family) { return name_of(family.param); });
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::capsule_crosscheck_test

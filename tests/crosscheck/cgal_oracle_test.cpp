@@ -5,7 +5,7 @@
 #include "surehit/path.hpp"
 #include "surehit/triangle.hpp"
 
-namespace surehit::test {
+namespace surehit::test::cgal_oracle_test {
 namespace {
 
 /// The start is a corner. Compiled for SSE4.1, CGAL is certain that there is no contact; a fuzzer found that.
@@ -21,4 +21,4 @@ TEST(CgalOracle, is_right_where_products_overflow) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::cgal_oracle_test

@@ -12,7 +12,7 @@
 #include "support/small_meshes.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::collider_crosscheck_test {
 namespace {
 
 /// Built at several resolutions, for none may change an answer.
@@ -69,4 +69,4 @@ INSTANTIATE_TEST_SUITE_P(Meshes, ColliderCrosscheck, testing::Range(std::size_t{
                          [](const auto& test) { return name_of_small_mesh(test.param); });
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::collider_crosscheck_test

@@ -22,7 +22,7 @@
 #include "surehit/collider.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::environment_crosscheck_test {
 namespace {
 
 constexpr std::array modes = {
@@ -282,4 +282,4 @@ INSTANTIATE_TEST_SUITE_P(All, FloatingPointModes, testing::ValuesIn(modes),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::environment_crosscheck_test

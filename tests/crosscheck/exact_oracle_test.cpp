@@ -11,7 +11,7 @@
 
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::exact_oracle_test {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -225,4 +225,4 @@ TEST(ExactContact, at_a_parameter_beyond_the_largest_number_is_a_hit_at_infinity
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::exact_oracle_test

@@ -5,7 +5,7 @@
 #include "pair_cases.hpp"
 #include "pair_judge.hpp"
 
-namespace surehit::test {
+namespace surehit::test::pair_crosscheck_test {
 namespace {
 
 /// Returns whether they meet.
@@ -65,4 +65,4 @@ INSTANTIATE_TEST_SUITE_P(Families, PairCrosscheck, testing::ValuesIn(all_pair_fa
                          [](const auto& family) { return name_of(family.param); });
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::pair_crosscheck_test

@@ -11,7 +11,7 @@
 #include "support/scene_path_drawer.hpp"
 #include "support/scene_text.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_crosscheck_test {
 namespace {
 
 /// Whether a path meets any triangle, by CGAL's exact kernel.
@@ -65,4 +65,4 @@ INSTANTIATE_TEST_SUITE_P(Families, SceneCrosscheck, testing::ValuesIn(all_scene_
                          [](const auto& family) { return name_of(family.param); });
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_crosscheck_test

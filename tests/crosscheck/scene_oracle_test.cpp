@@ -16,7 +16,7 @@
 #include "support/scalars.hpp"
 #include "support/small_meshes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_oracle_test {
 namespace {
 
 const GeneratedMesh<double> floor_mesh = stack_of_triangles<double>(1);
@@ -174,4 +174,4 @@ TEST(SceneOracle, determinant_is_exact) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_oracle_test

@@ -11,7 +11,7 @@
 #include "support/swept_truth.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::sphere_crosscheck_test {
 namespace {
 
 class SphereCrosscheck : public testing::TestWithParam<SphereFamily> {};
@@ -81,4 +81,4 @@ INSTANTIATE_TEST_SUITE_P(Families, SphereCrosscheck, testing::ValuesIn(all_spher
                          [](const auto& family) { return name_of(family.param); });
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::sphere_crosscheck_test

@@ -9,7 +9,7 @@
 #include "support/case_count.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::hard_determinism_test {
 namespace {
 
 /// On a mesh with ties: triangles that share edges, that lie in one plane and overlap, that are the same.
@@ -70,4 +70,4 @@ TYPED_TEST(PropDeterminism, answers_are_the_published_ones_on_every_instruction_
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::hard_determinism_test

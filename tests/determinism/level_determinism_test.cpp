@@ -10,7 +10,7 @@
 #include "support/case_count.hpp"
 #include "support/path_drawer.hpp"
 
-namespace surehit::test {
+namespace surehit::test::level_determinism_test {
 namespace {
 
 /// 10,000 questions about the built-in level, or more: a million with SUREHIT_TEST_PERCENT=10000.
@@ -64,4 +64,4 @@ TEST_F(LevelDeterminism, answers_are_the_same_of_any_batch_size) { determinism.e
 TEST_F(LevelDeterminism, answers_are_the_same_in_any_order) { determinism.expect_same_in_any_order(); }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::level_determinism_test

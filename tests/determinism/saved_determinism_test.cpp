@@ -9,7 +9,7 @@
 #include "support/instruction_sets.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::saved_determinism_test {
 namespace {
 
 /// The bytes of saved colliders and scenes.
@@ -28,4 +28,4 @@ TYPED_TEST(SavedDeterminism, bytes_are_the_published_ones_on_every_instruction_s
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::saved_determinism_test

@@ -15,7 +15,7 @@
 #include "support/scalars.hpp"
 #include "support/threads.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_determinism_test {
 namespace {
 
 /// The hard scene, asked and made in many ways.
@@ -108,4 +108,4 @@ TYPED_TEST(SceneDeterminism, answers_are_the_same_after_any_order_of_changes) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_determinism_test

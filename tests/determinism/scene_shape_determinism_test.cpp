@@ -16,7 +16,7 @@
 #include "support/scalars.hpp"
 #include "support/threads.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_shape_determinism_test {
 namespace {
 
 /// Balls, boxes and capsules in the hard scene, asked about in many ways.
@@ -110,4 +110,4 @@ TYPED_TEST(SceneShapeDeterminism, answers_are_the_same_of_any_batch_size) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_shape_determinism_test

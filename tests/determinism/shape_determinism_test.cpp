@@ -16,7 +16,7 @@
 #include "support/shape_text.hpp"
 #include "support/threads.hpp"
 
-namespace surehit::test {
+namespace surehit::test::shape_determinism_test {
 namespace {
 
 /// Balls, boxes and capsules on a mesh with ties.
@@ -176,4 +176,4 @@ TYPED_TEST(ShapeDeterminism, batches_are_the_same_on_any_number_of_threads) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::shape_determinism_test

@@ -14,7 +14,7 @@
 #include "support/pair_text.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::triangle_order_test {
 namespace {
 
 /// Triangles and paths whose corners are whole numbers from 0 to 4: thick with ties, on common edges and vertices, in
@@ -114,4 +114,4 @@ TYPED_TEST(TriangleOrder, answers_of_permuted_triangles_are_the_same_and_ties_go
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::triangle_order_test

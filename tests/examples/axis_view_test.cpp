@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::axis_view_test {
 namespace {
 
 template <typename Scalar>
@@ -142,4 +142,4 @@ TYPED_TEST(AxisView, is_exact_for_numbers_of_any_size) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::axis_view_test

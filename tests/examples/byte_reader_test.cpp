@@ -4,7 +4,7 @@
 
 #include "error_of.hpp"
 
-namespace surehit::test {
+namespace surehit::test::byte_reader_test {
 namespace {
 
 using example::ByteReader;
@@ -35,4 +35,4 @@ TEST(ByteReader, refuses_to_read_beyond_the_end) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::byte_reader_test

@@ -6,7 +6,7 @@
 
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::ear_clipper_test {
 namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -121,4 +121,4 @@ TYPED_TEST(EarClipper, runs_out_of_ears_where_the_outline_crosses_itself) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::ear_clipper_test

@@ -7,7 +7,7 @@
 #include "support/case_count.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::float_loss_test {
 namespace {
 
 using example::describe_float_loss;
@@ -144,4 +144,4 @@ TEST(FloatLoss, may_be_wherever_it_is_described) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::float_loss_test

@@ -7,7 +7,7 @@
 #include "error_of.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::mesh_builder_test {
 namespace {
 
 using example::checked_corner;
@@ -198,4 +198,4 @@ TEST(CheckedCorner, checks_an_index_against_the_vertices) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::mesh_builder_test

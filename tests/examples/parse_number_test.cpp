@@ -14,7 +14,7 @@
 #include "support/case_count.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::parse_number_test {
 namespace {
 
 using example::parse_integer;
@@ -304,4 +304,4 @@ TEST(ParseInteger, rejects_everything_else) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::parse_number_test

@@ -17,7 +17,7 @@
 #include "support/random.hpp"
 #include "temporary_folder.hpp"
 
-namespace surehit::test {
+namespace surehit::test::read_mesh_test {
 namespace {
 
 using example::read_mesh;
@@ -258,4 +258,4 @@ INSTANTIATE_TEST_SUITE_P(Meshes, ReadSharedMesh,
                                          SharedMesh{"dungeon.obj", 10133}, SharedMesh{"nav_test.obj", 1612}));
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::read_mesh_test

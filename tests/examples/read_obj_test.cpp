@@ -11,7 +11,7 @@
 #include "sample_polygons.hpp"
 #include "with_line_ends.hpp"
 
-namespace surehit::test {
+namespace surehit::test::read_obj_test {
 namespace {
 
 using example::Mesh;
@@ -352,4 +352,4 @@ TEST(ReadObj, makes_an_error_or_a_mesh_of_any_bytes) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::read_obj_test

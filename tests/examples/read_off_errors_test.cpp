@@ -13,7 +13,7 @@
 #include "mutations.hpp"
 #include "off_text.hpp"
 
-namespace surehit::test {
+namespace surehit::test::read_off_errors_test {
 namespace {
 
 using example::read_off;
@@ -180,4 +180,4 @@ TEST(ReadOffErrors, makes_an_error_or_a_mesh_of_any_bytes) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::read_off_errors_test

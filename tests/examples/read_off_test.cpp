@@ -20,7 +20,7 @@
 #include "support/random.hpp"
 #include "with_line_ends.hpp"
 
-namespace surehit::test {
+namespace surehit::test::read_off_test {
 namespace {
 
 using example::Mesh;
@@ -336,4 +336,4 @@ TEST(ReadOff, reads_random_meshes_in_free_line_breaks) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::read_off_test

@@ -16,7 +16,7 @@
 #include "surehit/collider.hpp"
 #include "with_line_ends.hpp"
 
-namespace surehit::test {
+namespace surehit::test::read_ply_strips_test {
 namespace {
 
 using example::Mesh;
@@ -146,4 +146,4 @@ TEST(ReadPlyStrips, make_an_error_or_a_mesh_of_any_bytes) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::read_ply_strips_test

@@ -14,7 +14,7 @@
 #include "sample_polygons.hpp"
 #include "with_line_ends.hpp"
 
-namespace surehit::test {
+namespace surehit::test::read_ply_test {
 namespace {
 
 using example::Mesh;
@@ -471,4 +471,4 @@ TEST(ReadPly, makes_an_error_or_a_mesh_of_any_bytes) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::read_ply_test

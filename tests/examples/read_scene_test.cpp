@@ -13,7 +13,7 @@
 #include "temporary_folder.hpp"
 #include "with_line_ends.hpp"
 
-namespace surehit::test {
+namespace surehit::test::read_scene_test {
 namespace {
 
 using example::PlacedMesh;
@@ -191,4 +191,4 @@ TEST_F(ReadScene, reads_any_bytes_or_names_what_is_wrong) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::read_scene_test

@@ -12,7 +12,7 @@
 #include "mutations.hpp"
 #include "with_line_ends.hpp"
 
-namespace surehit::test {
+namespace surehit::test::read_stl_test {
 namespace {
 
 using example::Mesh;
@@ -334,4 +334,4 @@ TEST(ReadStl, makes_an_error_or_a_mesh_of_any_bytes) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::read_stl_test

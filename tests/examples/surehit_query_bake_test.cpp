@@ -4,7 +4,7 @@
 
 #include "surehit_query_run.hpp"
 
-namespace surehit::test {
+namespace surehit::test::surehit_query_bake_test {
 namespace {
 
 /// Saved colliders in place of meshes.
@@ -87,4 +87,4 @@ TEST_F(SurehitQueryBake, what_cannot_be_asked_is_an_error) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::surehit_query_bake_test

@@ -6,7 +6,7 @@
 #include "mesh_io/read_mesh.hpp"
 #include "surehit_query_run.hpp"
 
-namespace surehit::test {
+namespace surehit::test::surehit_query_explain_test {
 namespace {
 
 class SurehitQueryExplain : public SurehitQueryRun {
@@ -167,4 +167,4 @@ TEST_F(SurehitQueryExplain, says_what_is_wrong) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::surehit_query_explain_test

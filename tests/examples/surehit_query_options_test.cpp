@@ -4,7 +4,7 @@
 
 #include "surehit_query_run.hpp"
 
-namespace surehit::test {
+namespace surehit::test::surehit_query_options_test {
 namespace {
 
 /// What narrows a query, and what it is asked for besides.
@@ -161,4 +161,4 @@ TEST_F(SurehitQueryOptions, tells_ties_by_the_exact_t) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::surehit_query_options_test

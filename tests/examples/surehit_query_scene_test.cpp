@@ -5,7 +5,7 @@
 
 #include "surehit_query_run.hpp"
 
-namespace surehit::test {
+namespace surehit::test::surehit_query_scene_test {
 namespace {
 
 /// Queries of scenes.
@@ -258,4 +258,4 @@ TEST_F(SurehitQueryScene, helps_with_scenes) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::surehit_query_scene_test

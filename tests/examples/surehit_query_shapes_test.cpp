@@ -4,7 +4,7 @@
 
 #include "surehit_query_run.hpp"
 
-namespace surehit::test {
+namespace surehit::test::surehit_query_shapes_test {
 namespace {
 
 /// Paths that are moving shapes.
@@ -130,4 +130,4 @@ TEST_F(SurehitQueryShapes, refuses_what_only_straight_paths_have) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::surehit_query_shapes_test

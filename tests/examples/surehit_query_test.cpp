@@ -12,7 +12,7 @@
 #include "support/random.hpp"
 #include "surehit_query_run.hpp"
 
-namespace surehit::test {
+namespace surehit::test::surehit_query_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -384,4 +384,4 @@ TEST_F(SurehitQuery, leaves_no_part_of_a_file_when_the_disk_is_full) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::surehit_query_test

@@ -7,7 +7,7 @@
 #include "error_of.hpp"
 #include "with_line_ends.hpp"
 
-namespace surehit::test {
+namespace surehit::test::text_lines_test {
 namespace {
 
 using example::TextLines;
@@ -145,4 +145,4 @@ TEST(WithoutComment, keeps_a_hash_inside_a_word) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::text_lines_test

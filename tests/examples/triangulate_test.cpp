@@ -18,7 +18,7 @@
 #include "support/random.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::triangulate_test {
 namespace {
 
 using Corners = std::vector<std::uint32_t>;
@@ -496,4 +496,4 @@ TYPED_TEST(Triangulate, names_corners_by_their_vertices) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::triangulate_test

@@ -17,7 +17,7 @@
 #include "support/path_drawer.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::brute_force_comparison_test {
 namespace {
 
 template <typename Scalar>
@@ -419,4 +419,4 @@ TYPED_TEST(BruteForceComparison, masks_and_ignored_triangles) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::brute_force_comparison_test

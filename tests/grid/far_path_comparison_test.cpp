@@ -12,7 +12,7 @@
 #include "support/pair_families.hpp"
 #include "support/path_drawer.hpp"
 
-namespace surehit::test {
+namespace surehit::test::far_path_comparison_test {
 namespace {
 
 /// Paths of floats that begin far from a mesh, or far from a prop in it. They answer as asking every triangle does.
@@ -168,4 +168,4 @@ TEST_F(FarPathComparison, of_ways_that_overflow) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::far_path_comparison_test

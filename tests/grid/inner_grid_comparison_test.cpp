@@ -18,7 +18,7 @@
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::inner_grid_comparison_test {
 namespace {
 
 /// Props in levels. All queries must answer as asking every triangle does, to the bit.
@@ -303,4 +303,4 @@ TYPED_TEST(InnerGridComparison, of_a_prop_that_moves_through_the_level) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::inner_grid_comparison_test

@@ -11,7 +11,7 @@
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::inner_grid_cost_test {
 namespace {
 
 /// The ways in which a path is asked.
@@ -121,4 +121,4 @@ TYPED_TEST(InnerGridCost, of_a_prop_hardly_grows_with_a_level_around_it) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::inner_grid_cost_test

@@ -9,7 +9,7 @@
 #include "support/path_drawer.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::large_mesh_comparison_test {
 namespace {
 
 /// What the lists of a grid may hold whatever the mesh: 8 entries a triangle, or 2^18, and three times as many for each
@@ -72,4 +72,4 @@ TYPED_TEST(LargeMeshComparison, two_million_triangles) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::large_mesh_comparison_test

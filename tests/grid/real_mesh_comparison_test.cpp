@@ -12,7 +12,7 @@
 #include "support/path_drawer.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::real_mesh_comparison_test {
 namespace {
 
 template <typename Scalar>
@@ -67,4 +67,4 @@ TYPED_TEST(RealMeshComparison, built_in_level) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::real_mesh_comparison_test

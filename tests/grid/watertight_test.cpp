@@ -10,7 +10,7 @@
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::watertight_test {
 namespace {
 
 /// A closed surface around the origin, which no ray from there crosses twice: a path from inside to outside must meet
@@ -106,4 +106,4 @@ TYPED_TEST(Watertight, exact_aims_meet_the_surface_where_it_is) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::watertight_test

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace surehit::example {
+namespace surehit::example::animation_test {
 namespace {
 
 constexpr Colour black = Colour::hex(0x000000);
@@ -102,4 +102,4 @@ TEST(Animation, chunks_end_with_their_checksums) {
 TEST(Animation, needs_a_frame) { EXPECT_THROW((void)encode_animation({}, 50), std::invalid_argument); }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::animation_test

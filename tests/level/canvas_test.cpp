@@ -4,7 +4,7 @@
 
 #include "picture/png.hpp"
 
-namespace surehit::example {
+namespace surehit::example::canvas_test {
 namespace {
 
 constexpr Colour black = Colour::hex(0x000000);
@@ -49,4 +49,4 @@ TEST(Canvas, png_names_its_size) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::canvas_test

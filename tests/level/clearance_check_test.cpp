@@ -9,7 +9,7 @@
 #include "level/level.hpp"
 #include "support/random.hpp"
 
-namespace surehit::example {
+namespace surehit::example::clearance_check_test {
 namespace {
 
 /// A floor at z = 0 from 0 to 8, and a thin wall on it at x = 4.
@@ -64,4 +64,4 @@ TEST(ClearanceCheck, agrees_with_the_library_in_the_level) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::clearance_check_test

@@ -8,7 +8,7 @@
 #include "character/capsule_sweep.hpp"
 #include "support/random.hpp"
 
-namespace surehit::example {
+namespace surehit::example::core_distance_test {
 namespace {
 
 /// A body that touches a triangle in exactly one point, and a direction that leads away from it.
@@ -136,4 +136,4 @@ TEST(CoreDistance, takes_triangles_without_area) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::core_distance_test

@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-namespace surehit::example {
+namespace surehit::example::crowd_test {
 namespace {
 
 TEST(Crowd, looks_into_vision_cones) {
@@ -49,4 +49,4 @@ TEST(Crowd, walks_through_nothing) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::crowd_test

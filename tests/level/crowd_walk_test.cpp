@@ -9,7 +9,7 @@
 #include "level/level.hpp"
 #include "support/case_count.hpp"
 
-namespace surehit::example {
+namespace surehit::example::crowd_walk_test {
 namespace {
 
 class CrowdWalkTest : public testing::Test {
@@ -92,4 +92,4 @@ TEST_F(CrowdWalkTest, starts_are_free_and_on_the_ground) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::crowd_walk_test

@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-namespace surehit::example {
+namespace surehit::example::fan_test {
 namespace {
 
 constexpr float tangent_of_half = 0.1f;
@@ -34,4 +34,4 @@ TEST(Fan, has_four_blades_within_its_radius) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::fan_test

@@ -4,7 +4,7 @@
 
 #include "moving_platforms/way_check.hpp"
 
-namespace surehit::example {
+namespace surehit::example::game_test {
 namespace {
 
 /// A platform that goes its whole way in step 0, and then waits for long.
@@ -99,4 +99,4 @@ TEST(Game, a_fan_that_turned_throws_pieces_off) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::game_test

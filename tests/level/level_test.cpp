@@ -5,7 +5,7 @@
 #include <bit>
 #include <surehit/collider.hpp>
 
-namespace surehit::example {
+namespace surehit::example::level_test {
 namespace {
 
 /// FNV-1a over the bits of all vertices and triangles.
@@ -66,4 +66,4 @@ TEST(Level, walls_are_solid) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::level_test

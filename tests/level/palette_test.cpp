@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace surehit::example {
+namespace surehit::example::palette_test {
 namespace {
 
 TEST(Palette, keeps_the_colours_of_a_flat_picture) {
@@ -32,4 +32,4 @@ TEST(Palette, takes_the_nearest_of_the_most_frequent_colours) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::palette_test

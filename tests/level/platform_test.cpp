@@ -7,7 +7,7 @@
 
 #include "moving_platforms/hall.hpp"
 
-namespace surehit::example {
+namespace surehit::example::platform_test {
 namespace {
 
 bool is_on_lattice(const Vector3f& v) {
@@ -85,4 +85,4 @@ TEST(Hall, no_platform_meets_another) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::platform_test

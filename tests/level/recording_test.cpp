@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace surehit::example {
+namespace surehit::example::recording_test {
 namespace {
 
 /// So many pieces that batches are spread over threads.
@@ -65,4 +65,4 @@ TEST(Recording, shows_each_step) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::recording_test

@@ -6,7 +6,7 @@
 #include <set>
 #include <surehit/hit.hpp>
 
-namespace surehit::example {
+namespace surehit::example::room_test {
 namespace {
 
 constexpr Point low = {-1, 2, 0};
@@ -48,4 +48,4 @@ TEST(Room, looks_inwards) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::room_test

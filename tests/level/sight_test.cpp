@@ -9,7 +9,7 @@
 #include "line_of_sight/figures.hpp"
 #include "support/case_count.hpp"
 
-namespace surehit::example {
+namespace surehit::example::sight_test {
 namespace {
 
 constexpr Point low = {-3, 1, -0.5f};
@@ -99,4 +99,4 @@ TEST(FloorPlan, says_where_there_is_none) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::sight_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace surehit::example {
+namespace surehit::example::ticks_test {
 namespace {
 
 constexpr TickOptions small{.agents = 400, .segments = 4'000, .ticks = 5};
@@ -36,4 +36,4 @@ TEST(Ticks, another_seed_is_another_town) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::ticks_test

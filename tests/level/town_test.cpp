@@ -6,7 +6,7 @@
 
 #include "agents_tick/crowd.hpp"
 
-namespace surehit::example {
+namespace surehit::example::town_test {
 namespace {
 
 /// All placed triangles of a town as one mesh. Each has the mask of its instance.
@@ -90,4 +90,4 @@ TEST(Town, open_doors_block_nothing) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::town_test

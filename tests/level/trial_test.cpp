@@ -6,7 +6,7 @@
 #include "game_physics/exact_sweep.hpp"
 #include "game_physics/wall_check.hpp"
 
-namespace surehit::example {
+namespace surehit::example::trial_test {
 namespace {
 
 constexpr TrialOptions small{.points = 200, .steps = 100, .threads = 2};
@@ -90,4 +90,4 @@ TEST(Flight, keeps_its_energy) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::trial_test

@@ -10,7 +10,7 @@
 #include "level/level.hpp"
 #include "level/solid_builder.hpp"
 
-namespace surehit::example {
+namespace surehit::example::walker_test {
 namespace {
 
 constexpr float on_floor = Body::radius + Body::half_height;
@@ -139,4 +139,4 @@ TEST(Walker, goes_up_the_stairs_of_the_level) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::walker_test

@@ -8,7 +8,7 @@
 #include "level/room.hpp"
 #include "support/random.hpp"
 
-namespace surehit::example {
+namespace surehit::example::wall_check_test {
 namespace {
 
 /// A room with one oblique triangle in it, whose plane is x + y + z = 129.
@@ -106,4 +106,4 @@ TEST(WallCheck, refuses_a_room_that_it_cannot_check) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::wall_check_test

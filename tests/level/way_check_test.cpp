@@ -8,7 +8,7 @@
 #include "moving_platforms/hall_scene.hpp"
 #include "support/random.hpp"
 
-namespace surehit::example {
+namespace surehit::example::way_check_test {
 namespace {
 
 /// A slab whose top is at 41 in step 0, and moves up by a half meanwhile. Then it waits.
@@ -111,4 +111,4 @@ TEST(WayCheck, refuses_a_hall_that_it_cannot_check) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::way_check_test

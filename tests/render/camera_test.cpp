@@ -4,7 +4,7 @@
 
 #include "mesh_io/input_error.hpp"
 
-namespace surehit::example {
+namespace surehit::example::camera_test {
 namespace {
 
 TEST(Camera, rays_follow_the_formula) {
@@ -71,4 +71,4 @@ TEST(Camera, refuses_views_that_have_no_direction) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::camera_test

@@ -7,7 +7,7 @@
 #include "level/room.hpp"
 #include "render/shapes.hpp"
 
-namespace surehit::example {
+namespace surehit::example::corner_normals_test {
 namespace {
 
 TEST(CornerNormals, are_round_on_a_sphere) {
@@ -37,4 +37,4 @@ TEST(CornerNormals, of_a_triangle_without_area_are_zero) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::corner_normals_test

@@ -7,7 +7,7 @@
 #include "render/id_picture.hpp"
 #include "render/shaded_picture.hpp"
 
-namespace surehit::example {
+namespace surehit::example::cost_picture_test {
 namespace {
 
 constexpr int width = 60;
@@ -75,4 +75,4 @@ TEST_F(CostPicture, ids_have_colours_of_their_own) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::cost_picture_test

@@ -11,7 +11,7 @@
 #include "render/plain_intersect.hpp"
 #include "render/shapes.hpp"
 
-namespace surehit::example {
+namespace surehit::example::crack_picture_test {
 namespace {
 
 bool is_hole(const Colour& colour) { return colour.red == 1 && colour.green < 0.2f && colour.blue < 0.2f; }
@@ -146,4 +146,4 @@ TEST(CrackPicture, plain_floats_are_right_where_nothing_is_close) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::crack_picture_test

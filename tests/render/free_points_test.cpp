@@ -7,7 +7,7 @@
 #include "support/case_count.hpp"
 #include "support/random.hpp"
 
-namespace surehit::example {
+namespace surehit::example::free_points_test {
 namespace {
 
 /// Rays from around a place, with what they hit. All of them are in air.
@@ -109,4 +109,4 @@ TEST(FreePoints, of_a_hit_at_the_origin_is_the_origin) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::free_points_test

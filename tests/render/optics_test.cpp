@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace surehit::example {
+namespace surehit::example::optics_test {
 namespace {
 
 const Vector3f upwards(0, 0, 1);
@@ -59,4 +59,4 @@ TEST(Optics, powers_are_products) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::optics_test

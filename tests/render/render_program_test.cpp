@@ -5,7 +5,7 @@
 #include "support/program_run.hpp"
 #include "support/sanitizer.hpp"
 
-namespace surehit::test {
+namespace surehit::test::render_program_test {
 namespace {
 
 class RenderProgram : public testing::Test {
@@ -130,4 +130,4 @@ TEST_F(RenderProgram, stops_cleanly_when_it_is_asked_to) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::render_program_test

@@ -12,7 +12,7 @@
 #include "support/instruction_sets.hpp"
 #include "support/sanitizer.hpp"
 
-namespace surehit::example {
+namespace surehit::example::shaded_picture_test {
 namespace {
 
 constexpr ShadingOptions small{.width = 160, .height = 120};
@@ -359,4 +359,4 @@ TEST(ShadedPicture, counts_its_rays) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::shaded_picture_test

@@ -6,7 +6,7 @@
 #include <surehit/collider.hpp>
 #include <utility>
 
-namespace surehit::example {
+namespace surehit::example::shapes_test {
 namespace {
 
 TEST(Shapes, a_sphere_is_closed_and_round) {
@@ -60,4 +60,4 @@ TEST(Shapes, models_become_one) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::shapes_test

@@ -6,7 +6,7 @@
 #include "small_level.hpp"
 #include "visibility_bake/cells.hpp"
 
-namespace surehit::example {
+namespace surehit::example::bake_test {
 namespace {
 
 class Bake : public testing::Test {
@@ -100,4 +100,4 @@ TEST_F(Bake, saves_checkpoints) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::bake_test

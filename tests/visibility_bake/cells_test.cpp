@@ -8,7 +8,7 @@
 #include "mesh_io/input_error.hpp"
 #include "small_level.hpp"
 
-namespace surehit::example {
+namespace surehit::example::cells_test {
 namespace {
 
 bool has(const std::vector<Vector3f>& floors, const Vector3f& floor) {
@@ -110,4 +110,4 @@ TEST(Cells, of_nothing_are_none) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::cells_test

@@ -8,7 +8,7 @@
 #include "examples/temporary_folder.hpp"
 #include "mesh_io/input_error.hpp"
 
-namespace surehit::example {
+namespace surehit::example::checkpoint_test {
 namespace {
 
 class CheckpointTest : public testing::Test {
@@ -103,4 +103,4 @@ TEST_F(CheckpointTest, overwrites_what_an_interrupted_one_has_left) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::checkpoint_test

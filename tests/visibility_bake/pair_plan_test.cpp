@@ -10,7 +10,7 @@
 #include "small_level.hpp"
 #include "visibility_bake/cells.hpp"
 
-namespace surehit::example {
+namespace surehit::example::pair_plan_test {
 namespace {
 
 class PairPlanTest : public testing::Test {
@@ -98,4 +98,4 @@ TEST_F(PairPlanTest, fingerprints_tell_plans_apart) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::pair_plan_test

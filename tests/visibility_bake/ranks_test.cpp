@@ -7,7 +7,7 @@
 #include "support/sanitizer.hpp"
 #include "visibility_bake_run.hpp"
 
-namespace surehit::test {
+namespace surehit::test::ranks_test {
 namespace {
 
 /// Runs the program with mpirun on this machine, with more ranks than it may have cores.
@@ -123,4 +123,4 @@ TEST_F(RanksTest, keep_a_checkpoint_before_all_have_stopped) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::ranks_test

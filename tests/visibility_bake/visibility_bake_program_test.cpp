@@ -6,7 +6,7 @@
 
 #include "visibility_bake_run.hpp"
 
-namespace surehit::test {
+namespace surehit::test::visibility_bake_program_test {
 namespace {
 
 class VisibilityBakeProgram : public VisibilityBakeRun {
@@ -200,4 +200,4 @@ TEST_F(VisibilityBakeProgram, has_help) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::visibility_bake_program_test

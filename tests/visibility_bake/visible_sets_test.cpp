@@ -5,7 +5,7 @@
 #include "mesh_io/input_error.hpp"
 #include "visibility_bake/bake_picture.hpp"
 
-namespace surehit::example {
+namespace surehit::example::visible_sets_test {
 namespace {
 
 class VisibleSetsTest : public testing::Test {
@@ -67,4 +67,4 @@ TEST_F(VisibleSetsTest, picture_shows_the_set_of_a_cell) {
 }
 
 }  // namespace
-}  // namespace surehit::example
+}  // namespace surehit::example::visible_sets_test

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace surehit::test {
+namespace surehit::test::cell_lister_test {
 namespace {
 
 using detail::CellEntries;
@@ -111,4 +111,4 @@ TEST(CellLister, has_too_many_entries_where_not_all_that_may_be_written_fits) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::cell_lister_test

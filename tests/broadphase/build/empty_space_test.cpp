@@ -11,7 +11,7 @@
 #include "support/empty_cubes.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::empty_space_test {
 namespace {
 
 using Cells = std::array<std::uint32_t, 3>;
@@ -96,4 +96,4 @@ TEST_F(EmptySpace, of_a_brick_with_one_cell_or_none) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::empty_space_test

@@ -9,7 +9,7 @@
 #include "grid/grid.hpp"
 #include "support/grid_breaking_meshes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::grid_budget_test {
 namespace {
 
 /// Meshes and options that would take far too much memory and time if a grid did as it is told.
@@ -126,4 +126,4 @@ TEST_F(GridBudget, of_entries_is_used) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::grid_budget_test

@@ -10,7 +10,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::grid_distances_test {
 namespace {
 
 /// The distances in the words of a whole grid's empty cells, against asking all cells of every cube.
@@ -72,4 +72,4 @@ TEST_F(GridDistances, of_bricks_end_with_the_brick) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::grid_distances_test

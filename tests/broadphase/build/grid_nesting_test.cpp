@@ -10,7 +10,7 @@
 #include "support/exact_cells.hpp"
 #include "support/grid_breaking_meshes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::grid_nesting_test {
 namespace {
 
 /// Which cells a grid divides.
@@ -138,4 +138,4 @@ TEST_F(GridNesting, has_no_brick_that_no_cell_is_divided_into) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::grid_nesting_test

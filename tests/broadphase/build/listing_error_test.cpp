@@ -13,7 +13,7 @@
 #include "support/exact_cells.hpp"
 #include "support/neighbour.hpp"
 
-namespace surehit::test {
+namespace surehit::test::listing_error_test {
 namespace {
 
 using detail::OverlapLanes;
@@ -146,4 +146,4 @@ INSTANTIATE_TEST_SUITE_P(Resolutions, ListingError, testing::Values(7, 100, 2048
                          [](const auto& resolution) { return std::to_string(resolution.param); });
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::listing_error_test

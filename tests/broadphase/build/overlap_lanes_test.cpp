@@ -15,7 +15,7 @@
 #include "support/instruction_sets.hpp"
 #include "support/listing_slack.hpp"
 
-namespace surehit::test {
+namespace surehit::test::overlap_lanes_test {
 namespace {
 
 using detail::OverlapLanes;
@@ -196,4 +196,4 @@ TEST(OverlapLanes, have_the_same_bits_on_every_instruction_set) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::overlap_lanes_test

@@ -13,7 +13,7 @@
 #include "support/exact_cells.hpp"
 #include "support/listing_slack.hpp"
 
-namespace surehit::test {
+namespace surehit::test::triangle_overlap_test {
 namespace {
 
 class TriangleOverlapIn : public CellPointDraws, public testing::WithParamInterface<std::uint32_t> {
@@ -140,4 +140,4 @@ INSTANTIATE_TEST_SUITE_P(Resolutions, TriangleOverlapIn, testing::Values(7, 100,
                          [](const auto& resolution) { return std::to_string(resolution.param); });
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::triangle_overlap_test

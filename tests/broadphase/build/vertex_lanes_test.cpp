@@ -10,7 +10,7 @@
 
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::vertex_lanes_test {
 namespace {
 
 /// Vertex i has the coordinates 10 i, 10 i + 1 and 10 i + 2, and others lie behind the last one.
@@ -95,4 +95,4 @@ TYPED_TEST(VertexLanesTest, load_nothing_of_a_mesh_without_vertices) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::vertex_lanes_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace surehit::test {
+namespace surehit::test::checksum_test {
 namespace {
 
 std::uint64_t checksum_of(std::string_view text, std::size_t piece = 1000) {
@@ -35,4 +35,4 @@ TEST(Checksum, does_not_depend_on_the_pieces) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::checksum_test

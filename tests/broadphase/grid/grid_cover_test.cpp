@@ -10,7 +10,7 @@
 #include "broadphase/walk/grid_walk.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::grid_cover_test {
 namespace {
 
 template <typename Scalar>
@@ -159,4 +159,4 @@ TYPED_TEST(GridCoverTest, is_of_use_where_much_is_empty) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::grid_cover_test

@@ -14,7 +14,7 @@
 #include "support/random.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::grid_frame_test {
 namespace {
 
 template <typename Scalar>
@@ -209,4 +209,4 @@ TYPED_TEST(GridFrameTest, brings_every_box_to_a_size_of_about_one) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::grid_frame_test

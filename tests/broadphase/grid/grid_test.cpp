@@ -15,7 +15,7 @@
 #include "support/listing_slack.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::grid_test {
 namespace {
 
 template <typename Scalar>
@@ -400,4 +400,4 @@ TYPED_TEST(GridTest, keeps_little_room) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::grid_test

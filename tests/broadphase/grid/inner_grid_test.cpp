@@ -15,7 +15,7 @@
 #include "support/listing_slack.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::inner_grid_test {
 namespace {
 
 /// Grids of meshes with small parts of many triangles.
@@ -222,4 +222,4 @@ TYPED_TEST(InnerGrid, takes_linear_memory_however_many_there_are) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::inner_grid_test

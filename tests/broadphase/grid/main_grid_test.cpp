@@ -23,7 +23,7 @@
 #include "support/random.hpp"
 #include "walk/main_grid_path.hpp"
 
-namespace surehit::test {
+namespace surehit::test::main_grid_test {
 namespace {
 
 using OtherBox = MainGrid::OtherBox;
@@ -172,4 +172,4 @@ TEST(MainGrid, IsEnoughOnlyForPathsThatMissAllOthers) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::main_grid_test

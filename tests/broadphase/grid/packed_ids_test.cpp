@@ -10,7 +10,7 @@
 
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::packed_ids_test {
 namespace {
 
 static_assert(std::random_access_iterator<detail::PackedIdIterator>);
@@ -82,4 +82,4 @@ INSTANTIATE_TEST_SUITE_P(Ends, PackedIdsTest,
                                          Ids{(std::uint64_t{1} << 24) + 1, 4}, Ids{std::uint64_t{1} << 32, 4}));
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::packed_ids_test

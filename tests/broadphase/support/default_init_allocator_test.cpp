@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace surehit::detail {
+namespace surehit::detail::default_init_allocator_test {
 namespace {
 
 TEST(DefaultInitAllocator, keeps_what_a_vector_holds_where_it_grows) {
@@ -44,4 +44,4 @@ TEST(DefaultInitAllocator, faults_in_without_changing_what_memory_holds) {
 }
 
 }  // namespace
-}  // namespace surehit::detail
+}  // namespace surehit::detail::default_init_allocator_test

@@ -8,7 +8,7 @@
 
 #include "support/random.hpp"
 
-namespace surehit::detail {
+namespace surehit::detail::float4_test {
 namespace {
 
 using test::Random;
@@ -126,4 +126,4 @@ TEST(Float4, lanes_are_compared_and_converted_one_by_one) {
 }
 
 }  // namespace
-}  // namespace surehit::detail
+}  // namespace surehit::detail::float4_test

@@ -8,7 +8,7 @@
 
 #include "support/floating_point_mode.hpp"
 
-namespace surehit::test {
+namespace surehit::test::floating_point_environment_test {
 namespace {
 
 /// The arguments are volatile, so that the sum is taken in the environment of the call and not by the compiler.
@@ -148,4 +148,4 @@ TEST(FloatingPointEnvironmentTest, does_not_trap) {
 #endif
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::floating_point_environment_test

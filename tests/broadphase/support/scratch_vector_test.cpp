@@ -7,7 +7,7 @@
 #include <limits>
 #include <new>
 
-namespace surehit::detail {
+namespace surehit::detail::scratch_vector_test {
 namespace {
 
 TEST(ScratchVector, keeps_what_it_holds_where_it_grows) {
@@ -42,4 +42,4 @@ TEST(ScratchVector, of_more_than_any_memory_is_an_error) {
 }
 
 }  // namespace
-}  // namespace surehit::detail
+}  // namespace surehit::detail::scratch_vector_test

@@ -12,7 +12,7 @@
 #include "support/case_count.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::vector_of_test {
 namespace {
 
 using detail::PortableVector;
@@ -159,4 +159,4 @@ TEST(VectorOf, lanes_are_shuffled_and_converted) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::vector_of_test

@@ -12,7 +12,7 @@
 #include "support/instruction_sets.hpp"
 #include "walk_error.hpp"
 
-namespace surehit::test {
+namespace surehit::test::crossings_test {
 namespace {
 
 /// The cells that a path is in at once, beside the 19 eps R that WALK.md (L5) says it stays within.
@@ -120,4 +120,4 @@ TEST_F(CrossingsTest, begin_where_the_path_enters_the_cover) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::crossings_test

@@ -12,7 +12,7 @@
 
 #include "walk_error.hpp"
 
-namespace surehit::test {
+namespace surehit::test::far_clip_test {
 namespace {
 
 using Status = FarClip::Status;
@@ -141,4 +141,4 @@ TEST_F(FarClipTest, leaves_the_farthest_and_the_fastest_to_double) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::far_clip_test

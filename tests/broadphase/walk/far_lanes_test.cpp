@@ -14,7 +14,7 @@
 #include "support/instruction_sets.hpp"
 #include "walk_error.hpp"
 
-namespace surehit::test {
+namespace surehit::test::far_lanes_test {
 namespace {
 
 constexpr float far_away = std::numeric_limits<float>::infinity();
@@ -208,4 +208,4 @@ TEST_F(FarLanesTest, leave_the_farthest_and_the_fastest_apart) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::far_lanes_test

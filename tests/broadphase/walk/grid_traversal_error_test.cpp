@@ -3,7 +3,7 @@
 #include "support/scalars.hpp"
 #include "walk_error.hpp"
 
-namespace surehit::test {
+namespace surehit::test::grid_traversal_error_test {
 namespace {
 
 /// Beside the 16 eps R that WALK.md (L8) says the path stays within.
@@ -37,4 +37,4 @@ TYPED_TEST(GridTraversalError, stays_below_its_bound_where_hill_climbing_makes_i
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::grid_traversal_error_test

@@ -10,7 +10,7 @@
 #include "support/pair_families.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::grid_traversal_range_test {
 namespace {
 
 /// Only a part of each path counts. This part may become shorter while the path is walked.
@@ -112,4 +112,4 @@ TYPED_TEST(GridTraversalRange, shorten_never_lengthens) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::grid_traversal_range_test

@@ -14,7 +14,7 @@
 #include "support/box_sides.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::grid_traversal_test {
 namespace {
 
 template <typename Scalar>
@@ -423,4 +423,4 @@ TYPED_TEST(GridTraversalTest, starts_near_and_ends_anywhere) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::grid_traversal_test

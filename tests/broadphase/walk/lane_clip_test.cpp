@@ -15,7 +15,7 @@
 #include "support/path_drawer.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::lane_clip_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -127,4 +127,4 @@ TEST_F(LaneClipTest, leaves_what_must_be_scaled_apart) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::lane_clip_test

@@ -20,7 +20,7 @@
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::lane_walk_test {
 namespace {
 
 /// Batches of paths at the limits of what can be walked in lanes: each is answered as brute force does.
@@ -299,4 +299,4 @@ TYPED_TEST(LaneWalk, never_turns_back) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::lane_walk_test

@@ -15,7 +15,7 @@
 #include "c_functions.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::c_arguments_test {
 namespace {
 
 /// A struct that has grown by its last member.
@@ -26,12 +26,13 @@ struct Grown {
 };
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::c_arguments_test
 
 template <>
-inline constexpr std::size_t surehit::c::first_size<surehit::test::Grown> = offsetof(surehit::test::Grown, added);
+inline constexpr std::size_t surehit::c::first_size<surehit::test::c_arguments_test::Grown> =
+    offsetof(surehit::test::c_arguments_test::Grown, added);
 
-namespace surehit::test {
+namespace surehit::test::c_arguments_test {
 namespace {
 
 /// A collider of one triangle, and arguments that are all right. Each test spoils one of them.
@@ -416,4 +417,4 @@ TEST(CLastError, tells_of_exceptions) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::c_arguments_test

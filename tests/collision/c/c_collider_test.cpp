@@ -21,7 +21,7 @@
 #include "surehit/hit.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::c_collider_test {
 namespace {
 
 /// Runs tasks on three threads. It shows that an executor of C gets its user pointer.
@@ -304,4 +304,4 @@ TYPED_TEST(CCollider, grid_options_are_those_of_cpp) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::c_collider_test

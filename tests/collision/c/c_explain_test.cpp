@@ -13,7 +13,7 @@
 #include "surehit/collider.hpp"
 #include "surehit/explain.hpp"
 
-namespace surehit::test {
+namespace surehit::test::c_explain_test {
 namespace {
 
 /// What an explainer of C was told.
@@ -120,4 +120,4 @@ TYPED_TEST(CExplain, tells_what_cpp_tells) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::c_explain_test

@@ -10,7 +10,7 @@
 #include "c/handle.hpp"
 #include "c_functions.hpp"
 
-namespace surehit::test {
+namespace surehit::test::c_handle_test {
 namespace {
 
 surehit_colliderf* empty_collider() {
@@ -87,4 +87,4 @@ TEST(CHandle, is_opened_and_closed_on_many_threads) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::c_handle_test

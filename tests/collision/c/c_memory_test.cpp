@@ -9,7 +9,7 @@
 #include "c_functions.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::c_memory_test {
 namespace {
 
 void run_in_turn(void* /*user*/, std::size_t count, surehit_task task, void* work) {
@@ -134,4 +134,4 @@ TYPED_TEST(CMemory, is_needed_by_no_query_but_all_hits) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::c_memory_test

@@ -17,7 +17,7 @@
 #include "support/scene_path_drawer.hpp"
 #include "surehit/scene.hpp"
 
-namespace surehit::test {
+namespace surehit::test::c_scene_shapes_test {
 namespace {
 
 template <typename Scalar>
@@ -278,4 +278,4 @@ TYPED_TEST(CSceneShapes, that_are_wrong_are_refused) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::c_scene_shapes_test

@@ -17,7 +17,7 @@
 #include "support/scene_path_drawer.hpp"
 #include "surehit/scene.hpp"
 
-namespace surehit::test {
+namespace surehit::test::c_scene_test {
 namespace {
 
 template <typename Scalar>
@@ -279,4 +279,4 @@ TYPED_TEST(CScene, poses_are_those_of_cpp) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::c_scene_test

@@ -23,7 +23,7 @@
 #include "surehit/collider.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::c_shapes_test {
 namespace {
 
 /// Shapes and a mesh in which each has a triangle of its own, as a collider in C and one in C++.
@@ -290,4 +290,4 @@ TYPED_TEST(CShapes, that_are_wrong_are_refused) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::c_shapes_test

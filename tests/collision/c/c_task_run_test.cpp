@@ -12,7 +12,7 @@
 #include "c/task_run.hpp"
 #include "surehit/executor.hpp"
 
-namespace surehit::test {
+namespace surehit::test::c_task_run_test {
 namespace {
 
 /// How often each task was done, by an executor of C that does `run`.
@@ -97,4 +97,4 @@ TEST_F(CTaskRun, brings_exceptions_to_the_caller) {
 TEST_F(CTaskRun, needs_no_executor) { EXPECT_FALSE(c::executor_of(nullptr)); }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::c_task_run_test

@@ -8,7 +8,7 @@
 #include "support/case_count.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::compact_int_test {
 namespace {
 
 using detail::CompactInt;
@@ -84,4 +84,4 @@ TEST(CompactInt, holds_shifted_significands) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::compact_int_test

@@ -14,7 +14,7 @@
 #include "support/same_bits.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::exact_contact_test {
 namespace {
 
 using detail::PathRange;
@@ -172,4 +172,4 @@ TYPED_TEST(Exact, cross_is_the_exact_one_but_for_its_scale) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::exact_contact_test

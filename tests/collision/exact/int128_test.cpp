@@ -8,7 +8,7 @@
 #include "support/case_count.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::int128_test {
 namespace {
 
 using detail::portable_quotient;
@@ -114,4 +114,4 @@ TEST(PortableQuotient, is_that_of_the_built_in_integers) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::int128_test

@@ -12,7 +12,7 @@
 #include "support/exact_oracle.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::quadratic_root_test {
 namespace {
 
 constexpr int bits = 128;
@@ -162,4 +162,4 @@ TEST(MiddleAbove, IsBetweenTwoScalars) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::quadratic_root_test

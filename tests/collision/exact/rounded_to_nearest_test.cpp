@@ -11,7 +11,7 @@
 #include "support/same_bits.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::rounded_to_nearest_test {
 namespace {
 
 template <typename Scalar>
@@ -79,4 +79,4 @@ TYPED_TEST(RoundedToNearest, underflows_to_positive_zero_from_below_half_the_lea
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::rounded_to_nearest_test

@@ -12,7 +12,7 @@
 #include "support/same_bits.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::wide_int_test {
 namespace {
 
 using detail::Decomposed;
@@ -238,4 +238,4 @@ TYPED_TEST(DecomposedNumber, of_zero_has_no_place) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::wide_int_test

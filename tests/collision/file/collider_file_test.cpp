@@ -15,7 +15,7 @@
 #include "support/scalars.hpp"
 #include "support/threads.hpp"
 
-namespace surehit::test {
+namespace surehit::test::collider_file_test {
 namespace {
 
 using Reason = InvalidFile::Reason;
@@ -172,4 +172,4 @@ TYPED_TEST(ColliderFile, failed_load_changes_nothing) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::collider_file_test

@@ -18,7 +18,7 @@
 #include "support/saved_meshes.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::invalid_file_test {
 namespace {
 
 using Reason = InvalidFile::Reason;
@@ -497,4 +497,4 @@ TYPED_TEST(InvalidFileOf, masks_of_some_triangles_alone) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::invalid_file_test

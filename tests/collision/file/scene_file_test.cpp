@@ -15,7 +15,7 @@
 #include "support/scene_drawer.hpp"
 #include "support/scene_path_drawer.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_file_test {
 namespace {
 
 using Reason = InvalidFile::Reason;
@@ -181,4 +181,4 @@ TYPED_TEST(SceneFile, forged_colliders_are_found) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_file_test

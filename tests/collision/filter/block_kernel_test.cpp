@@ -20,7 +20,7 @@
 #include "support/pair_text.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::block_kernel_test {
 namespace {
 
 using detail::PathRange;
@@ -423,4 +423,4 @@ TYPED_TEST(BlockKernel, keeps_lanes_apart) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::block_kernel_test

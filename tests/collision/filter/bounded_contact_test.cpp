@@ -16,7 +16,7 @@
 #include "support/pair_text.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::bounded_contact_test {
 namespace {
 
 using detail::Bounded;
@@ -211,4 +211,4 @@ TEST(BoundedQuotients, of_exact_numbers_is_a_few_ulps_wide) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::bounded_contact_test

@@ -11,7 +11,7 @@
 #include "support/case_count.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::bounded_test {
 namespace {
 
 using detail::Bounded;
@@ -166,4 +166,4 @@ TEST(Bounded, sign_is_certain_only_outside_the_radius) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::bounded_test

@@ -10,7 +10,7 @@
 #include "support/pair_text.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::corner_contact_test {
 namespace {
 
 using detail::CornerContact;
@@ -150,4 +150,4 @@ TYPED_TEST(CornerContactOf, random_triangle_is_nearly_always_decided) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::corner_contact_test

@@ -17,7 +17,7 @@
 #include "support/pair_families.hpp"
 #include "support/pair_text.hpp"
 
-namespace surehit::test {
+namespace surehit::test::double_hit_rounding_test {
 namespace {
 
 /// Returns how much of the bound an error takes up, or 0 if the bound is too large to claim anything.
@@ -185,4 +185,4 @@ TEST(DoubleHitRounding, leaves_ties) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::double_hit_rounding_test

@@ -20,7 +20,7 @@
 #include "support/pair_families.hpp"
 #include "support/pair_text.hpp"
 
-namespace surehit::test {
+namespace surehit::test::double_kernel_test {
 namespace {
 
 using detail::Bounded;
@@ -279,4 +279,4 @@ TEST(Quotients, by_the_greatest_denominators_hold_the_true_quotient) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::double_kernel_test

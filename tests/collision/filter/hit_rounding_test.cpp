@@ -18,7 +18,7 @@
 #include "support/pair_families.hpp"
 #include "support/pair_text.hpp"
 
-namespace surehit::test {
+namespace surehit::test::hit_rounding_test {
 namespace {
 
 bool meet(const RationalDeterminants& of) {
@@ -244,4 +244,4 @@ TEST(HitIntervals, tell_nothing_of_a_t_of_any_size) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::hit_rounding_test

@@ -16,7 +16,7 @@
 #include "support/random.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::kernel_bound_test {
 namespace {
 
 using detail::KernelBound;
@@ -202,4 +202,4 @@ TYPED_TEST(KernelBoundOf, knows_which_limits_it_holds) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::kernel_bound_test

@@ -24,7 +24,7 @@
 #include "support/pair_text.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::kernel_crossing_test {
 namespace {
 
 using detail::PathRange;
@@ -410,4 +410,4 @@ TYPED_TEST(KernelCrossing, leaves_all_open_where_sizes_are_too_large) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::kernel_crossing_test

@@ -21,7 +21,7 @@
 #include "surehit/collider.hpp"
 #include "walk/grid_traversal.hpp"
 
-namespace surehit::test {
+namespace surehit::test::kernel_path_test {
 namespace {
 
 template <typename Scalar>
@@ -156,4 +156,4 @@ TYPED_TEST(KernelPathOf, is_the_same_in_lanes) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::kernel_path_test

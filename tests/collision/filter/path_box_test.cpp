@@ -12,7 +12,7 @@
 #include "support/pair_text.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::path_box_test {
 namespace {
 
 using detail::PathBox;
@@ -87,4 +87,4 @@ TYPED_TEST(PathBoxOf, part_of_a_path_is_hardly_larger_than_it) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::path_box_test

@@ -14,7 +14,7 @@
 #include "support/pair_text.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::plane_contact_test {
 namespace {
 
 using detail::BoundedContact;
@@ -215,4 +215,4 @@ TYPED_TEST(PlaneContact, leaves_segments_and_points_undecided) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::plane_contact_test

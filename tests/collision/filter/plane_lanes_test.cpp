@@ -12,7 +12,7 @@
 #include "support/pair_text.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::plane_lanes_test {
 namespace {
 
 namespace in_lanes = detail::HWY_NAMESPACE;
@@ -156,4 +156,4 @@ TYPED_TEST(PlaneLanes, leave_what_only_touches_undecided) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::plane_lanes_test

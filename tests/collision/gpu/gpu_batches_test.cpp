@@ -22,7 +22,7 @@
 #include "visibility_bake/small_level.hpp"
 #include "visibility_bake/visible_sets.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_batches_test {
 namespace {
 
 class GpuBatchesTest : public SurehitQueryRun {
@@ -143,4 +143,4 @@ TEST_F(GpuBatchesTest, render_draws_the_same) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_batches_test

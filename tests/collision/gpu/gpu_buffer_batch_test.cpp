@@ -23,7 +23,7 @@
 #include "support/threads.hpp"
 #include "validation_layer.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_buffer_batch_test {
 namespace {
 
 using Reason = GpuError::Reason;
@@ -248,4 +248,4 @@ TEST(GpuBufferValidationTest, the_validation_layer_has_nothing_to_say) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_buffer_batch_test

@@ -28,7 +28,7 @@
 #include "support/random.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_collider_test {
 namespace {
 
 class GpuColliderTest : public testing::Test {
@@ -467,4 +467,4 @@ TEST(GpuFlatFacesTest, faces_in_one_plane_across_an_axis_are_told_apart) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_collider_test

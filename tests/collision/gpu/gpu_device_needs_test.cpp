@@ -22,7 +22,7 @@
 #include "surehit/gpu.hpp"
 #include "tree_walk.spv.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_device_needs_test {
 namespace {
 
 using detail::DeviceReport;
@@ -235,4 +235,4 @@ TEST(GpuLoaderTest, each_failure_has_its_reason) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_device_needs_test

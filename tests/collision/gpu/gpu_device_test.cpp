@@ -19,7 +19,7 @@
 #include "support/random.hpp"
 #include "validation_layer.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_device_test {
 namespace {
 
 using detail::GpuDeviceState;
@@ -319,4 +319,4 @@ TEST(GpuValidationTest, the_validation_layer_has_nothing_to_say) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_device_test

@@ -16,7 +16,7 @@
 #include "support/pair_families.hpp"
 #include "support/pair_text.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_hit_rounding_test {
 namespace {
 
 using Arithmetic = DeviceArithmetic;
@@ -190,4 +190,4 @@ TEST(GpuHitRounding, leaves_what_its_bound_does_not_decide) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_hit_rounding_test

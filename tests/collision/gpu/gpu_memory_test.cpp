@@ -20,7 +20,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_memory_test {
 namespace {
 
 using detail::GpuDeviceState;
@@ -173,4 +173,4 @@ TYPED_TEST(GpuMemoryTest, batches_on_buffers_tell_what_is_finished) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_memory_test

@@ -16,7 +16,7 @@
 #include "support/pair_families.hpp"
 #include "support/pair_text.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_pair_kernel_test {
 namespace {
 
 using Arithmetic = DeviceArithmetic;
@@ -108,4 +108,4 @@ TEST(GpuPairKernel, decides_nearly_all_paths_that_begin_at_a_surface) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_pair_kernel_test

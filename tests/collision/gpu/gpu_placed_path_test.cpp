@@ -18,7 +18,7 @@
 #include "support/pair_text.hpp"
 #include "support/scene_drawer.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_placed_path_test {
 namespace {
 
 using Arithmetic = DeviceArithmetic;
@@ -241,4 +241,4 @@ TEST(GpuPlacedHit, is_rounded_once_where_it_is_rounded) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_placed_path_test

@@ -24,7 +24,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "validation_layer.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_scene_buffer_test {
 namespace {
 
 using Reason = GpuError::Reason;
@@ -166,4 +166,4 @@ TEST_F(GpuSceneGroundTest, the_validation_layer_has_nothing_to_say) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_scene_buffer_test

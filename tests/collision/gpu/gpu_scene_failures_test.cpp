@@ -16,7 +16,7 @@
 #include "support/random.hpp"
 #include "surehit/gpu_scene.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_scene_failures_test {
 namespace {
 
 using detail::GpuDeviceState;
@@ -238,4 +238,4 @@ TEST_F(GpuSceneFailuresTest, meshes_are_uploaded_once) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_scene_failures_test

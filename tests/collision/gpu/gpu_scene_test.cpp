@@ -17,7 +17,7 @@
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_scene_test {
 namespace {
 
 using Reason = GpuError::Reason;
@@ -220,4 +220,4 @@ TEST_F(GpuFieldTest, large_batches_of_several_threads) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_scene_test

@@ -22,7 +22,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::gpu_slots_test {
 namespace {
 
 using detail::GpuDeviceState;
@@ -225,4 +225,4 @@ TEST_F(GpuSlotsTest, one_thread_at_a_time_gives_work_to_the_queue) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::gpu_slots_test

@@ -16,7 +16,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::mesh_blocks_test {
 namespace {
 
 template <typename Scalar>
@@ -282,4 +282,4 @@ TYPED_TEST(MeshBlocksTest, bounds_lists_beside_a_triangle_that_is_too_large) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::mesh_blocks_test

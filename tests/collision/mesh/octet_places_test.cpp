@@ -8,7 +8,7 @@
 
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::octet_places_test {
 namespace {
 
 using detail::OctetPlaces;
@@ -47,4 +47,4 @@ TEST(OctetPlaces, may_be_none) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::octet_places_test

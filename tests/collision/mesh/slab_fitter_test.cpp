@@ -16,7 +16,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/instruction_sets.hpp"
 
-namespace surehit::test {
+namespace surehit::test::slab_fitter_test {
 namespace {
 
 using detail::ListCell;
@@ -220,4 +220,4 @@ TEST_F(SlabFitterTest, is_the_whole_cell_where_triangles_have_no_normal) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::slab_fitter_test

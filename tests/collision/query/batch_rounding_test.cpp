@@ -16,7 +16,7 @@
 #include "support/same_bits.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::batch_rounding_test {
 namespace {
 
 template <typename AnyPath>
@@ -202,4 +202,4 @@ TEST(BatchRounding, gives_zeros_of_negative_t_their_sign) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::batch_rounding_test

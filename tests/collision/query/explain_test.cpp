@@ -26,7 +26,7 @@
 #include "support/small_meshes.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::explain_test {
 namespace {
 
 template <typename Scalar>
@@ -358,4 +358,4 @@ TEST(ExplainedHit, is_rounded_by_integers_half_way_between_two_floats) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::explain_test

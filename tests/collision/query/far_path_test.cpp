@@ -16,7 +16,7 @@
 #include "support/path_drawer.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::far_path_test {
 namespace {
 
 using detail::FarPath;
@@ -149,4 +149,4 @@ TEST_F(FarPathTest, leaves_few_triangles_undecided) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::far_path_test

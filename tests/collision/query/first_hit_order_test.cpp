@@ -23,7 +23,7 @@
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::first_hit_order_test {
 namespace {
 
 /// Hits that are closer to each other than the kernel can tell apart: the first one is still the one of least exact t,
@@ -306,4 +306,4 @@ TYPED_TEST(FirstHitOrder, of_shared_edges) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::first_hit_order_test

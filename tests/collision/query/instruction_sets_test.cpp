@@ -20,7 +20,7 @@
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::instruction_sets_test {
 namespace {
 
 /// All answers to some paths, single and in batches.
@@ -171,4 +171,4 @@ TYPED_TEST(InstructionSets, answer_alike_far_from_the_origin) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::instruction_sets_test

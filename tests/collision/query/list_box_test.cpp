@@ -18,7 +18,7 @@
 #include "support/scalars.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::list_box_test {
 namespace {
 
 /// A path's candidates are the lists of those cells in whose boxes it is, and there in their slabs, if lists have any;
@@ -159,4 +159,4 @@ TYPED_TEST(ListBox, and_slab_are_met_by_paths_that_pass_through_them) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::list_box_test

@@ -14,7 +14,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/pair_text.hpp"
 
-namespace surehit::test {
+namespace surehit::test::octet_boxes_test {
 namespace {
 
 namespace in_lanes = detail::HWY_NAMESPACE;
@@ -222,4 +222,4 @@ TEST(OctetBoxes, of_sizes_that_might_overflow_are_met) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::octet_boxes_test

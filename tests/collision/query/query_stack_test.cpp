@@ -19,7 +19,7 @@
 
 #if defined(SUREHIT_TEST_PROMISES_STACK)
 
-namespace surehit::test {
+namespace surehit::test::query_stack_test {
 namespace {
 
 constexpr std::size_t promised_bytes = 24 * 1024;
@@ -196,6 +196,6 @@ TYPED_TEST(QueryStack, of_point_and_normal) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::query_stack_test
 
 #endif

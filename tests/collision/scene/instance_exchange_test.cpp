@@ -12,7 +12,7 @@
 #include "scene/instance_tree.hpp"
 #include "support/random.hpp"
 
-namespace surehit::detail {
+namespace surehit::detail::instance_exchange_test {
 namespace {
 
 using test::Random;
@@ -357,4 +357,4 @@ TEST_F(InstanceExchange, ways_down_end_in_time_where_bins_part_one_instance_each
 }
 
 }  // namespace
-}  // namespace surehit::detail
+}  // namespace surehit::detail::instance_exchange_test

@@ -17,7 +17,7 @@
 
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::instance_tree_test {
 namespace {
 
 using detail::InstanceBox;
@@ -318,4 +318,4 @@ TEST(InstanceTree, IsWornOnceItsInstancesAreMixed) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::instance_tree_test

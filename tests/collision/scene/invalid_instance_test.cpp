@@ -15,7 +15,7 @@
 #include "surehit/scene.hpp"
 #include "unit_scenes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::invalid_instance_test {
 namespace {
 
 using Reason = InvalidInstance::Reason;
@@ -242,4 +242,4 @@ TYPED_TEST(InvalidInstanceOf, committed_state_stays_through_failures) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::invalid_instance_test

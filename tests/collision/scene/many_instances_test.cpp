@@ -12,7 +12,7 @@
 #include "support/scalars.hpp"
 #include "unit_scenes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::many_instances_test {
 namespace {
 
 /// Scenes with as many instances as worlds have.
@@ -192,4 +192,4 @@ TYPED_TEST(ManyInstances, some_come_and_go_in_each_tick) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::many_instances_test

@@ -18,7 +18,7 @@
 #include "support/same_bits.hpp"
 #include "surehit/scene.hpp"
 
-namespace surehit::test {
+namespace surehit::test::mesh_batch_test {
 namespace {
 
 /// A mesh, and how its grid divides it.
@@ -167,4 +167,4 @@ TEST(MeshBatch, AnswersAsSingleQueriesDoForEachGridAlone) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::mesh_batch_test

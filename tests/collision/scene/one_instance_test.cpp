@@ -15,7 +15,7 @@
 #include "surehit/scene.hpp"
 #include "unit_scenes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::one_instance_test {
 namespace {
 
 /// The meshes are in [-1, 1]³, and their grids have many cells.
@@ -175,4 +175,4 @@ TEST(OneInstance, MayHaveAnotherIndex) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::one_instance_test

@@ -22,7 +22,7 @@
 #include "support/scalars.hpp"
 #include "support/scene_drawer.hpp"
 
-namespace surehit::test {
+namespace surehit::test::placed_path_test {
 namespace {
 
 using detail::InstanceFrame;
@@ -380,4 +380,4 @@ TEST(PlacedSegments, HaveTheNumbersOfPlacedPaths) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::placed_path_test

@@ -16,7 +16,7 @@
 #include "support/scalars.hpp"
 #include "support/scene_drawer.hpp"
 
-namespace surehit::test {
+namespace surehit::test::placed_shape_test {
 namespace {
 
 using detail::InstanceFrame;
@@ -268,4 +268,4 @@ TYPED_TEST(PlacedShapeOf, HasABoxThatIsHardlyLargerThanABall) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::placed_shape_test

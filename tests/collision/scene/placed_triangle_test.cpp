@@ -19,7 +19,7 @@
 #include "surehit/scene.hpp"
 #include "unit_scenes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::placed_triangle_test {
 namespace {
 
 using Corner = std::array<mpq_class, 3>;
@@ -244,4 +244,4 @@ TYPED_TEST(PoseOf, scaled_one_stretches_the_mesh_before_it_is_turned) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::placed_triangle_test

@@ -17,7 +17,7 @@
 #include "support/scalars.hpp"
 #include "unit_scenes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_allocation_test {
 namespace {
 
 /// Whichever allocation of a change fails, the scene is as before.
@@ -306,4 +306,4 @@ TYPED_TEST(SceneAllocation, failed_commit_leaves_snapshots_as_they_were) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_allocation_test

@@ -17,7 +17,7 @@
 #include "support/scene_path_drawer.hpp"
 #include "support/scene_text.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_comparison_test {
 namespace {
 
 template <typename Scalar>
@@ -186,4 +186,4 @@ TYPED_TEST(SceneComparisonOf, any_order_of_changes_leads_to_the_same_answers) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_comparison_test

@@ -17,7 +17,7 @@
 #include "support/sphere_oracle.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_contacts_test {
 namespace {
 
 /// Where shapes touch the triangles of a scene, and in which direction.
@@ -194,4 +194,4 @@ TYPED_TEST(SceneContacts, are_zero_for_what_is_not_there) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_contacts_test

@@ -11,7 +11,7 @@
 #include "support/scalars.hpp"
 #include "unit_scenes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_environment_test {
 namespace {
 
 /// Bytes of what a scene answers, whose poses and motions underflow, cancel and tie.
@@ -209,4 +209,4 @@ TYPED_TEST(SceneEnvironment, unmasked_exceptions_do_not_trap) {
 #endif
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_environment_test

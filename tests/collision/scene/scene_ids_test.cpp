@@ -11,7 +11,7 @@
 #include "surehit/scene.hpp"
 #include "unit_scenes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_ids_test {
 namespace {
 
 using Reason = InvalidInstance::Reason;
@@ -254,4 +254,4 @@ TYPED_TEST(SceneIds, pose_of_another_instance_may_be_given) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_ids_test

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace surehit::test {
+namespace surehit::test::scene_meaning_test {
 namespace {
 
 TYPED_TEST_SUITE(SceneMeaning, Scalars, ScalarNames);
@@ -316,4 +316,4 @@ TEST(SceneOfDoubles, meets_boxes_without_bounds_far_from_their_middle) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_meaning_test

@@ -2,7 +2,7 @@
 
 #include "scene_meaning.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_motion_test {
 namespace {
 
 /// What a segment means where instances move.
@@ -143,4 +143,4 @@ TYPED_TEST(SceneMotion, share_of_a_last_free_point_is_where_the_instance_is_by_t
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_motion_test

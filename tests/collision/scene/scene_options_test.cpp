@@ -6,7 +6,7 @@
 #include "scene_meaning.hpp"
 #include "support/neighbour.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_options_test {
 namespace {
 
 /// What the options of queries and batches mean.
@@ -163,4 +163,4 @@ TYPED_TEST(SceneOptions, statistics_count_each_path_once) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_options_test

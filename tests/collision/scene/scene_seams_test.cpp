@@ -11,7 +11,7 @@
 #include "support/scalars.hpp"
 #include "support/scene_drawer.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_seams_test {
 namespace {
 
 /// Pieces of ground on a grid, each an instance. What comes from above must not leave below.
@@ -125,4 +125,4 @@ TYPED_TEST(SceneSeams, pieces_that_move_together_do_not_leak) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_seams_test

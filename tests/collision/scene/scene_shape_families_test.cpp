@@ -22,7 +22,7 @@
 #include "support/threads.hpp"
 #include "surehit/scene.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_shape_families_test {
 namespace {
 
 template <typename Scalar>
@@ -212,4 +212,4 @@ INSTANTIATE_TEST_SUITE_P(Families, SceneShapeFamilies, testing::ValuesIn(all_sce
                          [](const auto& family) { return name_of(family.param); });
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_shape_families_test

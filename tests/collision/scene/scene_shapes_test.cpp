@@ -18,7 +18,7 @@
 #include "surehit/intersect.hpp"
 #include "surehit/scene.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_shapes_test {
 namespace {
 
 /// Scenes of few digits: all placed corners are floats. So each pair can be asked about by `intersect`, which has
@@ -199,4 +199,4 @@ TEST(SceneShapesOfDoubles, touch_triangles_whose_size_has_no_square) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_shapes_test

@@ -19,7 +19,7 @@
 #include "support/scalars.hpp"
 #include "unit_scenes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_snapshot_test {
 namespace {
 
 /// All that a scene or a snapshot answers to the same questions.
@@ -357,4 +357,4 @@ TYPED_TEST(SceneSnapshots, stay_while_their_scene_is_loaded_anew) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_snapshot_test

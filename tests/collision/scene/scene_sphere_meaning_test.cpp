@@ -12,7 +12,7 @@
 #include "support/random.hpp"
 #include "support/threads.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_sphere_meaning_test {
 namespace {
 
 /// What the hits of moving balls in a scene mean.
@@ -301,4 +301,4 @@ TYPED_TEST(SceneSphereFlattened, small_balls_visit_few_instances) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_sphere_meaning_test

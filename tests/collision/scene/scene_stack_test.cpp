@@ -24,7 +24,7 @@
 
 #if defined(SUREHIT_TEST_PROMISES_STACK)
 
-namespace surehit::test {
+namespace surehit::test::scene_stack_test {
 namespace {
 
 constexpr std::size_t promised_bytes = 64 * 1024;
@@ -280,6 +280,6 @@ TYPED_TEST(SceneStack, of_contacts) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_stack_test
 
 #endif

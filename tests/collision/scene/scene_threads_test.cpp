@@ -19,7 +19,7 @@
 #include "support/threads.hpp"
 #include "surehit/executor.hpp"
 
-namespace surehit::test {
+namespace surehit::test::scene_threads_test {
 namespace {
 
 /// One scene, asked and committed by several threads at once.
@@ -193,4 +193,4 @@ TYPED_TEST(SceneThreads, commits_are_the_same_on_any_number_of_threads) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::scene_threads_test

@@ -21,7 +21,7 @@
 #include "support/scalars.hpp"
 #include "tree_walk_on_targets.hpp"
 
-namespace surehit::test {
+namespace surehit::test::tree_walk_test {
 namespace {
 
 using detail::InstanceBox;
@@ -250,4 +250,4 @@ TYPED_TEST(TreeWalk, stays_within_its_slack_where_hill_climbing_makes_it_worst) 
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::tree_walk_test

@@ -21,7 +21,7 @@
 #include "surehit/intersect.hpp"
 #include "surehit/scene.hpp"
 
-namespace surehit::test {
+namespace surehit::test::turned_contacts_test {
 namespace {
 
 /// Where shapes touch triangles that are turned by rational angles, so that their images are known exactly.
@@ -215,4 +215,4 @@ TYPED_TEST(TurnedContacts, normal_of_any_shape_is_that_of_the_image_in_double) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::turned_contacts_test

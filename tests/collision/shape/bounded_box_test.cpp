@@ -13,7 +13,7 @@
 #include "support/random.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::bounded_box_test {
 namespace {
 
 using detail::bounded_contact;
@@ -108,4 +108,4 @@ TYPED_TEST(BoundedBox, takes_only_equal_times_for_alike) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::bounded_box_test

@@ -12,7 +12,7 @@
 #include "support/random.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::box_intersect_test {
 namespace {
 
 template <typename Scalar>
@@ -252,4 +252,4 @@ TYPED_TEST(BoxIntersect, NamesThePartsOfTrianglesWithoutArea) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::box_intersect_test

@@ -12,7 +12,7 @@
 #include "support/sphere_families.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::capsule_intersect_test {
 namespace {
 
 template <typename Scalar>
@@ -284,4 +284,4 @@ TYPED_TEST(CapsuleIntersect, TouchesNothingUnlessAllNumbersAreFinite) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::capsule_intersect_test

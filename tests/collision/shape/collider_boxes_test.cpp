@@ -17,7 +17,7 @@
 #include "surehit/collider.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::collider_boxes_test {
 namespace {
 
 constexpr auto by_judge = [](const auto& box, const auto& x, const auto& y) { return comes_before(box, x, y); };
@@ -346,4 +346,4 @@ TYPED_TEST(ColliderBoxes, SlideOverAFlatFloorAtItsHeight) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::collider_boxes_test

@@ -16,7 +16,7 @@
 #include "support/small_meshes.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::collider_capsules_test {
 namespace {
 
 template <typename Scalar>
@@ -189,4 +189,4 @@ TYPED_TEST(ColliderCapsules, FindTheLastFreeT) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::collider_capsules_test

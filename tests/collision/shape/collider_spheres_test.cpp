@@ -21,7 +21,7 @@
 #include "surehit/swept_box.hpp"
 #include "surehit/swept_capsule.hpp"
 
-namespace surehit::test {
+namespace surehit::test::collider_spheres_test {
 namespace {
 
 constexpr auto by_judge = [](const auto& sphere, const auto& x, const auto& y) { return comes_before(sphere, x, y); };
@@ -464,4 +464,4 @@ TYPED_TEST(ColliderSpheres, MissAColliderWithoutTriangles) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::collider_spheres_test

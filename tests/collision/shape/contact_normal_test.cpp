@@ -23,7 +23,7 @@
 #include "surehit/hit.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::contact_normal_test {
 namespace {
 
 template <typename Scalar>
@@ -268,4 +268,4 @@ TYPED_TEST(ContactNormal, BelongsToAPointThatLosesNoDenormals) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::contact_normal_test

@@ -20,7 +20,7 @@
 #include "support/shape_text.hpp"
 #include "support/swept_truth.hpp"
 
-namespace surehit::test {
+namespace surehit::test::edge_contact_test {
 namespace {
 
 using detail::DoubleRange;
@@ -210,4 +210,4 @@ TYPED_TEST(EdgeContactOf, stays_within_its_bounds_where_hill_climbing_makes_the_
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::edge_contact_test

@@ -19,7 +19,7 @@
 #include "support/shape_text.hpp"
 #include "support/swept_truth.hpp"
 
-namespace surehit::test {
+namespace surehit::test::face_contact_test {
 namespace {
 
 using detail::DoubleRange;
@@ -156,4 +156,4 @@ TYPED_TEST(FaceContactOf, stays_within_its_bounds_where_hill_climbing_makes_the_
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::face_contact_test

@@ -23,7 +23,7 @@
 #include "surehit/intersect.hpp"
 #include "surehit/scene.hpp"
 
-namespace surehit::test {
+namespace surehit::test::free_centre_test {
 namespace {
 
 /// `last_free_point` of moving shapes, in colliders and in scenes.
@@ -326,4 +326,4 @@ TYPED_TEST(FreeCentre, of_a_hit_after_the_step_is_the_start) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::free_centre_test

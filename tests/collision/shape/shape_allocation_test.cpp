@@ -12,7 +12,7 @@
 #include "surehit/collider.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::shape_allocation_test {
 namespace {
 
 /// Shapes that come to divided cells and to inner grids, alone and in lanes.
@@ -97,4 +97,4 @@ TYPED_TEST(ShapeAllocation, all_hits_keeps_the_capacity_of_its_vector) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::shape_allocation_test

@@ -12,7 +12,7 @@
 #include "surehit/collider.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::shape_environment_test {
 namespace {
 
 /// Bytes of every answer that every query of moving shapes gives, in crowded cells and on numbers that underflow,
@@ -167,4 +167,4 @@ TYPED_TEST(ShapeEnvironment, unmasked_exceptions_do_not_trap) {
 #endif
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::shape_environment_test

@@ -15,7 +15,7 @@
 #include "support/shape_families.hpp"
 #include "support/shape_text.hpp"
 
-namespace surehit::test {
+namespace surehit::test::shape_filter_test {
 namespace {
 
 using detail::exact_contact;
@@ -122,4 +122,4 @@ TEST_F(ShapeFilterOfDouble, keeps_what_huge_balls_touch) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::shape_filter_test

@@ -21,7 +21,7 @@
 
 #if defined(SUREHIT_TEST_PROMISES_STACK)
 
-namespace surehit::test {
+namespace surehit::test::shape_stack_test {
 namespace {
 
 template <typename Scalar>
@@ -129,6 +129,6 @@ TYPED_TEST(ShapeStack, of_queries_and_batches_in_inner_grids_in_all_families) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::shape_stack_test
 
 #endif

@@ -13,7 +13,7 @@
 #include "support/shape_text.hpp"
 #include "surehit/collider.hpp"
 
-namespace surehit::test {
+namespace surehit::test::shape_watertight_test {
 namespace {
 
 /// Closed surfaces around the origin, which no ray from there crosses twice. A shape from inside to outside must touch
@@ -103,4 +103,4 @@ TYPED_TEST(ShapeWatertight, every_vertex_and_edge_of_dense_fans) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::shape_watertight_test

@@ -12,7 +12,7 @@
 #include "support/sphere_oracle.hpp"
 #include "surehit/intersect.hpp"
 
-namespace surehit::test {
+namespace surehit::test::sphere_intersect_test {
 namespace {
 
 template <typename Scalar>
@@ -221,4 +221,4 @@ TYPED_TEST(SphereIntersect, TouchesAnEdgeWithAShortStepInItsPlane) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::sphere_intersect_test

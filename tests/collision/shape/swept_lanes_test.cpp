@@ -18,7 +18,7 @@
 #include "support/random.hpp"
 #include "surehit/box.hpp"
 
-namespace surehit::test {
+namespace surehit::test::swept_lanes_test {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -220,4 +220,4 @@ TEST_F(SweptLanesTest, end_where_axes_cross_planes_together) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::swept_lanes_test

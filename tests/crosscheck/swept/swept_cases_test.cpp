@@ -20,7 +20,7 @@
 #include "swept_case.hpp"
 #include "swept_input.hpp"
 
-namespace surehit::test {
+namespace surehit::test::swept_cases_test {
 namespace {
 
 const std::string samples = SWEPT_SAMPLES;
@@ -225,4 +225,4 @@ TEST_F(SweptJudge, gets_no_answers_of_bullet_to_cases_of_doubles) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::swept_cases_test

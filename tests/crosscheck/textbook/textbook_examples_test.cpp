@@ -13,7 +13,7 @@
 #include "surehit/intersect.hpp"
 #include "textbook_variant.hpp"
 
-namespace surehit::test {
+namespace surehit::test::textbook_examples_test {
 namespace {
 
 TEST(TextbookExamples, are_wrong_in_each_variant_and_right_in_surehit) {
@@ -125,4 +125,4 @@ TEST(TextbookExamples, of_the_watertight_test_round_the_shear) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::textbook_examples_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace surehit::test {
+namespace surehit::test::textbook_page_test {
 namespace {
 
 const std::map<std::string, std::string> blocks = {{"one", "| 1 |\n"}, {"two", "| 2 |\n"}};
@@ -28,4 +28,4 @@ TEST(TextbookPage, is_refused_if_its_markers_are_wrong) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::textbook_page_test

@@ -7,7 +7,7 @@
 #include "support/case_count.hpp"
 #include "variant_judge.hpp"
 
-namespace surehit::test {
+namespace surehit::test::textbook_test {
 namespace {
 
 template <typename Scalar>
@@ -112,4 +112,4 @@ TYPED_TEST(TextbookVariants, confuse_front_and_back_in_the_plane) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::textbook_test
