@@ -57,7 +57,7 @@ step() {
 }
 
 build() {
-  step cmake --preset "$1" && step cmake --build --preset "$1"
+  step cmake --preset "$1" -D SUREHIT_JOIN_TESTS=ON && step cmake --build --preset "$1"
 }
 
 run_tests() {
