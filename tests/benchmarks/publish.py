@@ -37,6 +37,21 @@ INEXACT = ["surehit without its exact stage", "surehit without its filter"]
 MEDIUM, LOW = "Embree fast medium", "Embree fast low"
 ROBUST = "Embree robust medium"
 OTHER_INSTRUCTION_SETS = ["avx2", "sse4"]
+# The goals of each kind of path: a ratio of every mesh, and the geometric mean of all. Embree's time is over surehit's.
+GOALS_OF_BATCHES = {
+    "short": (1.3, 1.8), "near": (0.9, 1.2), "detail": (0.9, 1.2), "long": (0.85, 1.1), "sight": (0.85, 1.1),
+    "far": (0.9, 1.2), "edge": (0.5, 0.7), "edge_end": (0.5, 0.7), "cells": (0.5, 0.7), "in_plane": (0.25, 0.4),
+}  # fmt: skip
+GOALS_OF_SINGLE_CALLS = {
+    "short": (0.75, 0.9), "near": (0.75, 0.9), "detail": (0.75, 0.9), "long": (0.5, 0.6), "sight": (0.5, 0.6),
+    "far": (0.75, 0.9),
+}  # fmt: skip
+# The same of builds, and of the memory that Embree takes over that of surehit.
+GOALS_OF_BUILDS = {MEDIUM: (2.0, 3.0), LOW: (0.7, 0.9)}
+GOALS_OF_MEMORY = {MEDIUM: (1 / 1.6, 1 / 1.3)}
+BUILD_AND_MEMORY = [("build ns", "ms", "build", GOALS_OF_BUILDS), ("bytes", "MB", "bytes", GOALS_OF_MEMORY)]
+# Here surehit's time in double is over that in float, so more is worse.
+GOALS_OF_DOUBLES = {"short": (2.0, 2.0), "near": (2.0, 2.0), "long": (2.0, 2.0)}
 # The tables of a few even meshes with all contenders, and the queries and builds of all meshes.
 TABLES, CONTENT = "tables", "content"
 # Moving shapes take the peers so long that one mesh has to do.
@@ -85,6 +100,12 @@ class Figures:
 
 def number(value):
     return f"{value:.{2 if abs(value) < 10 else 1 if abs(value) < 100 else 0}f}"
+
+
+def beside_goal(ratio, goal, worst=min):
+    """The ratio, in bold type if it misses its goal."""
+    misses = goal is not None and worst(ratio, goal) != goal
+    return f"**{number(ratio)}**" if misses else number(ratio)
 
 
 def markdown(header, rows):
@@ -255,7 +276,7 @@ def geometric_mean(ratios):
     return math.exp(statistics.fmean(map(math.log, ratios)))
 
 
-def all_meshes(figures, contender, measure, worst=min, **where):
+def all_meshes(figures, contender, measure, goals, worst=min, **where):
     """A row for each mesh, a column for each kind of path: closest / any. The worst and the mean are the last rows."""
 
     def ratio(mesh, paths, question):
@@ -271,45 +292,58 @@ def all_meshes(figures, contender, measure, worst=min, **where):
         for question in (CLOSEST, ANY)
     }
 
-    def row(shown, of):
-        return [shown, *(" / ".join(number(of(by_cell[paths, question])) for question in (CLOSEST, ANY))
+    def row(shown, of, goal_of=lambda goals: goals[0]):
+        return [shown, *(" / ".join(beside_goal(of(by_cell[paths, question]),
+                                                goal_of(goals[paths]) if paths in goals else None, worst)
+                                    for question in (CLOSEST, ANY))
                          for paths in ALL_SETS)]  # fmt: skip
 
     rows = [row(shown, lambda ratios, i=i: ratios[i]) for i, (_, shown) in enumerate(meshes)]
-    rows += [row("worst", worst), row("mean", geometric_mean)]
+    rows += [row("worst", worst), row("mean", geometric_mean, lambda goals: goals[1])]
     return markdown(["mesh (triangles)", *ALL_SETS], rows)
 
 
 def all_batches(figures):
-    return all_meshes(figures, f"{MEDIUM} x1", "over surehit batch")
+    return all_meshes(figures, f"{MEDIUM} x1", "over surehit batch", GOALS_OF_BATCHES)
 
 
 def all_batches_on_avx2(figures):
     if "avx2" not in figures.instruction_sets[1:]:
         return ""
-    return all_meshes(figures, f"{MEDIUM} x1", "over surehit batch", instruction_set="avx2")
+    return all_meshes(figures, f"{MEDIUM} x1", "over surehit batch", GOALS_OF_BATCHES, instruction_set="avx2")
 
 
 def all_single_calls(figures):
-    return all_meshes(figures, f"{MEDIUM} x1", "over surehit single")
+    return all_meshes(figures, f"{MEDIUM} x1", "over surehit single", GOALS_OF_SINGLE_CALLS)
 
 
 def all_doubles(figures):
-    return all_meshes(figures, IN_DOUBLE, "over surehit batch", worst=max)
+    return all_meshes(figures, IN_DOUBLE, "over surehit batch", GOALS_OF_DOUBLES, worst=max)
 
 
 def builds(figures, run=TABLES):
+    """A row for each mesh. The mean is the last row."""
     rows = []
+    ratios = {}
     for mesh, shown in figures.meshes("build", run):
 
         def median(contender, measure):
             return figures.median(run=run, table="build", mesh=mesh, contender=contender, measure=measure)
 
         cells = [shown]
-        for measure, unit, of_ours in ("build ns", "ms", "build"), ("bytes", "MB", "bytes"):
+        for measure, unit, of_ours, goals in BUILD_AND_MEMORY:
             cells.append(f"{number(median('surehit', measure) / 1e6)} {unit}")
-            cells += [number(median(quality, f"{of_ours} over surehit")) for quality in (MEDIUM, LOW)]
+            for quality in (MEDIUM, LOW):
+                ratio = median(quality, f"{of_ours} over surehit")
+                ratios.setdefault((of_ours, quality), []).append(ratio)
+                cells.append(beside_goal(ratio, goals.get(quality, (None, None))[0]))
         rows.append(cells)
+    row_of_means = ["mean"]
+    for _, _, of_ours, goals in BUILD_AND_MEMORY:
+        row_of_means.append("")
+        row_of_means += [beside_goal(geometric_mean(ratios[of_ours, quality]), goals.get(quality, (None, None))[1])
+                         for quality in (MEDIUM, LOW)]  # fmt: skip
+    rows.append(row_of_means)
     return markdown(["mesh (triangles)", "build", "÷ medium", "÷ low", "memory", "÷ medium", "÷ low"], rows)
 
 
