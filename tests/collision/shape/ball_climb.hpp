@@ -2,14 +2,13 @@
 
 #include <gmpxx.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "collision/filter/coordinate_changes.hpp"
 #include "exact/scaled_double.hpp"
-#include "support/case_count.hpp"
+#include "support/hill_climb.hpp"
 #include "support/one_root_number.hpp"
 #include "support/random.hpp"
 #include "support/shape_families.hpp"
@@ -55,24 +54,14 @@ SpherePair<Scalar> pair_of(const BallNumbers<Scalar>& x) {
 /// pair has none.
 template <typename Scalar, typename ShareOf>
 double worst_share(Random& random, const ShareOf& share_of) {
-  double worst = 0;
-  for (int start = 0; start < 10; ++start) {
-    auto best = draw_numbers<Scalar>(random);
-    double best_share = share_of(pair_of(best));
-    for (std::size_t step = case_count(400); step > 0; --step) {
-      auto next = best;
-      // Where the pair has no share, another one is drawn.
-      if (best_share == 0) next = draw_numbers<Scalar>(random);
-      Scalar& number = next[random.below(next.size())];
-      number = changed_coordinate(random, number);
-      const double next_share = share_of(pair_of(next));
-      if (next_share <= best_share && best_share > 0) continue;
-      best = next;
-      best_share = next_share;
-    }
-    worst = std::max(worst, best_share);
-  }
-  return worst;
+  const auto changed = [&](BallNumbers<Scalar> numbers) {
+    Scalar& number = numbers[random.below(numbers.size())];
+    number = changed_coordinate(random, number);
+    return numbers;
+  };
+  return climb_to_worst(
+      10, 400, [&] { return draw_numbers<Scalar>(random); }, changed,
+      [&](const BallNumbers<Scalar>& numbers) { return share_of(pair_of(numbers)); });
 }
 
 }  // namespace surehit::test
