@@ -7,11 +7,16 @@
 #include <limits>
 #include <optional>
 
+#include "collision/filter/coordinate_changes.hpp"
+#include "collision/shape/ball_climb.hpp"
 #include "shape/exact_box.hpp"
 #include "support/box_families.hpp"
 #include "support/case_count.hpp"
+#include "support/hill_climb.hpp"
 #include "support/random.hpp"
 #include "support/scalars.hpp"
+#include "support/shape_text.hpp"
+#include "support/swept_truth.hpp"
 
 namespace surehit::test::bounded_box_test {
 namespace {
@@ -105,6 +110,41 @@ TYPED_TEST(BoundedBox, takes_only_equal_times_for_alike) {
     }
   }
   EXPECT_GE(alike, case_count(500));
+}
+
+/// Numbers of a box and a triangle, one after the other.
+template <typename Scalar>
+using BoxNumbers = std::array<Vector3<Scalar>, 6>;
+
+// Climbs from drawn boxes to the worst ones (B7). How far the exact t is from the middle of its bounds is a share of
+// them. A certain miss must be one.
+TYPED_TEST(BoundedBox, stays_within_its_bounds_where_hill_climbing_makes_the_errors_worst) {
+  using Scalar = TypeParam;
+  Random random(73);
+  const auto draw = [&] {
+    const BoxFamily family = all_box_families[random.below(all_box_families.size())];
+    const auto [box, triangle] = draw_box_pair<Scalar>(random.one_in(2) ? BoxFamily::general : family, random);
+    return BoxNumbers<Scalar>{box.start, box.end, box.half_extents, triangle.a, triangle.b, triangle.c};
+  };
+  const auto changed = [&](BoxNumbers<Scalar> numbers) {
+    Scalar& x = numbers[random.below(numbers.size())][static_cast<Eigen::Index>(random.below(3))];
+    x = changed_coordinate(random, x);
+    numbers[2] = numbers[2].cwiseAbs();
+    return numbers;
+  };
+  const auto share_of = [](const BoxNumbers<Scalar>& numbers) {
+    const auto& [start, end, half, a, b, c] = numbers;
+    const SweptBox<Scalar> box{start, end, half};
+    const Triangle<Scalar> triangle{a, b, c};
+    BoxContact contact;
+    const Verdict verdict = bounded_contact(box, triangle, contact);
+    if (verdict == Verdict::undecided) return 0.0;
+    const SweptTruth truth = truth_of(box, triangle);
+    EXPECT_EQ(truth.touches, verdict == Verdict::hit) << hex_text(box) << '\n' << hex_text(triangle);
+    if (!truth.touches || contact.at_start) return 0.0;
+    return share_of_range({contact.t_lower, contact.t_upper}, truth.t.number());
+  };
+  expect_within_bound("t", climb_to_worst(10, 300, draw, changed, share_of));
 }
 
 }  // namespace
