@@ -32,11 +32,13 @@ double climb_to_worst(std::size_t starts, std::size_t steps, const Draw& draw, c
   return worst;
 }
 
-/// Records the worst share of a bound that a search has found. It must have found one, and none that exceeds the bound.
+/// Records the worst share of a bound that a search has found. It must be below 1, and a long search finds one.
 inline void expect_within_bound(const std::string& name, double worst) {
   testing::Test::RecordProperty("worst_share_of_" + name, std::to_string(worst));
   EXPECT_LT(worst, 1) << name;
-  EXPECT_GT(worst, 0) << name;
+  if (runs_all_cases()) {
+    EXPECT_GT(worst, 0) << name;
+  }
 }
 
 }  // namespace surehit::test

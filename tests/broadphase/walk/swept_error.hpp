@@ -146,8 +146,8 @@ class SweptError : public testing::Test {
     return gaps;
   }
 
-  /// Returns the last number from `low` to `high` where something is not reached yet: about, or to the last bit.
-  /// It must be reached at `high` alone.
+  /// Returns the last number from `low` on where something is not reached yet. It must be reached at `high`. None of
+  /// them is negative.
   template <typename IsReached>
   static double last_before(double low, double high, const IsReached& is_reached) {
     auto from = std::bit_cast<std::uint64_t>(low);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 
 #include "support/hill_climb.hpp"
 #include "support/random.hpp"

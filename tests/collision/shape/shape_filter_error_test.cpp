@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -97,7 +95,7 @@ struct Exact {
   [[nodiscard]] static Float above_corners(const Float& height, const Float& other) {
     return std::max(Float(std::min(other, exact(0)) - height), Float(height - std::max(other, exact(0))));
   }
-  /// Whether n·w and n·D have the same sign, so that the shape goes away from the plane.
+  /// Returns how fast the centre comes to the plane of the triangle, times |n|.
   [[nodiscard]] Float rate_toward() const {
     const Float rate = oracle::dot(n, step);
     return oracle::dot(n, w) < 0 ? rate : Float(-rate);
@@ -196,7 +194,7 @@ class ShapeFilterError : public testing::Test {
     return is_usable(pair);
   }
 
-  /// Draws a shape of some family and a triangle, for cores of all kinds or of one.
+  /// Draws a shape of some family and a triangle.
   static Numbers draw(Random& random) {
     const auto of = [&](Core core, const auto& shape, const Vector3<Scalar>& half, Scalar radius,
                         const Triangle<Scalar>& triangle) {
@@ -221,7 +219,7 @@ class ShapeFilterError : public testing::Test {
     };
     Numbers pair = of_family();
     if (random.one_in(3)) {
-      // Far more coordinates are of one size.
+      // Errors are largest where all coordinates have one size.
       for (Vector3<Scalar>& point : pair.points) {
         for (Scalar& x : point) x = random.symmetric<Scalar>();
       }
@@ -319,9 +317,8 @@ class ShapeFilterError : public testing::Test {
     shares.normal = share_of(gap - comes, unit * pair.far + may_come - comes);
     return shares;
   }
-  /// Returns the gaps along the axes of which each has an interval of t, and those of edges alone in `of_edges`. Where
-  /// the radius is not 0, the height along n must not change.
-  static std::vector<Gap> gaps_of_coordinates(const Exact<Scalar>& pair) {
+  /// Returns the gaps along the axes of coordinates and along n. Each has an interval of t.
+  static std::vector<Gap> gaps_without_edges(const Exact<Scalar>& pair) {
     std::vector<Gap> gaps;
     const Float margin = 16 * pair.u * (pair.far + pair.of_step);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -350,6 +347,7 @@ class ShapeFilterError : public testing::Test {
     const Float square = pair.r * pair.r * (oracle::dot(pair.n, pair.n) + of_square * pair.u * size_2 * size_2);
     return sqrt(std::max(Float(square - above * above), exact(0)));
   }
+  /// Adds the gaps along e × n. Where the radius is not 0, the height along n must not change.
   static void add_gaps_of_edges(const Exact<Scalar>& pair, std::vector<Gap>& gaps) {
     const Point of_p = oracle::cross(pair.p, pair.n);
     const Point of_q = oracle::cross(pair.q, pair.n);
@@ -375,7 +373,7 @@ class ShapeFilterError : public testing::Test {
   };
   /// Returns the shares until t.
   static IntervalShares interval_shares(const Exact<Scalar>& pair, const Float& until) {
-    std::vector<Gap> gaps = gaps_of_coordinates(pair);
+    std::vector<Gap> gaps = gaps_without_edges(pair);
     const double others = Float(1 - growth_to_meet(gaps, until)).get_d();
     add_gaps_of_edges(pair, gaps);
     return {Float(1 - growth_to_meet(gaps, until)).get_d(), others};
