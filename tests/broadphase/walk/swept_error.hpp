@@ -39,7 +39,8 @@ class SweptError : public testing::Test {
 
   /// Makes a grid of another position and size.
   void place_anew(Random& random, std::uint32_t crowded) {
-    const auto factor = std::ldexp(1 + random.unit<float>(), static_cast<int>(random.between(-3, 3)));
+    const auto exponent = static_cast<int>(random.between(-3, 3));
+    const float factor = std::ldexp(1 + random.unit<float>(), exponent);
     const float far = std::ldexp(factor, static_cast<int>(random.between(-4, 4)));
     Vector3<float> offset;
     for (float& x : offset) x = far * random.symmetric<float>();
@@ -72,7 +73,8 @@ class SweptError : public testing::Test {
     for (std::size_t i = 0; i < 3; ++i) {
       const double low = listed.low[i].get_d();
       const double high = listed.high[i].get_d();
-      const double reach = std::ldexp(largest_reach, -static_cast<int>(random.below(12))) * random.unit<double>();
+      const double size = std::ldexp(largest_reach, -static_cast<int>(random.below(12)));
+      const double reach = size * random.unit<double>();
       const double place = random.one_in(3) ? low - reach : random.one_in(2) ? high + reach : (low + high) / 2;
       const double length = std::ldexp(1.0 * frame.resolution(i), static_cast<int>(random.between(-30, 8)));
       const double way = random.one_in(5) ? 0 : length * random.symmetric<double>();
@@ -89,8 +91,9 @@ class SweptError : public testing::Test {
     const std::size_t i = random.below(3);
     const BoxAtCell other = draw(random, largest_reach);
     const auto change = [&](double& x) {
+      const int exponent = -static_cast<int>(random.below(50));
       x = random.one_in(2) ? neighbour(x, static_cast<int>(random.between(-40, 40)))
-                           : x * (1 + std::ldexp(random.symmetric<double>(), -static_cast<int>(random.below(50))));
+                           : x * (1 + std::ldexp(random.symmetric<double>(), exponent));
     };
     switch (random.below(8)) {
       case 0:

@@ -85,11 +85,13 @@ struct DirectionPair {
 };
 /// x + t y at the lower root t.
 DirectionPair at_root(const Numbers& numbers) {
-  const auto& [x0, x1, x2, y0, y1, y2, a, b, c] = numbers;
-  Root root{a.integer(), b.integer(), c.integer()};
-  const Float discriminant = b.number() * b.number() - a.number() * c.number();
+  const auto& [x0, x1, x2, y0, y1, y2, a_whole, b_whole, c_whole] = numbers;
+  const Root root{a_whole.integer(), b_whole.integer(), c_whole.integer()};
+  const Float a = a_whole.number();
+  const Float b = b_whole.number();
+  const Float discriminant = b * b - a * c_whole.number();
   const auto component = [&](std::size_t i) {
-    const Float rational = a.number() * numbers[i].number() - b.number() * numbers[3 + i].number();
+    const Float rational = a * numbers[i].number() - b * numbers[3 + i].number();
     return Float(rational - numbers[3 + i].number() * sqrt(discriminant));
   };
   return {direction_at(root, Integers{x0.integer(), x1.integer(), x2.integer()},
