@@ -9,18 +9,17 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "collision/filter/on_every_instruction_set.hpp"
-#include "exact_path.hpp"
+#include "path_and_instance.hpp"
 #include "place_lanes_on_targets.hpp"
+#include "placed_path_shares.hpp"
 #include "support/case_count.hpp"
 #include "support/random.hpp"
 #include "support/scalars.hpp"
-#include "support/scene_drawer.hpp"
 
 namespace surehit::test::placed_path_test {
 namespace {
@@ -30,107 +29,24 @@ using detail::PathRange;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A path, an instance and the box of its mesh. All of their numbers are exact.
 template <typename Scalar>
-struct Case {
-  detail::Placement<Scalar> placement = {};
-  Box<double> box = {};
-  Path<Scalar> path = Line<Scalar>{Vector3<Scalar>::Zero(), Vector3<Scalar>::Zero()};
-  PathRange<Scalar> range = {0, 1};
-  Scalar share = 1;
-
-  ExactMatrix matrix = {};
-  ExactMatrix inverse_matrix = {};
-  ExactVector direction = {};  ///< D in the frame of the scene.
-
-  void set_exact() {
-    for (Eigen::Index i = 0; i < 3; ++i) matrix[static_cast<std::size_t>(i)] = exact(placement.pose.linear.row(i));
-    inverse_matrix = inverse(matrix);
-    direction = exact_direction(path);
-    if (path.has_end()) direction = direction - mpq_class(double{share}) * exact(placement.motion);
-  }
-  /// Returns the path at t in the frame of the mesh.
-  [[nodiscard]] ExactVector local_at(const mpq_class& t) const {
-    return inverse_matrix * (exact(path.start) + t * direction - exact(placement.pose.translation));
-  }
-  /// Returns the part of the range in which the path is in the box.
-  [[nodiscard]] std::optional<std::array<mpq_class, 2>> in_box() const {
-    const detail::InstanceBox sides = {{box.low[0], box.low[1], box.low[2]}, {box.high[0], box.high[1], box.high[2]}};
-    const auto inside = exact_range_in(sides, local_at(0), inverse_matrix * direction, range);
-    if (!inside || !inside->first || !inside->last) return std::nullopt;
-    return std::array{*inside->first, *inside->last};
-  }
-};
-
-/// Returns a number of [low, high).
-double real(Random& random, double low, double high) { return low + (high - low) * random.unit<double>(); }
-
-/// Draws an instance near the origin or far away, and a path that comes near it in half of all cases.
-template <typename Scalar>
-Case<Scalar> draw_case(Random& random) {
-  const auto number = [&](double size) { return static_cast<Scalar>(real(random, -size, size)); };
-  const auto vector = [&](double size) { return Vector3<Scalar>(number(size), number(size), number(size)); };
-  const double far = random.one_in(3) ? std::exp2(real(random, 0, std::is_same_v<Scalar, float> ? 20 : 40)) : 0;
-  SceneFamily family = all_scene_families[random.below(all_scene_families.size() - 1)];
-  Case<Scalar> drawn;
-  drawn.placement.pose = draw_pose<Scalar>(family, random);
-  drawn.placement.pose.translation += vector(far);
-  if (random.one_in(2)) {
-    drawn.placement.motion = vector(random.one_in(2) ? 1 : 1 + far);
-    drawn.placement.moves = true;
-    if (random.one_in(3)) drawn.share = static_cast<Scalar>(std::exp2(-real(random, 0, 140)));
-  }
-  const double size = std::exp2(real(random, -10, 10));
-  const Vector3<Scalar> middle = vector(random.one_in(2) ? 0 : 100 * size);
-  const Vector3<Scalar> one = middle + vector(size);
-  const Vector3<Scalar> other = random.one_in(8) ? one : Vector3<Scalar>(middle + vector(size));
-  drawn.box.extend(one.template cast<double>());
-  drawn.box.extend(other.template cast<double>());
-  // The path leads through a point near the mesh.
-  const Vector3<double> inside = (drawn.box.low + drawn.box.high) / 2 + vector(size).template cast<double>();
-  const Vector3<double> target = drawn.placement.pose.linear.template cast<double>() * inside +
-                                 drawn.placement.pose.translation.template cast<double>();
-  const double reach = size * std::exp2(real(random, -5, 25));
-  const Vector3<double> way = vector(reach).template cast<double>();
-  const double before = real(random, -0.5, 1.5);
-  const Vector3<Scalar> start = (target - before * way).template cast<Scalar>();
-  const Vector3<Scalar> end = (target + (1 - before) * way).template cast<Scalar>();
-  const std::size_t kind = random.below(3);
-  if (kind == 0) drawn.path = Segment<Scalar>{start, random.one_in(20) ? start : end};
-  if (kind == 1) drawn.path = Ray<Scalar>{start, end - start};
-  if (kind == 2) drawn.path = Line<Scalar>{start, end - start};
-  drawn.range = PathRange<Scalar>(drawn.path, QueryOptions<Scalar>{});
-  if (random.one_in(4)) drawn.range.last = static_cast<Scalar>(real(random, 0, 1));
-  drawn.set_exact();
-  return drawn;
-}
-
-/// The largest shares that errors took up of their bounds.
-struct Shares {
-  double inverse = 0, anchor = 0, start = 0, direction = 0, position = 0, reach = 0;
-};
+using Case = PathAndInstance<Scalar>;
 
 template <typename Scalar>
 class PlacedPathOf : public testing::Test {};
 TYPED_TEST_SUITE(PlacedPathOf, Scalars);
 
+/// The largest shares that errors took up of their bounds.
+struct Shares : PathShares {
+  double inverse = 0, anchor = 0;
+};
+
 template <typename Scalar>
 void expect_frame(const Case<Scalar>& drawn, const InstanceFrame& frame, Shares& shares) {
-  mpq_class near_off;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    for (std::size_t j = 0; j < 3; ++j) {
-      const mpq_class error = drawn.inverse_matrix[i][j] - mpq_class(frame.inverse[j][i]);
-      shares.inverse = std::max(shares.inverse, share_of(error, frame.inverse_error * std::fabs(frame.inverse[j][i])));
-    }
-    mpq_class anchor(double{drawn.placement.pose.translation[axis]});
-    for (std::size_t j = 0; j < 3; ++j) anchor += drawn.matrix[i][j] * mpq_class(frame.anchor[j]);
-    anchor -= mpq_class(frame.placed_anchor[i]) + mpq_class(frame.placed_anchor_rest[i]);
-    shares.anchor = std::max(shares.anchor, share_of(anchor, frame.largest_placed_anchor_error));
-    anchor += mpq_class(frame.placed_anchor_rest[i]) - mpq_class(double{frame.near_rest[i]});
-    near_off += abs(anchor);
-  }
-  EXPECT_TRUE(near_off <= mpq_class(frame.near_slack));
+  const AnchorError error(drawn, frame);
+  shares.inverse = std::max(shares.inverse, share_of_inverse(drawn, frame));
+  shares.anchor = std::max(shares.anchor, largest_share(error.with_rest, frame.largest_placed_anchor_error));
+  EXPECT_TRUE(AnchorError::sum(error.with_near_rest) <= mpq_class(frame.near_slack));
   const ExactVector motion = exact(drawn.placement.motion);
   for (unsigned corner = 0; corner < 8; ++corner) {
     ExactVector local;
@@ -151,31 +67,6 @@ void expect_frame(const Case<Scalar>& drawn, const InstanceFrame& frame, Shares&
     EXPECT_TRUE(!frame.is_usable || square <= mpq_class(frame.radius) * mpq_class(frame.radius));
   }
   EXPECT_EQ(frame.is_mirrored, exact_determinant(drawn.placement.pose) < 0);
-}
-
-template <typename Scalar>
-void expect_path(const Case<Scalar>& drawn, const detail::PlacedPath<Scalar>& placed, Shares& shares) {
-  const mpq_class moved_t(placed.moved.moved_t);
-  const ExactVector start = drawn.local_at(moved_t);
-  const ExactVector way = drawn.inverse_matrix * drawn.direction;
-  const ExactVector start_off = start - exact(placed.moved.start);
-  const ExactVector way_off = way - exact(placed.moved.direction);
-  shares.start = std::max(shares.start, largest_share(start_off, placed.start_error));
-  shares.direction = std::max(shares.direction, largest_share(way_off, placed.direction_error));
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    for (const double corner : {drawn.box.low[axis], drawn.box.high[axis]}) {
-      shares.reach = std::max(shares.reach, share_of(start[i] - mpq_class(corner), placed.reach));
-    }
-  }
-  if (const auto inside = drawn.in_box()) {
-    for (const mpq_class& t : *inside) {
-      const ExactVector off = start_off + (t - moved_t) * way_off;
-      for (std::size_t i = 0; i < 3; ++i) {
-        shares.position = std::max(shares.position, share_of(off[i], placed.moved.position_error[i]));
-      }
-    }
-  }
 }
 
 /// The kernel's sizes must include the errors of its path (I8).
@@ -222,7 +113,7 @@ void expect_kernel_range(const Case<Scalar>& drawn, const detail::PlacedPath<Sca
 
 template <typename Scalar>
 void expect_placed(const Case<Scalar>& drawn, const detail::PlacedPath<Scalar>& placed, Shares& shares) {
-  expect_path(drawn, placed, shares);
+  shares.include({drawn, placed});
   expect_kernel_path<Scalar>(drawn, placed);
   expect_kernel_range<Scalar>(drawn, placed);
   if constexpr (std::is_same_v<Scalar, double>) {
@@ -238,7 +129,7 @@ TYPED_TEST(PlacedPathOf, IsNeverFartherOffThanItsBounds) {
   std::size_t beside = 0;
   const std::size_t cases = case_count(20000);
   for (std::size_t i = 0; i < cases; ++i) {
-    const Case<TypeParam> drawn = draw_case<TypeParam>(random);
+    const Case<TypeParam> drawn = draw_path_and_instance<TypeParam>(random);
     const InstanceFrame frame = InstanceFrame::of(drawn.placement, drawn.box);
     expect_frame(drawn, frame, shares);
     const detail::ScenePath<TypeParam> scene_path(drawn.path, drawn.range, drawn.share);
@@ -251,7 +142,7 @@ TYPED_TEST(PlacedPathOf, IsNeverFartherOffThanItsBounds) {
     if (placed.status != Status::near) continue;
     ++near;
     expect_placed(drawn, placed, shares);
-    expect_path(drawn, placed.refined(), shares);
+    shares.include({drawn, placed.refined()});
     if (testing::Test::HasFailure()) FAIL() << "case " << i;
   }
   for (const double share :
@@ -282,7 +173,7 @@ TYPED_TEST(PlacedPathOf, HasTheSameBoundsSideBySide) {
       const auto kind = static_cast<PathKind>(random.below(3));
       std::vector<Case<TypeParam>> cases;
       while (cases.size() < lanes) {
-        Case<TypeParam> drawn = draw_case<TypeParam>(random);
+        Case<TypeParam> drawn = draw_path_and_instance<TypeParam>(random);
         if (drawn.path.kind == kind) cases.push_back(std::move(drawn));
       }
       std::vector<InstanceFrame> frames;
@@ -326,7 +217,7 @@ TEST(PlacedSegments, HaveTheNumbersOfPlacedPaths) {
     std::size_t precise = 0;
     const std::size_t batches = case_count(1600);
     for (std::size_t i = 0; i < batches; ++i) {
-      Case<float> drawn = draw_case<float>(random);
+      Case<float> drawn = draw_path_and_instance<float>(random);
       drawn.placement.moves = false;
       const InstanceFrame frame = InstanceFrame::of(drawn.placement, drawn.box);
       // In a grid that is far smaller than the mesh, the errors are too large.
