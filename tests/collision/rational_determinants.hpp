@@ -37,20 +37,26 @@ struct RationalDeterminants {
   mpq_class w;
 };
 
+/// Returns those of any start and direction.
 template <typename Scalar>
-RationalDeterminants rational_determinants(const Path<Scalar>& path, const Triangle<Scalar>& triangle) {
+RationalDeterminants rational_determinants(const RationalVector& start, const RationalVector& d,
+                                           const Triangle<Scalar>& triangle) {
   const RationalVector a = rational(triangle.a);
   const RationalVector e1 = difference(rational(triangle.b), a);
   const RationalVector e2 = difference(rational(triangle.c), a);
-  const RationalVector start = rational(path.start);
   const RationalVector s = difference(start, a);
-  const RationalVector toward = rational(path.toward);
-  const RationalVector d = path.kind == PathKind::segment ? difference(toward, start) : toward;
   const RationalVector p = cross(d, e2);
   const RationalVector q = cross(s, e1);
   RationalDeterminants result{dot(e1, p), dot(e2, q), dot(s, p), dot(d, q), {}};
   result.w = result.det - result.u - result.v;
   return result;
+}
+
+template <typename Scalar>
+RationalDeterminants rational_determinants(const Path<Scalar>& path, const Triangle<Scalar>& triangle) {
+  const RationalVector start = rational(path.start);
+  const RationalVector toward = rational(path.toward);
+  return rational_determinants(start, path.kind == PathKind::segment ? difference(toward, start) : toward, triangle);
 }
 
 }  // namespace surehit::test

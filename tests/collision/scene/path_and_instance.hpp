@@ -128,7 +128,7 @@ PathAndInstance<Scalar> changed(const PathAndInstance<Scalar>& drawn, Random& ra
       Scalar& number = *numbers[random.below(numbers.size())];
       number = changed_coordinate(random, number);
     }
-    const auto is_valid = [](Scalar x) { return x == 0 || (std::fabs(x) >= 0x1p-60F && std::fabs(x) <= 0x1p60F); };
+    const auto is_valid = [](Scalar x) { return x == 0 || (std::fabs(x) >= 0x1p-64F && std::fabs(x) <= 0x1p64F); };
     const auto& linear = next.placement.pose.linear;
     if (!std::all_of(linear.data(), linear.data() + linear.size(), is_valid)) continue;
     if (!detail::is_finite(next.path)) continue;

@@ -9,6 +9,7 @@
 #include "scene/instance_frame.hpp"
 #include "scene/placed_lanes.hpp"
 #include "scene/placed_path.hpp"
+#include "surehit/triangle.hpp"
 
 namespace surehit::test {
 
@@ -35,5 +36,15 @@ struct PlacedSegmentLanes {
 /// false if the instruction set has no lanes.
 bool place_segments(const detail::InstanceFrame& frame, const GridFrame& grid, const std::array<float, 24>& segments,
                     PlacedSegmentLanes& lanes);
+
+/// What `detail::PlacedHits` says of a hit.
+struct PlacedHit {
+  float t, u, v;
+  bool is_rounded, is_positive;
+};
+
+/// `detail::PlacedHits` there, with as many hits at a time as a vector of doubles has lanes.
+void round_placed_hits(std::span<const detail::CertainPath> paths, std::span<const Triangle<double>> triangles,
+                       std::span<PlacedHit> hits);
 
 }  // namespace surehit::test
