@@ -20,6 +20,7 @@
 #include "place_lanes_on_targets.hpp"
 #include "placed_path_shares.hpp"
 #include "scene/placed_path.hpp"
+#include "support/case_count.hpp"
 #include "support/exact_oracle.hpp"
 #include "support/hill_climb.hpp"
 #include "support/random.hpp"
@@ -143,6 +144,18 @@ class PlacedPathError : public testing::Test {
     drawn.set_exact();
     return drawn;
   }
+  /// Draws a path that starts nearly at the anchor, which is the origin of the mesh. So its place in the box is off by
+  /// what its direction is off.
+  Drawn draw_from_anchor() {
+    Drawn drawn = still(draw());
+    const Vector3<double> half = (drawn.box.high - drawn.box.low) / 2;
+    drawn.box = {-half, half};
+    drawn.path.start = drawn.placement.pose.translation + vector(std::exp2(real(random_, -60, -10)));
+    drawn.path.toward = vector(std::exp2(real(random_, 0, 10)));
+    if (drawn.path.has_end()) drawn.path.toward += drawn.path.start;
+    drawn.set_exact();
+    return drawn;
+  }
   /// Returns the case without a motion.
   static Drawn still(Drawn drawn) {
     drawn.placement.moves = false;
@@ -191,7 +204,9 @@ class PlacedPathError : public testing::Test {
   void expect_below_one(const std::string& name, double worst) {
     testing::Test::RecordProperty("worst_share_of_" + name, std::to_string(worst));
     EXPECT_LT(worst, 1) << name;
-    EXPECT_GT(worst, 0) << name;
+    if (runs_all_cases()) {
+      EXPECT_GT(worst, 0) << name;
+    }
   }
 
   Random random_{20261128};
@@ -397,7 +412,9 @@ TEST(PlacedPathThroughItsAnchor, stays_within_its_bound_where_hill_climbing_make
   const double worst = climbed_share(20, 400, draw, changed_case, share);
   RecordProperty("worst_share", std::to_string(worst));
   EXPECT_LT(worst, 1);
-  EXPECT_GT(worst, 0);
+  if (runs_all_cases()) {
+    EXPECT_GT(worst, 0);
+  }
 }
 
 /// The largest box around the middle of a mesh for which the path is called beside the instance. At the edge between
@@ -469,6 +486,35 @@ double share_of_margin(const PathAndInstance<Scalar>& drawn, Way way, bool is_at
   return share_without(outside / (radius + std::sqrt(exactly.square.get_d())), room);
 }
 
+/// Returns the same share where a start was moved again, in the frame of the mesh. The room is what is known of its
+/// margin from the last placement, and from how far away the first one was.
+template <typename Scalar>
+double share_of_margin_again(const PathAndInstance<Scalar>& drawn) {
+  const auto edge =
+      at_the_edge(drawn, [](const PathAndInstance<Scalar>& sized) { return Placed<Scalar>(sized).is_beside; });
+  if (!edge) return 0;
+  const Placed<Scalar> placed(*edge);
+  if (placed.is_beside_ball) return 0;
+  const auto& path = placed.path();
+  const ExactVector way = edge->inverse_matrix * edge->direction;
+  const mpq_class length = dot(way, way);
+  if (length == 0) return 0;
+  const ExactVector from = edge->local_at(0) - exact(placed.frame.anchor);
+  const mpq_class t = std::clamp(mpq_class(-dot(from, way) / length), mpq_class(double{edge->range.first}),
+                                 mpq_class(double{edge->range.last}));
+  const ExactVector nearest_point = from + t * way;
+  const mpq_class square = dot(nearest_point, nearest_point);
+  const ExactVector half = half_size(*edge, placed.frame);
+  const double radius = std::sqrt(mpq_class(dot(half, half)).get_d());
+  const double speed = std::sqrt(length.get_d());
+  const mpq_class first_t = ExactDistance<Scalar>(*edge, placed.frame).t;
+  const double first_reach = mpq_class(largest_of(from + first_t * way) + largest_of(half)).get_d();
+  const double room = radius * 0x1p-20 + 4 * path.start_error + speed * t.get_d() * 0x1p-50 +
+                      first_reach * (0x1p-36 + 8 * path.direction_error / speed);
+  const mpq_class outside = square - dot(half, half);
+  return share_without(outside / mpq_class(radius + std::sqrt(square.get_d())), mpq_class(room));
+}
+
 /// I5.
 TYPED_TEST(PlacedPathError, of_a_distance_stays_within_its_margin_where_hill_climbing_makes_it_worst) {
   using Drawn = PathAndInstance<TypeParam>;
@@ -512,6 +558,20 @@ TYPED_TEST(PlacedPathError, of_a_distance_stays_within_its_margin_where_hill_cli
   this->climb_side_by_side("margin", share_on(Way::side_by_side, false), [&] { return long_way(draw_still()); });
 }
 
+/// I5 in the frame of the mesh.
+TYPED_TEST(PlacedPathError, of_a_start_that_is_moved_again_stays_within_its_margin_where_hill_climbing_makes_it_worst) {
+  using Drawn = PathAndInstance<TypeParam>;
+  const auto draw = [&] {
+    Drawn drawn = this->draw();
+    drawn.placement.pose = draw_pose<TypeParam>(SceneFamily::nearly_singular, this->random_);
+    drawn.path = Segment<TypeParam>{this->vector(1), this->vector(1)};
+    drawn.range = {0, 1};
+    return this->moving(drawn);
+  };
+  const auto share = [](const Drawn& drawn) { return share_of_margin_again(drawn); };
+  this->climb("margin_again", share, draw, 10, 100);
+}
+
 /// I7.
 TYPED_TEST(PlacedPathError, in_the_mesh_stays_within_its_bounds_where_hill_climbing_makes_it_worst) {
   using Drawn = PathAndInstance<TypeParam>;
@@ -530,6 +590,21 @@ TYPED_TEST(PlacedPathError, in_the_mesh_stays_within_its_bounds_where_hill_climb
     this->climb(name + std::string("_carefully"), share_on(Way::carefully), draw, 6, 150);
     this->climb_side_by_side(name, share_on(Way::side_by_side), [&] { return this->still(draw()); });
   }
+}
+
+/// I7 where only the direction counts.
+TYPED_TEST(PlacedPathError, from_the_anchor_stays_within_its_bound_where_hill_climbing_makes_it_worst) {
+  using Drawn = PathAndInstance<TypeParam>;
+  const auto share_on = [](Way way) {
+    return [way](const Drawn& drawn) {
+      const Placed<TypeParam> placed(drawn, way);
+      return placed.is_near ? PathShares(drawn, placed.path()).position : 0;
+    };
+  };
+  const auto draw = [&] { return this->draw_from_anchor(); };
+  this->climb("position", share_on(Way::usual), draw);
+  this->climb("position_carefully", share_on(Way::carefully), draw);
+  this->climb_side_by_side("position", share_on(Way::side_by_side), draw);
 }
 
 /// Returns the largest share that the errors of a path take up of what its sizes grow by for them (I8).

@@ -67,8 +67,12 @@ Hit draw_hit(Random& random) {
     hit.path.start[i] = start[static_cast<Eigen::Index>(i)];
     hit.path.direction[i] = direction[static_cast<Eigen::Index>(i)];
   }
-  hit.path.start_error = std::ldexp(random.unit<double>(), -static_cast<int>(random.between(38, 60)));
-  hit.path.direction_error = std::ldexp(random.unit<double>(), -static_cast<int>(random.between(38, 60)));
+  // In many cases, one of the errors is all that there is.
+  const auto error = [&] {
+    return random.one_in(3) ? 0x1p-100 : std::ldexp(1.0, -static_cast<int>(random.between(38, 50)));
+  };
+  hit.path.start_error = error();
+  hit.path.direction_error = error();
   hit.path.moved_t = random.one_in(4) ? 0 : random.unit<double>();
   const auto share = [&] { return random.one_in(4) ? random.symmetric<double>() : random.one_in(2) ? 1.0 : -1.0; };
   for (auto* const shares : {&hit.start_share, &hit.direction_share}) {
@@ -158,12 +162,14 @@ TEST(PlacedRounding, holds_what_is_exact_where_hill_climbing_makes_the_error_wor
       Random random(71);
       worst = std::max(
           worst, climbed_share(
-                     5, 100, [&] { return draw_hit(random); }, [&](const Hit& hit) { return changed(hit, random); },
+                     12, 120, [&] { return draw_hit(random); }, [&](const Hit& hit) { return changed(hit, random); },
                      [&](const Hit& hit) { return share_of_interval(hit, number); }));
     });
     RecordProperty(std::string("worst_share_of_") + name, std::to_string(worst));
     EXPECT_LT(worst, 1) << name;
-    EXPECT_GT(worst, 0) << name;
+    if (runs_all_cases()) {
+      EXPECT_GT(worst, 0) << name;
+    }
   }
 }
 

@@ -12,6 +12,7 @@
 #include "collision/filter/coordinate_changes.hpp"
 #include "exact_matrix.hpp"
 #include "support/case_count.hpp"
+#include "support/hill_climb.hpp"
 #include "support/random.hpp"
 #include "support/scalars.hpp"
 #include "support/scene_drawer.hpp"
@@ -207,20 +208,13 @@ TYPED_TEST(PlacedShapeOf, HoldsTheExactShapeWhereHillClimbingMakesTheErrorsWorst
   };
   const auto in_mesh = [](const Case<TypeParam>& drawn) { return share_in_mesh(drawn, drawn.sphere, 0); };
   const auto climb = [&](const char* name, const auto& share_of_case) {
-    double worst = 0;
-    for (int start = 0; start < 10; ++start) {
-      auto best = draw_case<TypeParam>(random);
-      best.sphere.radius = 0;
-      double best_share = share_of_case(best);
-      for (std::size_t step = case_count(300); step > 0; --step) {
-        const auto next = changed(best, random);
-        if (const double share = share_of_case(next); share > best_share) {
-          best = next;
-          best_share = share;
-        }
-      }
-      worst = std::max(worst, best_share);
-    }
+    const auto draw = [&] {
+      auto drawn = draw_case<TypeParam>(random);
+      drawn.sphere.radius = 0;
+      return drawn;
+    };
+    const auto changed_case = [&](const Case<TypeParam>& drawn) { return changed(drawn, random); };
+    const double worst = climbed_share(10, 300, draw, changed_case, share_of_case);
     testing::Test::RecordProperty(std::string("worst_share_") + name, std::to_string(worst));
     EXPECT_LT(worst, 1) << name;
   };
