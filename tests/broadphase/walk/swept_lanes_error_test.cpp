@@ -12,7 +12,7 @@
 #include "swept_error.hpp"
 #include "walk/swept_lanes.hpp"
 
-namespace surehit::test {
+namespace surehit::test::swept_lanes_error_test {
 namespace {
 
 /// Beside what W6 says that a box in lanes is off by: some eps of the number R of top cells. Its reach is larger by 96
@@ -218,4 +218,4 @@ TEST_F(SweptLanesError, of_the_slab_of_a_list_stays_below_its_bound_where_hill_c
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::swept_lanes_error_test

@@ -7,7 +7,7 @@
 
 #include "swept_error.hpp"
 
-namespace surehit::test {
+namespace surehit::test::swept_walk_error_test {
 namespace {
 
 /// Looks for the list of one cell.
@@ -79,4 +79,4 @@ TEST_F(SweptWalkError, of_times_stays_below_its_bound_where_hill_climbing_makes_
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::swept_walk_error_test

@@ -20,14 +20,13 @@
 #include "place_lanes_on_targets.hpp"
 #include "placed_path_shares.hpp"
 #include "scene/placed_path.hpp"
-#include "support/case_count.hpp"
 #include "support/exact_oracle.hpp"
 #include "support/hill_climb.hpp"
 #include "support/instruction_sets.hpp"
 #include "support/random.hpp"
 #include "support/scalars.hpp"
 
-namespace surehit::test {
+namespace surehit::test::placed_path_error_test {
 namespace {
 
 using detail::InstanceFrame;
@@ -182,13 +181,13 @@ class PlacedPathError : public testing::Test {
     return {x, y, number(size)};
   }
 
-  /// Climbs to the greatest share, which must be below 1.
+  /// Climbs to the max share, which must be below 1.
   template <typename ShareOf, typename Draw>
   double climb(const std::string& name, const ShareOf& share_of, const Draw& draw, std::size_t starts = 10,
                std::size_t steps = 200) {
     const auto changed_case = [&](const auto& drawn) { return changed(drawn, random_); };
-    const double worst = climbed_share(starts, steps, draw, changed_case, share_of);
-    expect_below_one(name, worst);
+    const double worst = climb_to_worst(starts, steps, draw, changed_case, share_of);
+    expect_within_bound(name, worst);
     return worst;
   }
   template <typename ShareOf>
@@ -202,15 +201,8 @@ class PlacedPathError : public testing::Test {
     const auto changed_case = [&](const Drawn& drawn) { return changed(drawn, random_); };
     double worst = 0;
     on_every_instruction_set(
-        [&] { worst = std::max(worst, climbed_share(starts, 100, draw, changed_case, share_of)); });
-    expect_below_one(name + "_side_by_side", worst);
-  }
-  void expect_below_one(const std::string& name, double worst) {
-    testing::Test::RecordProperty("worst_share_of_" + name, std::to_string(worst));
-    EXPECT_LT(worst, 1) << name;
-    if (runs_all_cases()) {
-      EXPECT_GT(worst, 0) << name;
-    }
+        [&] { worst = std::max(worst, climb_to_worst(starts, 100, draw, changed_case, share_of)); });
+    expect_within_bound(name + "_side_by_side", worst);
   }
 
   Random random_{20261128};
@@ -413,12 +405,7 @@ TEST(PlacedPathThroughItsAnchor, stays_within_its_bound_where_hill_climbing_make
       beyond = std::max(beyond, mpq_class(abs(off[i]) - mpq_class(eps) * abs(middle[i])));
     return mpq_class(beyond / middle_error).get_d();
   };
-  const double worst = climbed_share(20, 400, draw, changed_case, share);
-  RecordProperty("worst_share", std::to_string(worst));
-  EXPECT_LT(worst, 1);
-  if (runs_all_cases()) {
-    EXPECT_GT(worst, 0);
-  }
+  expect_within_bound("middle_carefully_before_rounding", climb_to_worst(20, 400, draw, changed_case, share));
 }
 
 /// The largest box around the middle of a mesh for which the path is called beside the instance. At the edge between
@@ -726,4 +713,4 @@ TYPED_TEST(PlacedPathError, of_the_box_stays_within_its_allowance_where_hill_cli
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::placed_path_error_test

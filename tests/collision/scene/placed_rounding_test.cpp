@@ -17,13 +17,12 @@
 #include "collision/rational_determinants.hpp"
 #include "exact_matrix.hpp"
 #include "place_lanes_on_targets.hpp"
-#include "support/case_count.hpp"
 #include "support/exact_oracle.hpp"
 #include "support/hill_climb.hpp"
 #include "support/instruction_sets.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::placed_rounding_test {
 namespace {
 
 /// The number of a hit.
@@ -163,18 +162,14 @@ TEST(PlacedRounding, holds_what_is_exact_where_hill_climbing_makes_the_error_wor
     const std::size_t starts = std::max<std::size_t>(1, 12 / instruction_sets().size());
     double worst = 0;
     on_every_instruction_set([&, number = number] {
-      worst = std::max(worst, climbed_share(
+      worst = std::max(worst, climb_to_worst(
                                   starts, 120, [&] { return draw_hit(random); },
                                   [&](const Hit& hit) { return changed(hit, random); },
                                   [&](const Hit& hit) { return share_of_interval(hit, number); }));
     });
-    RecordProperty(std::string("worst_share_of_") + name, std::to_string(worst));
-    EXPECT_LT(worst, 1) << name;
-    if (runs_all_cases()) {
-      EXPECT_GT(worst, 0) << name;
-    }
+    expect_within_bound(name, worst);
   }
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::placed_rounding_test

@@ -12,7 +12,7 @@
 #include "support/hill_climb.hpp"
 #include "support/random.hpp"
 
-namespace surehit::test {
+namespace surehit::test::exact_direction_test {
 namespace {
 
 using Float = mpf_class;
@@ -169,4 +169,4 @@ TEST(ExactDirection, of_length_one_stays_within_its_bound) {
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::exact_direction_test

@@ -19,7 +19,7 @@
 #include "support/scalars.hpp"
 #include "support/shape_families.hpp"
 
-namespace surehit::test {
+namespace surehit::test::shape_filter_error_test {
 namespace {
 
 using detail::Core;
@@ -528,4 +528,4 @@ TYPED_TEST(ShapeFilterError, above_a_plane_and_beside_an_edge_stays_within_its_b
 }
 
 }  // namespace
-}  // namespace surehit::test
+}  // namespace surehit::test::shape_filter_error_test
