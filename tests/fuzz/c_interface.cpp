@@ -398,7 +398,7 @@ class CInterfaceCase : CArgumentDrawer<Scalar> {
     const auto given_pose = pose();
     const auto motion = vector();
     surehit_instance_id added = {};
-    switch (bytes_.below(6)) {
+    switch (bytes_.below(7)) {
       case 0:
         if (checked(C::add(to, collider(), or_none(&given_pose), bytes_.take<std::uint8_t>(), 1, or_null(&added))) ==
             SUREHIT_OK) {
@@ -416,6 +416,9 @@ class CInterfaceCase : CArgumentDrawer<Scalar> {
         break;
       case 4:
         checked(C::remove(to, id()));
+        break;
+      case 5:
+        checked(C::set_collider(to, id(), collider()));
         break;
       default:
         break;

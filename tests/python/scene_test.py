@@ -104,6 +104,26 @@ class SceneTest(unittest.TestCase):
         self.assertEqual((caught.exception.status, caught.exception.element), (205, first.index))
         self.assertEqual(scene.first_hit(surehit.Ray((-1, 0.5, 0.5), (1, 0, 0))).instance, second)
 
+    def test_instance_gets_another_collider(self):
+        ray = surehit.Ray((-1, 0.5, 0.5), (1, 0, 0))
+        scene, box = surehit.Scene(), surehit.Collider(BOX, SIDES)
+        instance = scene.add(box, user_data=3)
+        for dtype in (np.float32, np.float64):
+            scene.set_collider(instance, surehit.Collider(BOX.astype(dtype) + 1, SIDES))
+            scene.commit()
+            self.assertIsNone(scene.first_hit(ray))
+            scene.set_collider(instance, box)
+            scene.commit()
+            self.assertEqual((scene.first_hit(ray).t, scene.first_hit(ray).instance), (1, instance))
+        self.assertEqual(scene.user_data(instance), 3)
+        with self.assertRaises(TypeError):
+            surehit.Scene(np.float32).set_collider(instance, box)
+        with self.assertRaises(TypeError):
+            scene.set_collider(instance, BOX)
+        scene.remove(instance)
+        with self.assertRaises(surehit.InvalidInstance):
+            scene.set_collider(instance, box)
+
     def test_snapshots_stay_the_same(self):
         scene, box = surehit.Scene(np.float32), surehit.Collider(BOX, SIDES)
         instance = scene.add(box, surehit.translation_pose((4, 0, 0), np.float32), user_data=3)

@@ -82,6 +82,11 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
 
   /// Removes an instance. Fails for a stale id. A failure may throw std::bad_alloc, here and below.
   InstanceResult try_remove(InstanceId id);
+  /// Gives an instance another collider. Its id, pose, motion, mask and user data stay. Fails for a stale id, or if the
+  /// collider is null. Ask about the triangles of earlier hits before this, because they are those of the other mesh.
+  InstanceResult try_set_collider(InstanceId id, ColliderPointer collider);
+  /// Does the same for a mesh of floats in a scene of doubles.
+  InstanceResult try_set_collider(InstanceId id, FloatColliderPointer collider);
   /// Sets the pose of an instance. Fails for a stale id, or for an invalid pose. Does not end its motion.
   InstanceResult try_set_pose(InstanceId id, const Pose<Scalar>& pose);
   /// Sets the motion of an instance. At parameter t, the instance is at its pose plus t times the motion. This is for
@@ -103,6 +108,10 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   }
   /// Removes an instance as `try_remove` does. Throws the InvalidInstance that it would return.
   void remove(InstanceId id) { id_of(try_remove(id)); }
+  /// Sets a collider as `try_set_collider` does. Throws the InvalidInstance that it would return.
+  void set_collider(InstanceId id, ColliderPointer collider) { id_of(try_set_collider(id, std::move(collider))); }
+  /// Does the same for a mesh of floats in a scene of doubles.
+  void set_collider(InstanceId id, FloatColliderPointer collider) { id_of(try_set_collider(id, std::move(collider))); }
   /// Sets a pose as `try_set_pose` does. Throws the InvalidInstance that it would return.
   void set_pose(InstanceId id, const Pose<Scalar>& pose) { id_of(try_set_pose(id, pose)); }
   /// Sets a motion as `try_set_motion` does. Throws the InvalidInstance that it would return.
@@ -190,6 +199,9 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   /// Adds an instance of that one of the two colliders that is not null.
   InstanceResult add_instance(ColliderPointer collider, std::shared_ptr<const Collider<float>> float_collider,
                               const Pose<Scalar>& pose, const InstanceOptions& options);
+  /// Gives an instance that one of the two colliders that is not null.
+  InstanceResult set_either_collider(InstanceId id, ColliderPointer collider,
+                                     std::shared_ptr<const Collider<float>> float_collider);
   /// Returns the state, or that of an empty scene.
   [[nodiscard]] const detail::SceneState<Scalar>& state() const noexcept;
 

@@ -73,6 +73,16 @@ template <typename Scalar, typename Change>
   return call.arguments.then([&] { tell_change(call.arguments, change_scene(*call.object)); });
 }
 
+/// Gives an instance a collider of `MeshScalar`.
+template <typename Scalar, typename MeshScalar>
+[[nodiscard]] surehit_status set_collider(const char* function, void* handle, surehit_instance_id id,
+                                          const void* collider) {
+  HandleCall<Scene<Scalar>> call(function, handle);
+  std::shared_ptr<const Collider<MeshScalar>> mesh =
+      call.arguments.template share_of<Collider<MeshScalar>>(collider, "collider");
+  return change(std::move(call), [&](auto& scene) { return scene.try_set_collider(from_c(id), std::move(mesh)); });
+}
+
 template <typename Scalar>
 [[nodiscard]] surehit_status set_pose(const char* function, void* handle, surehit_instance_id id,
                                       const typename SceneStructs<Scalar>::Pose* pose) {
@@ -186,6 +196,10 @@ template <typename Scalar, typename Result, typename Get>
   }                                                                                                                   \
   SUREHIT_C_API surehit_status surehit_scene##s##_remove(surehit_scene##s* scene, surehit_instance_id id) {           \
     return change(HandleCall<Scene<Scalar>>(__func__, scene), [&](auto& of) { return of.try_remove(from_c(id)); });   \
+  }                                                                                                                   \
+  SUREHIT_C_API surehit_status surehit_scene##s##_set_collider(surehit_scene##s* scene, surehit_instance_id id,       \
+                                                               const surehit_collider##s* collider) {                 \
+    return set_collider<Scalar, Scalar>(__func__, scene, id, collider);                                               \
   }                                                                                                                   \
   SUREHIT_C_API surehit_status surehit_scene##s##_set_pose(surehit_scene##s* scene, surehit_instance_id id,           \
                                                            const surehit_pose##s* pose) {                             \
@@ -315,6 +329,10 @@ SUREHIT_C_API surehit_status surehit_scened_add_colliderf(surehit_scened* scene,
                                                           const surehit_posed* pose, uint32_t mask, uint64_t user_data,
                                                           surehit_instance_id* id) {
   return add<double, float>(__func__, scene, collider, pose, mask, user_data, id);
+}
+SUREHIT_C_API surehit_status surehit_scened_set_colliderf(surehit_scened* scene, surehit_instance_id id,
+                                                          const surehit_colliderf* collider) {
+  return set_collider<double, float>(__func__, scene, id, collider);
 }
 }
 #undef SUREHIT_SCENE_FUNCTIONS

@@ -21,6 +21,10 @@ namespace {
 template <typename Scalar>
 using SceneStateOf = detail::SceneState<Scalar>;
 
+InvalidInstance no_collider() {
+  return {InvalidInstance::Reason::no_collider, 0, "the pointer to the collider is null"};
+}
+
 InvalidInstance stale(InstanceId id) {
   return {InvalidInstance::Reason::stale_id, id.index,
           "there is no instance with index " + std::to_string(id.index) + " and generation " +
@@ -52,9 +56,7 @@ InstanceResult Scene<Scalar>::add_instance(ColliderPointer collider,
                                            std::shared_ptr<const Collider<float>> float_collider,
                                            const Pose<Scalar>& pose, const InstanceOptions& options) {
   const FloatingPointEnvironment environment;
-  if (!collider && !float_collider) {
-    return InvalidInstance(InvalidInstance::Reason::no_collider, 0, "the pointer to the collider is null");
-  }
+  if (!collider && !float_collider) return no_collider();
   if (std::optional<InvalidInstance> invalid = detail::find_invalid(pose)) return *std::move(invalid);
   // The pose may be that of an instance of this scene, which moves when the scene grows.
   const detail::Placement<Scalar> placement = {pose};
@@ -78,13 +80,7 @@ InstanceResult Scene<Scalar>::add_instance(ColliderPointer collider,
   const std::uint32_t index = state_->unused.back();
   state_->unused.pop_back();
   detail::PendingInstance<Scalar>& instance = pending[index];
-  instance.collider = collider.get();
-  instance.float_collider = float_collider.get();
-  if (collider) {
-    instance.share = std::move(collider);
-  } else {
-    instance.share = std::move(float_collider);
-  }
+  instance.set_collider(std::move(collider), std::move(float_collider));
   instance.placement = placement;
   instance.options = options;
   instance.is_there = true;
@@ -119,6 +115,32 @@ InstanceResult Scene<Scalar>::try_remove(InstanceId id) {
   state_->note_change(id.index);
   --state_->count;
   return id;
+}
+
+template <FloatOrDouble Scalar>
+InstanceResult Scene<Scalar>::set_either_collider(InstanceId id, ColliderPointer collider,
+                                                  std::shared_ptr<const Collider<float>> float_collider) {
+  auto* const instance = state_ ? state_->find(id) : nullptr;
+  if (instance == nullptr) return stale(id);
+  if (!collider && !float_collider) return no_collider();
+  // Queries use the other one until the commit, which has a share of it.
+  instance->set_collider(std::move(collider), std::move(float_collider));
+  state_->note_change(id.index);
+  return id;
+}
+
+template <FloatOrDouble Scalar>
+InstanceResult Scene<Scalar>::try_set_collider(InstanceId id, ColliderPointer collider) {
+  return set_either_collider(id, std::move(collider), nullptr);
+}
+
+template <FloatOrDouble Scalar>
+InstanceResult Scene<Scalar>::try_set_collider(InstanceId id, FloatColliderPointer collider) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    return set_either_collider(id, nullptr, std::move(collider));
+  } else {
+    return set_either_collider(id, nullptr, nullptr);  // No one can call it.
+  }
 }
 
 template <FloatOrDouble Scalar>

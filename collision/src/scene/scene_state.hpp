@@ -28,6 +28,16 @@ struct PendingInstance {
   bool is_there = false;                            ///< False for an index that is not in use.
   bool has_changed = false;                         ///< True if the index is among the changed ones.
 
+  /// Gives it that one of the two colliders that is not null.
+  void set_collider(std::shared_ptr<const Collider<Scalar>> own, std::shared_ptr<const Collider<float>> floats) {
+    collider = own.get();
+    float_collider = floats.get();
+    if (own) {
+      share = std::move(own);
+    } else {
+      share = std::move(floats);
+    }
+  }
   /// Returns true if it was removed since the last commit.
   [[nodiscard]] bool is_removed() const { return !is_there && (collider != nullptr || float_collider != nullptr); }
   /// Returns true if the index may be used again. An index whose generations are used up is not.

@@ -42,6 +42,7 @@ static void instances(surehit_scenef* scene, surehit_colliderf* tile) {
   EXPECT(surehit_scenef_user_data(scene, ids[1], &user_data) == SUREHIT_OK && user_data == 8);
   EXPECT(surehit_scenef_mask(scene, ids[1], &mask) == SUREHIT_OK && mask == 2);
   EXPECT(surehit_scenef_set_mask(scene, ids[1], 3) == SUREHIT_OK);
+  EXPECT(surehit_scenef_set_collider(scene, ids[1], tile) == SUREHIT_OK);
   EXPECT(surehit_scenef_mask(scene, ids[1], &mask) == SUREHIT_OK && mask == 3);
   EXPECT(surehit_scenef_set_motion(scene, ids[1], &up) == SUREHIT_OK);
   EXPECT(surehit_scenef_motion(scene, ids[1], &vector) == SUREHIT_OK && vector.z == 0.5F);
@@ -140,6 +141,7 @@ static void large_world(surehit_colliderf* tile) {
   EXPECT(surehit_scened_commit(scene, NULL) == SUREHIT_OK);
   EXPECT(surehit_scened_first_hit(scene, &down, NULL, NULL, NULL, &hit) == SUREHIT_OK);
   EXPECT(hit.t == 0.5 && hit.u == 0.25 && hit.v == 0.25);
+  EXPECT(surehit_scened_set_colliderf(scene, id, tile) == SUREHIT_OK);
   EXPECT(surehit_scened_destroy(scene) == SUREHIT_OK);
 }
 

@@ -103,6 +103,7 @@ struct CFunctions;
     static constexpr auto destroy_scene = surehit_scene##s##_destroy;                                   \
     static constexpr auto add = surehit_scene##s##_add;                                                 \
     static constexpr auto remove = surehit_scene##s##_remove;                                           \
+    static constexpr auto set_collider = surehit_scene##s##_set_collider;                               \
     static constexpr auto set_pose = surehit_scene##s##_set_pose;                                       \
     static constexpr auto set_motion = surehit_scene##s##_set_motion;                                   \
     static constexpr auto set_instance_mask = surehit_scene##s##_set_mask;                              \

@@ -207,8 +207,8 @@ TYPED_TEST(CScene, snapshots_cannot_be_changed) {
   const typename C::Vector motion = {0, 0, 0};
   for (const surehit_status status :
        {C::add(snapshot, collider, nullptr, 1, 0, &id), C::remove(snapshot, id), C::set_pose(snapshot, id, &pose),
-        C::set_motion(snapshot, id, &motion), C::set_instance_mask(snapshot, id, 1), C::commit(snapshot, nullptr),
-        C::scene_memory_bytes(snapshot, &count)}) {
+        C::set_collider(snapshot, id, collider), C::set_motion(snapshot, id, &motion),
+        C::set_instance_mask(snapshot, id, 1), C::commit(snapshot, nullptr), C::scene_memory_bytes(snapshot, &count)}) {
     EXPECT_EQ(status, SUREHIT_INVALID_HANDLE);
   }
   EXPECT_EQ(C::destroy(collider), SUREHIT_OK);
@@ -247,13 +247,15 @@ TYPED_TEST(CScene, refuses_what_cpp_refuses) {
   EXPECT_EQ(C::set_motion(scene, id, &motion), SUREHIT_NON_FINITE_MOTION);
   EXPECT_EQ(surehit_last_error_element(), 1U);
   EXPECT_EQ(C::set_motion(scene, id, nullptr), SUREHIT_NULL_POINTER);
+  EXPECT_EQ(C::set_collider(scene, id, nullptr), SUREHIT_NULL_POINTER);
+  EXPECT_EQ(C::set_collider(scene, id, collider), SUREHIT_OK);
 
   ASSERT_EQ(C::remove(scene, id), SUREHIT_OK);
   std::uint32_t mask = 0;
   for (const surehit_status status :
        {C::remove(scene, id), C::set_pose(scene, id, &pose), C::set_instance_mask(scene, id, 1),
-        C::instance_mask(scene, id, &mask), C::pose(scene, id, &pose), C::motion(scene, id, &motion),
-        C::placed_normal(scene, {7, 0}, 0, &motion)}) {
+        C::set_collider(scene, id, collider), C::instance_mask(scene, id, &mask), C::pose(scene, id, &pose),
+        C::motion(scene, id, &motion), C::placed_normal(scene, {7, 0}, 0, &motion)}) {
     EXPECT_EQ(status, SUREHIT_STALE_ID);
   }
   EXPECT_EQ(surehit_last_error_element(), 7U);

@@ -106,6 +106,8 @@ TYPED_TEST(InvalidInstanceOf, null_collider) {
   const std::shared_ptr<const Collider<TypeParam>> none;
   this->expect_refused([&] { return this->scene.try_add(none); }, [&] { this->scene.add(none); }, Reason::no_collider,
                        0, "collider");
+  this->expect_refused([&] { return this->scene.try_set_collider(this->id, none); },
+                       [&] { this->scene.set_collider(this->id, none); }, Reason::no_collider, 0, "collider");
 }
 
 TEST(InvalidInstance, null_collider_of_floats_in_a_scene_of_doubles) {
@@ -113,6 +115,11 @@ TEST(InvalidInstance, null_collider_of_floats_in_a_scene_of_doubles) {
   const auto result = scene.try_add(std::shared_ptr<const Colliderf>());
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().reason, Reason::no_collider);
+  const auto id = scene.add(stack_collider<float>(1));
+  const auto kept = scene.try_set_collider(id, std::shared_ptr<const Colliderf>());
+  ASSERT_FALSE(kept);
+  EXPECT_EQ(kept.error().reason, Reason::no_collider);
+  EXPECT_EQ(scene.triangle_count(id), 1U);
 }
 
 TYPED_TEST(InvalidInstanceOf, entry_of_a_pose_that_is_not_finite) {

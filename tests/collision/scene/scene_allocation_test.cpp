@@ -171,6 +171,7 @@ TYPED_TEST(SceneAllocation, none_in_setters_and_default_scenes) {
             0U);
   EXPECT_EQ(allocations_of([&] {
               this->scene.set_mask(this->ids[1], 1);
+              this->scene.set_collider(this->ids[1], this->stack);
               this->scene.set_motion(this->ids[1], {0, 0, 1});
               this->scene.set_pose(this->ids[1], this->turned(5));
             }),

@@ -159,6 +159,7 @@ TYPED_TEST(SceneComparisonOf, any_order_of_changes_leads_to_the_same_answers) {
       } else {
         scene.set_pose(*ids[i], draw_pose<TypeParam>(SceneFamily::mixed, random));
         scene.set_motion(*ids[i], {1, 2, 3});
+        scene.set_collider(*ids[i], colliders[random.below(colliders.size())]);
         scene.set_mask(*ids[i], 0);
       }
     };
@@ -172,6 +173,7 @@ TYPED_TEST(SceneComparisonOf, any_order_of_changes_leads_to_the_same_answers) {
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const auto& [mesh, placement] = drawn.instances[i];
       if (!ids[i]) ids[i] = scene.add(colliders[mesh]);
+      scene.set_collider(*ids[i], colliders[mesh]);
       scene.set_mask(*ids[i], placement.mask);
       scene.set_motion(*ids[i], placement.motion);
       scene.set_pose(*ids[i], placement.pose);

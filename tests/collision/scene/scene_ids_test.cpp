@@ -35,6 +35,7 @@ class SceneIds : public testing::Test {
       EXPECT_EQ(result.id(), InstanceId{});
     };
     expect_error(scene.try_remove(id));
+    expect_error(scene.try_set_collider(id, floor));
     expect_error(scene.try_set_pose(id, {}));
     expect_error(scene.try_set_motion(id, {0, 0, 0}));
     expect_error(scene.try_set_mask(id, 1));

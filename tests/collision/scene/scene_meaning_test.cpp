@@ -226,6 +226,85 @@ TYPED_TEST(SceneMeaning, assigned_collider_is_seen_after_the_commit) {
   this->expect_hit(this->scene.first_hit(this->across(4, 0)), TypeParam{0.75}, Side::front, id, 1);
 }
 
+// "Gives an instance another collider. Its id, pose, motion, mask and user data stay."
+
+TYPED_TEST(SceneMeaning, other_collider_is_seen_after_the_commit) {
+  const auto id = this->scene.add(this->floor, at_height<TypeParam>(-2), {.mask = 6, .user_data = 7});
+  this->scene.set_motion(id, {0, 0, 1});
+  this->scene.commit();
+  const long uses = this->floor.use_count();
+  const auto path = this->across(4, -4);
+  const auto before = this->scene.first_hit(path);
+  const auto snapshot = this->scene.snapshot();
+  this->scene.set_collider(id, stack_collider<TypeParam>(2));
+  EXPECT_EQ(this->scene.triangle_count(id), 2U);
+  EXPECT_TRUE(same_bits(*this->scene.first_hit(path), *before));
+  this->scene.commit();
+  const auto after = this->scene.first_hit(path);
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->instance, id);
+  EXPECT_EQ(after->triangle, 1U);
+  EXPECT_LT(after->t, before->t);
+  EXPECT_TRUE(same_bits(*snapshot.first_hit(path), *before));
+  EXPECT_EQ(this->scene.pose(id).translation[2], -2);
+  EXPECT_EQ(this->scene.motion(id)[2], 1);
+  EXPECT_EQ(this->scene.mask(id), 6U);
+  EXPECT_EQ(this->scene.user_data(id), 7U);
+  EXPECT_EQ(this->floor.use_count(), uses);  // The snapshot has it.
+}
+
+TYPED_TEST(SceneMeaning, other_collider_ends_the_share_of_the_first_one) {
+  const long uses = this->floor.use_count();
+  const auto id = this->add();
+  this->scene.commit();
+  this->scene.set_collider(id, stack_collider<TypeParam>(2));
+  EXPECT_GT(this->floor.use_count(), uses);  // Queries may still use it.
+  this->scene.commit();
+  EXPECT_EQ(this->floor.use_count(), uses);
+}
+
+TYPED_TEST(SceneMeaning, last_collider_before_a_commit_counts) {
+  const auto id = this->add();
+  const auto two = stack_collider<TypeParam>(2);
+  const auto three = stack_collider<TypeParam>(3);
+  this->scene.set_collider(id, two);
+  this->scene.set_collider(id, three);
+  EXPECT_EQ(two.use_count(), 1);
+  EXPECT_EQ(three.use_count(), 2);
+  this->scene.commit();
+  EXPECT_EQ(three.use_count(), 2);
+  EXPECT_EQ(this->scene.first_hit(this->across(4, -4))->triangle, 2U);
+}
+
+TYPED_TEST(SceneMeaning, instance_gets_triangles_and_loses_them_with_its_collider) {
+  const auto id = this->scene.add(std::make_shared<Collider<TypeParam>>());
+  for (int round = 0; round < 3; ++round) {
+    this->scene.set_collider(id, this->floor);
+    this->scene.commit();
+    this->expect_hit(this->scene.first_hit(this->across(1, -1)), TypeParam{0.5}, Side::front, id);
+    this->scene.set_collider(id, std::make_shared<Collider<TypeParam>>());
+    this->scene.commit();
+    EXPECT_FALSE(this->scene.any_hit(this->across(1, -1)));
+  }
+}
+
+TEST(SceneMeaningInDouble, collider_of_floats_takes_the_place_of_one_of_doubles) {
+  Scened scene;
+  const auto id = scene.add(stack_collider<double>(1));
+  scene.commit();
+  const auto path = through_stack<double>(4, -4);
+  for (int round = 0; round < 2; ++round) {
+    scene.set_collider(id, stack_collider<float>(3));
+    scene.commit();
+    EXPECT_EQ(scene.triangle_count(id), 3U);
+    EXPECT_EQ(scene.first_hit(path)->triangle, 2U);
+    scene.set_collider(id, stack_collider<double>(2));
+    scene.commit();
+    EXPECT_EQ(scene.triangle_count(id), 2U);
+    EXPECT_EQ(scene.first_hit(path)->triangle, 1U);
+  }
+}
+
 TYPED_TEST(SceneMeaning, path_that_is_not_finite_hits_nothing) {
   this->add();
   this->scene.commit();

@@ -92,7 +92,7 @@ class SceneSnapshots : public testing::Test {
   void change(bool is_pose_alone) {
     for (int i = 0; i < 5; ++i) {
       const std::size_t at = random.below(ids.size());
-      switch (is_pose_alone ? 0 : random.below(5)) {
+      switch (is_pose_alone ? 0 : random.below(6)) {
         case 0:
           scene.set_pose(ids[at], pose());
           break;
@@ -104,6 +104,9 @@ class SceneSnapshots : public testing::Test {
           break;
         case 3:
           add();
+          break;
+        case 4:
+          scene.set_collider(ids[at], random.one_in(3) ? empty : stack);
           break;
         default:
           scene.remove(ids[at]);

@@ -28,7 +28,7 @@ _OF_COLLIDERS: dict[str, list[Any]] = {
     "memory_bytes": [_P, _P], "explain": [_P] * 5}
 _OF_SCENES: dict[str, list[Any]] = {
     "create": [_P], "destroy": [_P], "add": [_P, _P, _P, c_uint32, c_uint64, _P], "remove": [_P, _ID],
-    "set_pose": [_P, _ID, _P], "set_motion": [_P, _ID, _P], "set_mask": [_P, _ID, c_uint32], "commit": [_P, _P],
+    "set_collider": [_P, _ID, _P], "set_pose": [_P, _ID, _P], "set_motion": [_P, _ID, _P], "set_mask": [_P, _ID, c_uint32], "commit": [_P, _P],
     "snapshot": [_P, _P],
     "instance_count": [_P, _P], "contains": [_P, _ID, _P], "instances": [_P, _P, c_size_t, _P], "pose": [_P, _ID, _P],
     "motion": [_P, _ID, _P], "mask": [_P, _ID, _P], "user_data": [_P, _ID, _P], "triangle_count": [_P, _ID, _P],
@@ -86,6 +86,7 @@ def _declare(library: ctypes.CDLL) -> None:
         rigid = getattr(library, f"surehit_pose{suffix}_rigid")
         rigid.argtypes, rigid.restype = [layouts.real] * 4 + [layouts.Vector3Struct], layouts.PoseStruct
     library.surehit_scened_add_colliderf.argtypes = _OF_SCENES["add"]
+    library.surehit_scened_set_colliderf.argtypes = _OF_SCENES["set_collider"]
     library.surehit_last_error.restype = ctypes.c_char_p
     library.surehit_last_error_element.restype = c_size_t
     library.surehit_version.restype = c_uint32

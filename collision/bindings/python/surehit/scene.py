@@ -172,13 +172,7 @@ class Scene(_Instances):
         ``mask`` is for the option ``instance_mask``, and ``user_data`` is any number of 64 bits. Instances share their
         collider. If it is rebuilt later, no query may run until the next commit.
         """
-        if not isinstance(collider, Collider):
-            raise TypeError(f"an instance is one of a Collider, and not of a {type(collider).__name__}")
-        name = "add"
-        if collider.dtype != self.dtype:
-            if self.dtype == np.float32:
-                raise TypeError("a scene of float32 cannot have a collider of float64")
-            name = "add_colliderf"
+        name = self._for_type_of(collider, "add")
         if not 0 <= user_data < 2**64:
             raise ValueError(f"user_data is {user_data}, which has not 64 bits")
         numbers = self._pose_numbers(pose) if pose is not None else None
@@ -186,6 +180,16 @@ class Scene(_Instances):
         check(self._function(name)(self._handle, collider._handle, None if numbers is None else numbers.ctypes.data,
                                    _bits(mask), user_data, byref(id_)))
         return InstanceId(id_.index, id_.generation)
+
+    def _for_type_of(self, collider: Collider, name: str) -> str:
+        """Returns the name of the function that takes this collider."""
+        if not isinstance(collider, Collider):
+            raise TypeError(f"an instance is one of a Collider, and not of a {type(collider).__name__}")
+        if collider.dtype == self.dtype:
+            return name
+        if self.dtype == np.float32:
+            raise TypeError("a scene of float32 cannot have a collider of float64")
+        return {"add": "add_colliderf", "set_collider": "set_colliderf"}[name]
 
     def _pose_numbers(self, pose: ArrayLike) -> NDArray[Any]:
         """Returns the columns of a pose, one after the other."""
@@ -201,6 +205,14 @@ class Scene(_Instances):
     def remove(self, instance: InstanceId) -> None:
         """Removes an instance."""
         check(self._function("remove")(self._handle, _struct(instance)))
+
+    def set_collider(self, instance: InstanceId, collider: Collider) -> None:
+        """Gives an instance another collider. Its id, pose, motion, mask and user data stay.
+
+        Ask about the triangles of earlier hits before this, because they are those of the other mesh.
+        """
+        name = self._for_type_of(collider, "set_collider")
+        check(self._function(name)(self._handle, _struct(instance), collider._handle))
 
     def set_pose(self, instance: InstanceId, pose: ArrayLike) -> None:
         """Sets the pose of an instance. It does not end its motion."""

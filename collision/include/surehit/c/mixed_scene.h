@@ -16,6 +16,10 @@ SUREHIT_C_API surehit_status surehit_scened_add_colliderf(surehit_scened* scene,
                                                           const surehit_posed* pose, uint32_t mask, uint64_t user_data,
                                                           surehit_instance_id* id);
 
+/// Gives an instance a collider of floats, as `surehit_scened_set_collider` gives it one of doubles.
+SUREHIT_C_API surehit_status surehit_scened_set_colliderf(surehit_scened* scene, surehit_instance_id id,
+                                                          const surehit_colliderf* collider);
+
 #ifdef __cplusplus
 }
 #endif

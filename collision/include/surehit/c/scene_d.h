@@ -38,6 +38,11 @@ SUREHIT_C_API surehit_status surehit_scened_add(surehit_scened* scene, const sur
 /// Removes an instance. Its collider stays until the commit.
 SUREHIT_C_API surehit_status surehit_scened_remove(surehit_scened* scene, surehit_instance_id id);
 
+/// Gives an instance another collider. Its id, pose, motion, mask and user data stay. Ask about the triangles of
+/// earlier hits before this, because they are those of the other mesh.
+SUREHIT_C_API surehit_status surehit_scened_set_collider(surehit_scened* scene, surehit_instance_id id,
+                                                         const surehit_colliderd* collider);
+
 /// Sets the pose of an instance. Does not end its motion. Fails as `surehit_scened_add` does.
 SUREHIT_C_API surehit_status surehit_scened_set_pose(surehit_scened* scene, surehit_instance_id id,
                                                      const surehit_posed* pose);

@@ -38,6 +38,11 @@ SUREHIT_C_API surehit_status surehit_scenef_add(surehit_scenef* scene, const sur
 /// Removes an instance. Its collider stays until the commit.
 SUREHIT_C_API surehit_status surehit_scenef_remove(surehit_scenef* scene, surehit_instance_id id);
 
+/// Gives an instance another collider. Its id, pose, motion, mask and user data stay. Ask about the triangles of
+/// earlier hits before this, because they are those of the other mesh.
+SUREHIT_C_API surehit_status surehit_scenef_set_collider(surehit_scenef* scene, surehit_instance_id id,
+                                                         const surehit_colliderf* collider);
+
 /// Sets the pose of an instance. Does not end its motion. Fails as `surehit_scenef_add` does.
 SUREHIT_C_API surehit_status surehit_scenef_set_pose(surehit_scenef* scene, surehit_instance_id id,
                                                      const surehit_posef* pose);
