@@ -144,7 +144,7 @@ TYPED_TEST(BoundedBox, stays_within_its_bounds_where_hill_climbing_makes_the_err
     if (!truth.touches || contact.at_start) return 0.0;
     return share_of_range({contact.t_lower, contact.t_upper}, truth.t.number());
   };
-  expect_within_bound("t", climb_to_worst(10, 300, draw, changed, share_of));
+  expect_within_bound("t", climb_to_worst(40, 100, draw, changed, share_of));
 }
 
 }  // namespace
