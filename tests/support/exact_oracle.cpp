@@ -25,7 +25,7 @@ class Unit {
   }
 
   template <typename Scalar>
-  [[nodiscard]] IntegerVector count(const Vector3<Scalar>& vector) const {
+  [[nodiscard]] ExactIntegerVector count(const Vector3<Scalar>& vector) const {
     return {count(double{vector[0]}), count(double{vector[1]}), count(double{vector[2]})};
   }
 

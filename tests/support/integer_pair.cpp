@@ -9,15 +9,15 @@
 namespace surehit::test {
 namespace {
 
-IntegerVector operator-(const IntegerVector& left, const IntegerVector& right) {
+ExactIntegerVector operator-(const ExactIntegerVector& left, const ExactIntegerVector& right) {
   return {left[0] - right[0], left[1] - right[1], left[2] - right[2]};
 }
 
-IntegerVector operator+(const IntegerVector& left, const IntegerVector& right) {
+ExactIntegerVector operator+(const ExactIntegerVector& left, const ExactIntegerVector& right) {
   return {left[0] + right[0], left[1] + right[1], left[2] + right[2]};
 }
 
-bool is_zero(const IntegerVector& vector) {
+bool is_zero(const ExactIntegerVector& vector) {
   return std::all_of(vector.begin(), vector.end(), [](const mpz_class& x) { return x == 0; });
 }
 
@@ -130,7 +130,7 @@ void eliminate(std::array<Equation, 3>& equations, std::size_t weight_count) {
 /// The convex hull of those of the triangle's corners that carry weight: three, two or one.
 class Hull {
  public:
-  explicit Hull(std::array<IntegerVector, 3> corners) : corners_(std::move(corners)) {
+  explicit Hull(std::array<ExactIntegerVector, 3> corners) : corners_(std::move(corners)) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (corners_[i] < corners_[least_]) least_ = i;
       if (corners_[i] > corners_[greatest_]) greatest_ = i;
@@ -154,9 +154,9 @@ class Hull {
   ///
   /// Every point of the hull is corner 0 plus the weighted spans from corner 0 to the others. Solving for the weights
   /// leaves them as linear functions of t, which each cut the interval, and equations in t alone, which pin it.
-  [[nodiscard]] std::optional<Contact> first_contact(const IntegerVector& start, const IntegerVector& direction,
-                                                     Interval interval) const {
-    const IntegerVector& base = corners_[weighted_[0]];
+  [[nodiscard]] std::optional<Contact> first_contact(const ExactIntegerVector& start,
+                                                     const ExactIntegerVector& direction, Interval interval) const {
+    const ExactIntegerVector& base = corners_[weighted_[0]];
     const std::size_t span_count = weighted_.size() - 1;
     std::array<Equation, 3> equations;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -199,24 +199,24 @@ class Hull {
     return contact;
   }
 
-  [[nodiscard]] bool contains(const IntegerVector& point) const {
+  [[nodiscard]] bool contains(const ExactIntegerVector& point) const {
     Interval here;
     here.pin({0, 1});
     return first_contact(point, {}, here).has_value();
   }
 
-  [[nodiscard]] Side side_of_arrival(const IntegerVector& direction) const {
+  [[nodiscard]] Side side_of_arrival(const ExactIntegerVector& direction) const {
     const mpz_class along = direction[0] * normal_[0] + direction[1] * normal_[1] + direction[2] * normal_[2];
     return along < 0 ? Side::front : along > 0 ? Side::back : Side::edge_on;
   }
 
  private:
-  static IntegerVector normal_of(const IntegerVector& b, const IntegerVector& c) {
+  static ExactIntegerVector normal_of(const ExactIntegerVector& b, const ExactIntegerVector& c) {
     return {b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]};
   }
 
-  std::array<IntegerVector, 3> corners_;
-  IntegerVector normal_;
+  std::array<ExactIntegerVector, 3> corners_;
+  ExactIntegerVector normal_;
   std::size_t least_ = 0;
   std::size_t greatest_ = 0;
   std::vector<std::size_t> weighted_;

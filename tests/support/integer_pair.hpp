@@ -11,15 +11,15 @@
 
 namespace surehit::test {
 
-using IntegerVector = std::array<mpz_class, 3>;
+using ExactIntegerVector = std::array<mpz_class, 3>;
 
 /// A path and a triangle whose coordinates are whole numbers of one unit. Neither t nor a weight depends on the unit.
 /// Rationals would lose time, because each of their sums and products is reduced by common divisors.
 struct IntegerPair {
   PathKind kind;
-  IntegerVector start;
-  IntegerVector direction;  ///< The way from t = 0 to t = 1, of a segment too.
-  std::array<IntegerVector, 3> corners;
+  ExactIntegerVector start;
+  ExactIntegerVector direction;  ///< The way from t = 0 to t = 1, of a segment too.
+  std::array<ExactIntegerVector, 3> corners;
 };
 
 /// Where a path first meets a triangle, in rationals.

@@ -35,11 +35,11 @@ long finest_exponent(const DyadicVector& vector, long least) {
   return least;
 }
 
-IntegerVector in_units_of(const DyadicVector& vector, long exponent) {
+ExactIntegerVector in_units_of(const DyadicVector& vector, long exponent) {
   return {vector[0].in_units_of(exponent), vector[1].in_units_of(exponent), vector[2].in_units_of(exponent)};
 }
 
-void shift_left(IntegerVector& vector, long digits) {
+void shift_left(ExactIntegerVector& vector, long digits) {
   for (mpz_class& x : vector) x <<= static_cast<mp_bitcnt_t>(digits);
 }
 
@@ -67,7 +67,7 @@ struct Reach {
 
 using Reaches = std::array<Reach, 3>;
 
-bool is_apart(const Reaches& reaches, const std::array<IntegerVector, 3>& corners) {
+bool is_apart(const Reaches& reaches, const std::array<ExactIntegerVector, 3>& corners) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& [a, b, c] = corners;
     const mpz_class& least = std::min({a[axis], b[axis], c[axis]}, [](const auto& x, const auto& y) { return x < y; });
@@ -121,7 +121,7 @@ void SceneOracle<Scalar>::add(InstanceId id, const TriangleMeshView<MeshScalar>&
   for (std::size_t axis = 0; axis < 3 && !images.empty(); ++axis) {
     placed.low[axis] = placed.high[axis] = placed.triangles[0][0][axis];
     for (const auto& triangle : placed.triangles) {
-      for (const IntegerVector& corner : triangle) {
+      for (const ExactIntegerVector& corner : triangle) {
         if (corner[axis] < placed.low[axis]) placed.low[axis] = corner[axis];
         if (corner[axis] > placed.high[axis]) placed.high[axis] = corner[axis];
       }
@@ -146,8 +146,8 @@ void SceneOracle<Scalar>::add_hits(const PlacedMesh& mesh, const Path<Scalar>& p
   IntegerPair seen{path.kind, in_units_of(start, exponent), in_units_of(direction, exponent), {}};
 
   const Reaches reaches = {Reach(seen, 0), Reach(seen, 1), Reach(seen, 2)};
-  IntegerVector low = mesh.low;
-  IntegerVector high = mesh.high;
+  ExactIntegerVector low = mesh.low;
+  ExactIntegerVector high = mesh.high;
   shift_left(low, digits);
   shift_left(high, digits);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -159,7 +159,7 @@ void SceneOracle<Scalar>::add_hits(const PlacedMesh& mesh, const Path<Scalar>& p
     if (!mesh.masks.empty() && (mesh.masks[i] & options.mask) == 0) continue;
     if (mesh.masks.empty() && options.mask == 0) continue;
     seen.corners = mesh.triangles[i];
-    for (IntegerVector& corner : seen.corners) shift_left(corner, digits);
+    for (ExactIntegerVector& corner : seen.corners) shift_left(corner, digits);
     if (is_apart(reaches, seen.corners)) continue;
     if (const auto contact = first_contact(seen, pair_options(options))) {
       hits.push_back({contact->t, {rounded_hit<Scalar>(*contact, i), mesh.id}});

@@ -76,10 +76,10 @@ class SceneOracle {
     std::uint32_t mask;
     std::vector<std::uint32_t> masks;
     DyadicVector motion;
-    long exponent;                                        ///< Coordinates are whole numbers of 2^exponent.
-    std::vector<std::array<IntegerVector, 3>> triangles;  ///< At t = 0.
-    IntegerVector low;                                    ///< The box around all triangles.
-    IntegerVector high;
+    long exponent;                                             ///< Coordinates are whole numbers of 2^exponent.
+    std::vector<std::array<ExactIntegerVector, 3>> triangles;  ///< At t = 0.
+    ExactIntegerVector low;                                    ///< The box around all triangles.
+    ExactIntegerVector high;
   };
   struct OrderedHit {
     mpq_class t;
