@@ -117,7 +117,7 @@ class SceneTest(unittest.TestCase):
             self.assertEqual((scene.first_hit(ray).t, scene.first_hit(ray).instance), (1, instance))
         self.assertEqual(scene.user_data(instance), 3)
         with self.assertRaises(TypeError):
-            surehit.Scene(np.float32).set_collider(instance, box)
+            surehit.Scene(np.float32).set_collider(instance, surehit.Collider(BOX.astype(np.float64), SIDES))
         with self.assertRaises(TypeError):
             scene.set_collider(instance, BOX)
         scene.remove(instance)
