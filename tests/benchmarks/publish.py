@@ -3,7 +3,7 @@
 
 Each processor has a page in figures/, made from template.md. It ends with all tables of surehit_benchmark.
 
-What it does not know is passed on to surehit_benchmark, to --quick too, which shows in half a minute that all of this
+What it does not know is passed on to surehit_benchmark. So is --quick, which shows in five minutes that all of this
 works, and leaves figures without meaning: put the files back afterwards.
 """
 
@@ -54,9 +54,9 @@ BUILD_AND_MEMORY = [("build ns", "ms", "build", GOALS_OF_BUILDS), ("bytes", "MB"
 GOALS_OF_DOUBLES = {"short": (2.0, 2.0), "near": (2.0, 2.0), "long": (2.0, 2.0)}
 # The tables of a few even meshes with all contenders, and the queries and builds of all meshes.
 TABLES, CONTENT = "tables", "content"
-# Moving shapes take the peers so long that one mesh has to do.
+# Moving shapes take the peers so long that one mesh and a third of the rounds have to do.
 TABLES_OF_PATHS = ["queries", "build", "load", "size", "tick", "threads", "exactness", "statistics", "scene"]
-SHAPES = ["--table", "shapes", "--mesh", "dungeon", "--paths", "2000"]
+SHAPES = ["--table", "shapes", "--mesh", "dungeon"]
 
 
 def fail(reason):
@@ -572,10 +572,9 @@ def main():
                         help="where CMake was configured, in Release (default: build/release)")  # fmt: skip
     parser.add_argument("--z-up", action="append", default=[], metavar="NAME",
                         help="a mesh of the folder whose upward axis is z")  # fmt: skip
-    parser.add_argument("--rounds", default="9", metavar="COUNT",
+    parser.add_argument("--rounds", default=9, type=int, metavar="COUNT",
                         help="how often each contender is measured (default: 9)")  # fmt: skip
     arguments, passed_on = parser.parse_known_args()
-    passed_on += ["--rounds", arguments.rounds]
     if not (arguments.build / "CMakeCache.txt").exists():
         fail(f"{arguments.build} is not configured; cmake --preset release does it for build/release")
     subprocess.run(["cmake", "--build", arguments.build, "--target", "surehit_benchmark"], check=True)
@@ -593,10 +592,11 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         csv_path, chart_path = Path(folder, "figures.csv"), Path(folder, "ratios.svg")
 
-        def run(kind, *options, files=()):
-            shown = shlex.join(["surehit_benchmark", "--meshes", "FOLDER", *z_up, *options, *passed_on])
+        def run(kind, *options, rounds=arguments.rounds, files=()):
+            options = [*z_up, *options, *passed_on, "--rounds", str(rounds)]
+            shown = shlex.join(["surehit_benchmark", "--meshes", "FOLDER", *options])
             print(shown, file=sys.stderr)
-            command = [program, "--meshes", arguments.meshes, *z_up, *options, *passed_on, "--csv", csv_path, *files]
+            command = [program, "--meshes", arguments.meshes, *options, "--csv", csv_path, *files]
             output = subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
             figures.add(csv_path, kind)
             sections.append(f"    {shown}\n\n{output.rstrip()}")
@@ -614,7 +614,8 @@ def main():
         if "avx2" in others:
             run(CONTENT, *content, "--instruction-set", "avx2")
         run(CONTENT, "--uneven", "--table", "build")
-        run(TABLES, *SHAPES)
+        paths_of_shapes = [] if "--quick" in passed_on else ["--paths", "2000"]
+        run(TABLES, *SHAPES, *paths_of_shapes, rounds=math.ceil(arguments.rounds / 3))
 
         check(figures)
         name = re.sub(r"\W+", "_", machine(figures)).strip("_").lower()
