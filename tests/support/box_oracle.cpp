@@ -88,8 +88,21 @@ struct Quotient {
   }
 };
 
+/// Whether the coordinates that the box passes on an axis are not those of the triangle. So it is for most misses.
+bool are_apart(const Pair& pair) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const mpz_class& from = pair.start[i].get_num();
+    const mpz_class to = from + pair.step[i].get_num();
+    const mpz_class& reach = pair.extents[i].get_num();
+    const auto [low, high] = std::minmax({pair.corners[0][i], pair.corners[1][i], pair.corners[2][i]});
+    if (std::min(from, to) - reach > high.get_num() || std::max(from, to) + reach < low.get_num()) return true;
+  }
+  return false;
+}
+
 /// The lowest t in [0, 1] at which a point of the triangle is in the box.
 std::optional<mpq_class> first_time(const Pair& pair) {
+  if (are_apart(pair)) return std::nullopt;
   const auto& [start, step, extents, corners] = pair;
   std::vector<Row> rows = {{1, 0, 0, 0}, {0, 1, 0, 0}, {-1, -1, 0, 1}, {0, 0, 1, 0}, {0, 0, -1, 1}};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -106,8 +119,10 @@ std::optional<mpq_class> first_time(const Pair& pair) {
   for (const Row& row : rows) {
     const int sign = sgn(row[2]);
     if (sign == 0 && row[3] < 0) return std::nullopt;
-    if (sign > 0) low = std::max(low, Quotient{-row[3], row[2]});
-    if (sign < 0) high = std::min(high, Quotient{row[3], -row[2]});
+    if (sign == 0) continue;
+    Quotient bound = sign > 0 ? Quotient{-row[3], row[2]} : Quotient{row[3], -row[2]};
+    if (sign > 0 && low < bound) low = std::move(bound);
+    if (sign < 0 && bound < high) high = std::move(bound);
   }
   if (high < low) return std::nullopt;
   mpq_class first(low.numerator, low.denominator);

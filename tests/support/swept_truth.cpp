@@ -373,9 +373,23 @@ bool is_in_range(const QuadraticRoot& root) {
   return root.b <= 0 && root.c >= 0 && !(slope < 0 && value > 0);
 }
 
+/// Whether the coordinates that the capsule passes on an axis are not those of the triangle. So it is for most misses.
+bool are_apart(const WholeCapsulePair& pair) {
+  const mpz_class radius = sqrt(pair.rr) + 1;  // Or a little more.
+  for (std::size_t i = 0; i < 3; ++i) {
+    const mpz_class& from = pair.start[i];
+    const mpz_class to = from + pair.step[i];
+    const mpz_class reach = abs(pair.half_axis[i]) + radius;
+    const auto [low, high] = std::minmax({pair.corners[0][i], pair.corners[1][i], pair.corners[2][i]});
+    if (std::min(from, to) - reach > high || std::max(from, to) + reach < low) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 SweptTruth truth_of(const WholeCapsulePair& pair) {
+  if (are_apart(pair)) return {};
   const PartLister lister(pair);
   const std::vector<Part> parts = lister.parts();
   if (const auto at_start = truth_at_start(pair, parts)) return *at_start;
