@@ -30,7 +30,7 @@ passed=0
 failed=0
 skipped=0
 failures=()
-left_out=()
+left_out=$(mktemp)
 
 record_failure() {
   failed=$((failed + $1))
@@ -42,7 +42,8 @@ stage() { printf '\n== %s  (%d min %d s since the start)\n' "$1" $((SECONDS / 60
 finish() {
   echo
   for failure in "${failures[@]}"; do echo "failed: $failure"; done
-  for part in "${left_out[@]}"; do echo "left out: $part"; done
+  sed 's/^/left out: /' "$left_out"
+  rm -f "$left_out"
   if [[ $skipped -gt 0 ]]; then echo "$skipped skipped: those that ctest lists above as not run"; fi
   echo "$passed passed, $failed failed"
   [[ $failed -eq 0 && $passed -gt 0 ]]
@@ -56,9 +57,15 @@ step() {
   return 1
 }
 
+# build PRESET OPTION...: sources share translation units, which takes less time.
 build() {
-  step cmake --preset "$1" -D SUREHIT_JOIN_TESTS=ON && step cmake --build --preset "$1"
+  local preset=$1
+  shift
+  step cmake --preset "$preset" -D SUREHIT_JOIN_TESTS=ON -D CMAKE_UNITY_BUILD=ON &&
+    step cmake --build --preset "$preset" "$@"
 }
+
+build_with_gcc() { LDFLAGS=-fuse-ld=lld CXX=g++ build release "$@"; }
 
 run_tests() {
   local preset=$1 output status counts failed_here total skipped_here
@@ -80,20 +87,23 @@ run_tests() {
   fi
 }
 
+# install_part PART TEXT: the text says what is left out if the packages of this part cannot be had. CMake builds without it.
+install_part() { .ci/install_packages.sh "$1" || echo "$2" >>"$left_out"; }
+
+install_for_packages() {
+  install_part languages "the guide's programs in Rust and C#: their compilers cannot be installed"
+  install_part python "the package for Python: NumPy or pip cannot be installed"
+  install_part python_tests "the pictures and types of the package for Python: Matplotlib or mypy cannot be installed"
+  install_part web "WebAssembly: its packages cannot be installed"
+  command -v npm >/dev/null || install_part npm "the comparison with three.js: npm cannot be installed"
+  { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null ||
+    install_part browser "the page web_picking: no Chromium can be installed"
+}
+
 stage "Packages"
 step .ci/install_packages.sh library examples tests benchmarks || finish
-# Where it cannot be had, CMake finds none, and builds without it.
-.ci/install_packages.sh mpi || left_out+=("visibility_bake with MPI: its package cannot be installed")
-.ci/install_packages.sh gpu || left_out+=("batches on a GPU: Vulkan's headers, glslang or lavapipe cannot be installed")
-if ! $quick; then
-  .ci/install_packages.sh languages || left_out+=("the guide's programs in Rust and C#: their compilers cannot be installed")
-  .ci/install_packages.sh python || left_out+=("the package for Python: NumPy or pip cannot be installed")
-  .ci/install_packages.sh python_tests || left_out+=("the pictures and types of the package for Python: Matplotlib or mypy cannot be installed")
-  .ci/install_packages.sh web || left_out+=("WebAssembly: its packages cannot be installed")
-  command -v npm >/dev/null || .ci/install_packages.sh npm || left_out+=("the comparison with three.js: npm cannot be installed")
-  { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null ||
-    .ci/install_packages.sh browser || left_out+=("the page web_picking: no Chromium can be installed")
-fi
+install_part mpi "visibility_bake with MPI: its package cannot be installed"
+install_part gpu "batches on a GPU: Vulkan's headers, glslang or lavapipe cannot be installed"
 
 if $quick; then
   stage "Clang, Release: building"
@@ -103,8 +113,15 @@ if $quick; then
   finish
 fi
 
+stage "GCC, Release: building the library, while more packages are installed"
+output_of_install=$(mktemp)
+install_for_packages >"$output_of_install" 2>&1 &
+build_with_gcc --target surehit_collision || finish
+wait
+cat "$output_of_install"
+rm -f "$output_of_install"
 stage "GCC, Release: building"
-LDFLAGS=-fuse-ld=lld CXX=g++ build release || finish
+build_with_gcc || finish
 stage "GCC, Release: testing"
 run_tests release
 
