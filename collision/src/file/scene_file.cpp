@@ -214,6 +214,7 @@ class SceneReading {
     if (!motion.allFinite()) return fault("its motion is not finite");
     instance.placement.moves = motion != Vector3<Scalar>::Zero();
     if (collider == no_collider) return true;
+    if (!instance.has_next_generation()) return fault("its generation is the last one, which is for free indices");
     if (collider >= colliders_.size()) return fault("there is no collider " + std::to_string(collider));
     colliders_[collider].is_used = true;
     const Loaded& loaded = colliders_[collider];

@@ -174,6 +174,9 @@ bool InstanceTree::frame_holds() const noexcept {
 }
 
 Planes InstanceTree::planes_of(const InstanceBox& box) const noexcept {
+  constexpr float far = std::numeric_limits<float>::infinity();
+  // It may be beyond the frame, where the slack of a path is not enough.
+  if (!is_bounded(box)) return {-far, -far, -far, far, far, far};
   Planes planes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // Two roundings, of the difference and of this margin.
@@ -214,15 +217,16 @@ void InstanceTree::update(std::span<const std::uint32_t> removed, std::span<cons
                           std::span<const std::uint32_t> moved, std::span<const InstanceBox> boxes) noexcept {
   const Planes all = planes_around(nodes_[0]);
   bool may_be_smaller = false;
-  for (const std::uint32_t instance : moved) {
-    if (node_of(instance) == no_child) continue;
-    may_be_smaller |= reaches_a_side_of(all, instance);
-    extend(box_, boxes[instance]);
-  }
+  // They come first, because they have changed too, and have no box any more.
   for (const std::uint32_t instance : removed) {
     may_be_smaller |= reaches_a_side_of(all, instance);
     take_child_out(node_of_[instance], instance | instance_bit);
     node_of_[instance] = no_child;
+  }
+  for (const std::uint32_t instance : moved) {
+    if (node_of(instance) == no_child) continue;
+    may_be_smaller |= reaches_a_side_of(all, instance);
+    extend(box_, boxes[instance]);
   }
   for (const std::uint32_t instance : added) {
     extend(box_, boxes[instance]);
@@ -329,9 +333,12 @@ InstanceTree InstanceTree::with_room() const {
 
 void InstanceTree::make_room(std::size_t added, std::size_t instances) {
   if (node_of_.size() < instances) node_of_.resize(instances, no_child);
-  if (nodes_.capacity() - nodes_.size() < added + 1) nodes_.reserve(nodes_.size() + nodes_.size() / 8 + added + 1);
-  parents_.resize(nodes_.capacity(), no_child);
-  changed_.resize((nodes_.capacity() + 63) / 64, 0);
+  const std::size_t needed = nodes_.size() + added + 1;
+  const std::size_t capacity = nodes_.capacity() < needed ? needed + nodes_.size() / 8 : nodes_.capacity();
+  // The nodes come last. If memory runs out before, they have no room that the others lack.
+  parents_.resize(std::max(parents_.size(), capacity), no_child);
+  changed_.resize((parents_.size() + 63) / 64, 0);
+  nodes_.reserve(capacity);
 }
 
 void InstanceTree::link(std::size_t instances) {

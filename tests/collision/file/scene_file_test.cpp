@@ -151,6 +151,7 @@ TYPED_TEST(SceneFile, forged_instances_are_found) {
   refuse(instances, std::uint32_t{2}, instances);               // There is no such collider.
   refuse(instances + 2 * width, std::uint32_t{0}, unused + 8);  // No instance has the other collider.
   refuse(instances, ~std::uint32_t{0}, unused + 8);             // The index is lost.
+  refuse(instances + 4, ~std::uint32_t{0}, instances);          // Only a free index has the last generation.
   refuse(instances + 20, std::numeric_limits<TypeParam>::quiet_NaN(), instances);
   refuse(instances + 20, TypeParam{0}, instances);  // The pose is singular.
   refuse(instances + 20 + 14 * sizeof(TypeParam), std::numeric_limits<TypeParam>::infinity(), instances);

@@ -191,5 +191,29 @@ TYPED_TEST(ManyInstances, some_come_and_go_in_each_tick) {
   }
 }
 
+/// The origin must not come into the box, neither where it is near enough for the frame of the tree nor where it is
+/// not.
+TYPED_TEST(ManyInstances, box_is_as_before_when_one_in_the_middle_has_gone) {
+  constexpr int side = 20;
+  for (int distance : {1, 1000}) {
+    Scene<TypeParam> scene;
+    std::vector<InstanceId> ids;
+    for (int i = 0; i < side * side; ++i) {
+      const Vector3<TypeParam> at = this->place(distance + i % side, distance + i / side);
+      ids.push_back(scene.add(this->floor, Pose<TypeParam>::translated({at[0], at[1], at[0]})));
+    }
+    scene.commit();
+    const auto box = scene.box();
+    scene.remove(ids[side * side / 2 + side / 2]);
+    scene.commit();
+    EXPECT_EQ(scene.box().low, box.low);
+    EXPECT_EQ(scene.box().high, box.high);
+    scene.set_collider(ids[3 * side + 4], std::make_shared<Collider<TypeParam>>());
+    scene.commit();
+    EXPECT_EQ(scene.box().low, box.low);
+    EXPECT_EQ(scene.box().high, box.high);
+  }
+}
+
 }  // namespace
 }  // namespace surehit::test::many_instances_test

@@ -258,6 +258,34 @@ TYPED_TEST(SceneAllocation, failed_commit_leaves_the_committed_state_as_it_was) 
   EXPECT_GT(failures, 8U);
 }
 
+/// The tree made some room for those that did not come. Others that move must not take more than there is.
+TYPED_TEST(SceneAllocation, failed_commit_of_new_instances_leaves_the_others_free_to_move) {
+  const auto high = [](int i) { return SceneAllocation<TypeParam>::turned(i); };
+  Scene<TypeParam> expected;
+  for (int i = 0; i < 40; ++i) expected.add(this->stack, high(i < 18 ? 39 - i : i));
+  expected.commit();
+  std::vector<SceneHit<TypeParam>> expected_hits;
+  expected.all_hits(through_stack<TypeParam>(-1000, 1000), expected_hits);
+  std::size_t failures = 0;
+  for (std::size_t successes = 0;; ++successes) {
+    Scene<TypeParam> scene;
+    std::vector<InstanceId> ids;
+    for (int i = 0; i < 40; ++i) ids.push_back(scene.add(this->stack, high(i)));
+    scene.commit();
+    std::vector<InstanceId> added;
+    for (int i = 0; i < 10; ++i) added.push_back(scene.add(this->stack, high(i)));
+    if (!this->fails_after(successes, [&] { scene.commit(); })) break;
+    ++failures;
+    for (const InstanceId id : added) scene.remove(id);
+    for (int i = 0; i < 18; ++i) scene.set_pose(ids[static_cast<std::size_t>(i)], high(39 - i));
+    scene.commit();
+    std::vector<SceneHit<TypeParam>> hits;
+    scene.all_hits(through_stack<TypeParam>(-1000, 1000), hits);
+    this->expect_same(hits, expected_hits);
+  }
+  EXPECT_GT(failures, 3U);
+}
+
 TYPED_TEST(SceneAllocation, failed_commit_leaves_snapshots_as_they_were) {
   using Hits = std::vector<SceneHit<TypeParam>>;
   Random random(6);

@@ -394,5 +394,41 @@ TEST(SceneOfDoubles, meets_boxes_without_bounds_far_from_their_middle) {
   }
 }
 
+/// A wall across an axis, as far away as doubles go. Its box is small, and beyond the frame of the other instances.
+TEST(SceneOfDoubles, meets_a_small_box_far_beyond_all_others) {
+  constexpr double huge = 1e305;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto turned = [&](double x, double y, double z) {
+      const std::array<double, 3> all = {x, y, z};
+      const auto at = [&](int i) { return all[static_cast<std::size_t>((i + axis) % 3)]; };
+      return Vector3d(at(0), at(1), at(2));
+    };
+    GeneratedMesh<double> wall;
+    wall.add({turned(0, -1, -1), turned(0, 1, -1), turned(0, 0, 1)});
+    const auto collider = std::make_shared<Collider<double>>(wall.view());
+    for (const bool is_alone : {true, false}) {
+      Scened scene;
+      const auto far = scene.add(collider, Posed::translated(turned(huge, 0, 0)));
+      if (!is_alone) scene.add(collider, Posed::translated(turned(3, 100, 0)));
+      scene.commit();
+      const Rayd ray{turned(-5, 0.25, 0.125), turned(1, 0, 0)};
+      const auto hit = scene.first_hit(ray);
+      ASSERT_TRUE(hit) << axis;
+      EXPECT_EQ(hit->t, huge);
+      EXPECT_EQ(hit->instance, far);
+      EXPECT_TRUE(scene.any_hit(ray));
+      const std::vector<Rayd> rays(20, ray);
+      std::vector<SceneHitd> hits(rays.size());
+      std::vector<std::uint8_t> blocked(rays.size());
+      scene.first_hits(rays, hits);
+      scene.any_hits(rays, blocked);
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        EXPECT_TRUE(same_bits(hits[i], *hit));
+        EXPECT_EQ(blocked[i], 1);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace surehit::test::scene_meaning_test
