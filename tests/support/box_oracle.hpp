@@ -14,8 +14,8 @@ namespace surehit::test {
 ///
 /// t is the minimum of a linear program in the two weights and t, by the elimination of Fourier and Motzkin. The
 /// weights come from the triangle's part in the box at this t, which is cut out face by face. All numbers are
-/// rationals. It shares nothing with the library, and asks no separating axis but those of the coordinates. Call it in the default floating-point
-/// environment.
+/// rationals. It shares nothing with the library, and asks no separating axis but those of the coordinates. Call it in
+/// the default floating-point environment.
 template <typename Scalar>
 [[nodiscard]] std::optional<std::string> find_error(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle,
                                                     const std::optional<ShapeHit<Scalar>>& answer);

@@ -371,14 +371,16 @@ TEST(SceneOfDoubles, knows_where_the_middle_of_a_mesh_is_though_its_image_cancel
   }
 }
 
+/// The coordinates from this axis on.
+Vector3d turned_by(int axis, const std::array<double, 3>& all) {
+  const auto at = [&](int i) { return all[static_cast<std::size_t>((i + axis) % 3)]; };
+  return {at(0), at(1), at(2)};
+}
+
 TEST(SceneOfDoubles, meets_boxes_without_bounds_far_from_their_middle) {
   constexpr double huge = 1e305;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto turned = [&](double x, double y, double z) {
-      const std::array<double, 3> all = {x, y, z};
-      const auto at = [&](int i) { return all[static_cast<std::size_t>((i + axis) % 3)]; };
-      return Vector3d(at(0), at(1), at(2));
-    };
+    const auto turned = [&](double x, double y, double z) { return turned_by(axis, {x, y, z}); };
     GeneratedMesh<double> wall;
     wall.add({turned(0.5, -huge, -huge), turned(0.5, huge, -huge), turned(0.5, 0, huge)});
     Scened scene;
@@ -398,11 +400,7 @@ TEST(SceneOfDoubles, meets_boxes_without_bounds_far_from_their_middle) {
 TEST(SceneOfDoubles, meets_a_small_box_far_beyond_all_others) {
   constexpr double huge = 1e305;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto turned = [&](double x, double y, double z) {
-      const std::array<double, 3> all = {x, y, z};
-      const auto at = [&](int i) { return all[static_cast<std::size_t>((i + axis) % 3)]; };
-      return Vector3d(at(0), at(1), at(2));
-    };
+    const auto turned = [&](double x, double y, double z) { return turned_by(axis, {x, y, z}); };
     GeneratedMesh<double> wall;
     wall.add({turned(0, -1, -1), turned(0, 1, -1), turned(0, 0, 1)});
     const auto collider = std::make_shared<Collider<double>>(wall.view());
