@@ -10,7 +10,7 @@ namespace surehit {
 
 /// How a saved collider or scene is loaded.
 struct LoadOptions {
-  /// Leaves out the proof that the lists of the grid are complete, which takes half of the time of a load. Set it only
+  /// Leaves out the proof that the lists of the grid are complete, which takes two thirds of a load. Set it only
   /// for bytes that nobody else could have written, such as a file of your own that you have signed.
   ///
   /// All else is checked, and the checksum finds damage. But **right answers are not promised** for bytes that someone

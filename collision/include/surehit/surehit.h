@@ -15,7 +15,9 @@
 /// - A struct with a member `size` may grow. Set it to the size of the struct. Each other member may be 0, which is its
 ///   default. So programs and libraries of different versions work together.
 /// - No exception leaves a function. Queries may run in many threads at the same time. No query may run while its
-///   collider changes or its scene commits. An invalid pointer that is not null cannot be told.
+///   collider changes or its scene commits.
+/// - A null pointer where none may be is an error, and so is a handle that was destroyed, until 1,000 more were. Other
+///   invalid pointers cannot be told.
 
 #include "surehit/c/collider_d.h"            // IWYU pragma: export
 #include "surehit/c/collider_f.h"            // IWYU pragma: export

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// Includes all public headers except `tbb_executor.hpp`, which needs oneTBB. `intersect` is for one triangle,
-/// `Collider` is for a mesh, and `Scene` is for many placed meshes.
+/// Includes all public headers but three: `tbb_executor.hpp` needs oneTBB, and `gpu.hpp` and `gpu_scene.hpp` belong to
+/// `surehit::gpu`. `intersect` is for one triangle, `Collider` is for a mesh, and `Scene` is for many placed meshes.
 
 #include "surehit/scalar.hpp"
 

@@ -112,6 +112,7 @@ SUREHIT_C_API surehit_status surehit_colliderd_any_hits(const surehit_colliderd*
 ///
 /// The path must be a segment, else it fails with `SUREHIT_INVALID_VALUE`. `hit` must be its first hit under the same
 /// options. If no point before the hit is free, it is the start. Takes at most 24 queries in float, and 53 in double.
+/// After `SUREHIT_STOPPED`, the point is the start.
 SUREHIT_C_API surehit_status surehit_colliderd_last_free_point(const surehit_colliderd* collider,
                                                                const surehit_pathd* segment, const surehit_hitd* hit,
                                                                const surehit_query_optionsd* options,

@@ -112,6 +112,7 @@ SUREHIT_C_API surehit_status surehit_colliderf_any_hits(const surehit_colliderf*
 ///
 /// The path must be a segment, else it fails with `SUREHIT_INVALID_VALUE`. `hit` must be its first hit under the same
 /// options. If no point before the hit is free, it is the start. Takes at most 24 queries in float, and 53 in double.
+/// After `SUREHIT_STOPPED`, the point is the start.
 SUREHIT_C_API surehit_status surehit_colliderf_last_free_point(const surehit_colliderf* collider,
                                                                const surehit_pathf* segment, const surehit_hitf* hit,
                                                                const surehit_query_optionsf* options,

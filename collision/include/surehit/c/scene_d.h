@@ -48,7 +48,8 @@ SUREHIT_C_API surehit_status surehit_scened_set_pose(surehit_scened* scene, sure
                                                      const surehit_posed* pose);
 
 /// Sets the motion of an instance. At parameter t of a segment, the instance is at its pose plus t times the motion.
-/// Rays and lines see it at its pose. The motion stays until it is set again. Zero ends it.
+/// Moving shapes see the motion too. Rays and lines see the instance at its pose. The motion stays until it is set
+/// again. Zero ends it.
 ///
 /// Fails with `SUREHIT_NON_FINITE_MOTION`.
 SUREHIT_C_API surehit_status surehit_scened_set_motion(surehit_scened* scene, surehit_instance_id id,
