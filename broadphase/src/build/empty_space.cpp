@@ -15,35 +15,35 @@ constexpr std::uint8_t max_distance = CellWord::max_distance;
 constexpr std::uint32_t octants = 8;
 
 /// Distances of 16 cells side by side on the x axis, one byte each. Every target has such vectors.
-using Cells = VectorOf<std::uint8_t, 16>;
+using CellBytes = VectorOf<std::uint8_t, 16>;
 /// The two halves of such a vector.
 using Halves = VectorOf<std::uint64_t, 2>;
-constexpr std::size_t row_unit = sizeof(Cells);
+constexpr std::size_t row_unit = sizeof(CellBytes);
 
-SUREHIT_ALWAYS_INLINE inline Cells all_cells(std::uint8_t x) { return Cells{} + x; }
+SUREHIT_ALWAYS_INLINE inline CellBytes all_cells(std::uint8_t x) { return CellBytes{} + x; }
 
-SUREHIT_ALWAYS_INLINE inline Cells load(const std::uint8_t* from) {
-  Cells cells;
+SUREHIT_ALWAYS_INLINE inline CellBytes load(const std::uint8_t* from) {
+  CellBytes cells;
   std::memcpy(&cells, from, sizeof cells);
   return cells;
 }
 
-SUREHIT_ALWAYS_INLINE inline void store(Cells cells, std::uint8_t* to) { std::memcpy(to, &cells, sizeof cells); }
+SUREHIT_ALWAYS_INLINE inline void store(CellBytes cells, std::uint8_t* to) { std::memcpy(to, &cells, sizeof cells); }
 
 /// Returns, for each cell, what is `by` cells ahead of it: upward or downward, as the octant looks. `next` holds the 16
 /// cells that follow in that direction.
 template <bool is_upward, int by>
-SUREHIT_ALWAYS_INLINE inline Cells ahead(Cells cells, Cells next) {
+SUREHIT_ALWAYS_INLINE inline CellBytes ahead(CellBytes cells, CellBytes next) {
   const auto near = with_bits_of<Halves>(cells);
   const auto far = with_bits_of<Halves>(next);
   const Halves middle = is_upward ? shuffled<1, 2>(near, far) : shuffled<1, 2>(far, near);
-  if constexpr (by == 8) return with_bits_of<Cells>(middle);
+  if constexpr (by == 8) return with_bits_of<CellBytes>(middle);
   const Halves& first = by < 8 ? near : middle;
   const Halves& second = by < 8 ? middle : far;
   constexpr int bits = by % 8 * 8;
   constexpr bool to_the_right = is_upward == (std::endian::native == std::endian::little);
-  return with_bits_of<Cells>(to_the_right ? first >> bits | second << (64 - bits)
-                                          : first << bits | second >> (64 - bits));
+  return with_bits_of<CellBytes>(to_the_right ? first >> bits | second << (64 - bits)
+                                              : first << bits | second >> (64 - bits));
 }
 
 /// Measures the distances in each octant, row by row. An empty cell has seven neighbours ahead. Its cube is larger by
@@ -124,17 +124,17 @@ class Octants {
     std::uint8_t* const measured = distances + row(y, z);
 
     // The same values of the cells that follow in the row.
-    Cells next_beside = all_cells(max_distance);
-    Cells next_begun = all_cells(max_distance);
-    Cells next_of_four = all_cells(max_distance);
+    CellBytes next_beside = all_cells(max_distance);
+    CellBytes next_begun = all_cells(max_distance);
+    CellBytes next_of_four = all_cells(max_distance);
     for (std::size_t step = 0; step < pitch_; step += row_unit) {
       const std::size_t x = is_upward ? pitch_ - row_unit - step : step;
-      const Cells beside = lesser(lesser(load(beside_y + x), load(beside_z + x)), load(beside_both + x));
-      const Cells nearest =
+      const CellBytes beside = lesser(lesser(load(beside_y + x), load(beside_z + x)), load(beside_both + x));
+      const CellBytes nearest =
           lesser(lesser(beside, ahead<is_upward, 1>(beside, next_beside)), all_cells(max_distance - 1));
-      const Cells begun = (nearest + 1) & load(emptiness + x);
-      const Cells of_four = min_of_four<is_upward, 1>(begun, next_begun);
-      const Cells distance = min_of_four<is_upward, 4>(of_four, next_of_four);
+      const CellBytes begun = (nearest + 1) & load(emptiness + x);
+      const CellBytes of_four = min_of_four<is_upward, 1>(begun, next_begun);
+      const CellBytes distance = min_of_four<is_upward, 4>(of_four, next_of_four);
       store(distance, measured + x);
       next_beside = beside;
       next_begun = begun;
@@ -145,7 +145,7 @@ class Octants {
   /// Returns the minimum over a cell and three cells ahead of it, at distances of `by`. Each allows `by` more than the
   /// one before.
   template <bool is_upward, int by>
-  SUREHIT_ALWAYS_INLINE static Cells min_of_four(Cells cells, Cells next) {
+  SUREHIT_ALWAYS_INLINE static CellBytes min_of_four(CellBytes cells, CellBytes next) {
     return lesser(
         lesser(cells, ahead<is_upward, by>(cells, next) + by),
         lesser(ahead<is_upward, 2 * by>(cells, next) + 2 * by, ahead<is_upward, 3 * by>(cells, next) + 3 * by));
