@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "build/vertex_lanes.hpp"
+#include "support/floating_point_environment.hpp"
 
 namespace surehit {
 
 template <FloatOrDouble Scalar>
 Box<Scalar> box_of(const TriangleMeshView<Scalar>& mesh) {
+  const FloatingPointEnvironment environment;
   // Each corner has a box of its own, so that no minimum or maximum waits for another.
   using Point = typename detail::VertexLanes<Scalar>::Point;
   const Box<Scalar> none;

@@ -19,6 +19,7 @@
 #include "support/shape_families.hpp"
 #include "support/shape_text.hpp"
 #include "support/small_meshes.hpp"
+#include "surehit/box.hpp"
 #include "surehit/collider.hpp"
 #include "surehit/intersect.hpp"
 
@@ -28,6 +29,7 @@ namespace {
 constexpr std::array modes = {
     FloatingPointMode{"flush_to_zero", FE_TONEAREST, true},
     FloatingPointMode{"upward", FE_UPWARD, false},
+    FloatingPointMode{"downward", FE_DOWNWARD, false},
     FloatingPointMode{"toward_zero_and_flush", FE_TOWARDZERO, true},
 };
 
@@ -201,6 +203,46 @@ void check_colliders(const FloatingPointMode& mode) {
 
 TEST_P(FloatingPointModes, do_not_change_what_float_colliders_answer) { check_colliders<float>(GetParam()); }
 TEST_P(FloatingPointModes, do_not_change_what_double_colliders_answer) { check_colliders<double>(GetParam()); }
+
+/// The box of a mesh, and its collider as it is saved.
+template <typename Scalar>
+struct Saved {
+  Box<Scalar> box;
+  std::vector<std::byte> bytes;
+};
+
+/// Corners whose differences are denormal, and zeros of both signs.
+template <typename Scalar>
+void check_saved_denormals(const FloatingPointMode& mode) {
+  const Scalar tiny = std::numeric_limits<Scalar>::denorm_min();
+  const std::vector<Vector3<Scalar>> corners = {
+      {2 * tiny, Scalar{-0.0}, 7 * tiny}, {tiny, Scalar{-0.0}, 9 * tiny}, {3 * tiny, Scalar{0}, 8 * tiny}};
+  const std::vector<int> triangle = {0, 1, 2};
+  const TriangleMeshView<Scalar> mesh(corners, triangle);
+  const Collider<Scalar> collider(mesh);
+  const auto call = [&] {
+    Saved<Scalar> saved{box_of(mesh), {}};
+    EXPECT_TRUE(collider.save([&](std::span<const std::byte> part) {
+      saved.bytes.insert(saved.bytes.end(), part.begin(), part.end());
+      return true;
+    }));
+    return saved;
+  };
+  bool mode_is_kept = false;
+  const Saved<Scalar> expected = call();
+  const Saved<Scalar> saved = answer_in(mode, mode_is_kept, call);
+  EXPECT_TRUE(mode_is_kept);
+  EXPECT_EQ(saved.box.low[0], tiny);
+  EXPECT_EQ(saved.box.low[2], 7 * tiny);
+  EXPECT_EQ(saved.box.high[0], 3 * tiny);
+  EXPECT_EQ(saved.box.high[2], 9 * tiny);
+  EXPECT_EQ(saved.bytes, expected.bytes);
+  Collider<Scalar> loaded;
+  EXPECT_TRUE(loaded.try_load(saved.bytes));
+}
+
+TEST_P(FloatingPointModes, do_not_change_what_is_saved_of_floats) { check_saved_denormals<float>(GetParam()); }
+TEST_P(FloatingPointModes, do_not_change_what_is_saved_of_doubles) { check_saved_denormals<double>(GetParam()); }
 
 /// All that a collider answers about moving shapes, single and in a batch.
 template <typename Scalar>

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "build/empty_space.hpp"
+#include "support/floating_point_environment.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
@@ -35,6 +36,19 @@ void visit_cells(const Grid& grid, CellWord word, const Visit& visit) {
   for (std::size_t i = 0; i < Grid::brick_size; ++i) visit_cells(grid, brick[i], visit);
 }
 
+/// Returns the sides of a frame as they are saved, the lower ones first. A zero is positive, because which zero is the
+/// minimum depends on the processor.
+template <typename Scalar>
+std::array<Scalar, 6> sides_of(const GridFrame& frame) {
+  const FloatingPointEnvironment environment;
+  std::array<Scalar, 6> sides;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    sides[axis] = static_cast<Scalar>(frame.low[axis] + 0.0);
+    sides[3 + axis] = static_cast<Scalar>(frame.high[axis] + 0.0);
+  }
+  return sides;
+}
+
 }  // namespace
 
 GridCounts GridCounts::of(const Grid& grid) {
@@ -50,9 +64,7 @@ template <typename Scalar>
 void GridFile::write(const Grid& grid, FileWriter& writer) {
   if (grid.is_empty()) return;
   const auto write_frame = [&](const GridFrame& frame) {
-    // The sum turns -0 into 0. Which of both is the minimum depends on the processor.
-    for (const double side : frame.low) writer.write(static_cast<Scalar>(side + 0.0));
-    for (const double side : frame.high) writer.write(static_cast<Scalar>(side + 0.0));
+    for (const Scalar side : sides_of<Scalar>(frame)) writer.write(side);
     for (const std::uint32_t cells : frame.cells) writer.write(cells);
   };
   write_frame(grid.frame());
