@@ -6,7 +6,7 @@ import sys
 import threading
 import time
 import unittest
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 
 import numpy as np
 
@@ -179,6 +179,33 @@ class ArgumentsTest(unittest.TestCase):
         rays = surehit.Rays(np.ones((20000, 3), np.float32), (0, 0, -1))
         with self.assertRaises(RuntimeError):
             surehit.Collider(FLOOR, TRIANGLE).first_hits(rays, executor=pool)
+
+        level = surehit.Collider(FLOOR, TRIANGLE)
+        with self.assertRaises(RuntimeError):
+            level.rebuild(FLOOR, np.repeat(TRIANGLE, 20000, axis=0), executor=pool)
+        self.assertEqual(len(level), 20000)
+
+    def test_tasks_that_a_pool_keeps_for_later_are_not_done(self):
+        kept = []
+
+        class InterruptedPool(Executor):
+            def submit(self, task, /, *arguments):
+                kept.append((task, arguments))
+                if len(kept) == 2:
+                    raise KeyboardInterrupt
+                return Future()
+
+        rays = surehit.Rays(np.ones((20000, 3), np.float32), (0, 0, -1))
+        level = surehit.Collider(FLOOR, TRIANGLE)
+        hits = level.first_hits(rays)
+        with self.assertRaises(KeyboardInterrupt):
+            level.first_hits(rays, executor=InterruptedPool(), out=hits)
+        self.assertTrue((hits.t == 1).all())
+        hits.records[:] = np.zeros(1, hits.records.dtype)
+        for task, arguments in kept:
+            task(*arguments)
+        self.assertEqual(len(kept), 2)
+        self.assertFalse(hits.t.any())
 
     def test_results(self):
         level = surehit.Collider(FLOOR, TRIANGLE)

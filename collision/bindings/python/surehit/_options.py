@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import threading
 from collections.abc import Callable
 from concurrent.futures import Executor as FuturesExecutor
 from types import SimpleNamespace
@@ -179,23 +180,56 @@ def filter_struct(kind: SimpleNamespace, accepts: Callable[..., Any], hit_of: Ca
     return kind.Filter(accept=kind.Accept(accept))
 
 
+class _Tasks:
+    """The tasks of one call. A pool may keep some for later, when the library no longer has them."""
+
+    def __init__(self, task: Callable[[Any, int], None], work: Any) -> None:
+        self._task = task
+        self._work = work
+        self._changed = threading.Condition()
+        self._is_open = True
+        self._threads: set[int] = set()
+
+    def do(self, index: int) -> None:
+        """Does one task, unless they are closed."""
+        thread = threading.get_ident()
+        try:
+            with self._changed:
+                if not self._is_open:
+                    return
+                self._threads.add(thread)
+            self._task(self._work, index)
+        finally:
+            with self._changed:
+                self._threads.discard(thread)
+                self._changed.notify_all()
+
+    def close(self) -> None:
+        """Lets no task begin any more, and waits for those on other threads."""
+        with self._changed:
+            self._is_open = False
+            while self._threads - {threading.get_ident()}:
+                self._changed.wait()
+
+
 def executor_struct(executor: FuturesExecutor, raised: Raised) -> Any:
     """Returns the executor of a pool of threads. Tasks that the pool does not take are done by the calling thread."""
 
     def run(_user: Any, count: int, task: Any, work: Any) -> None:
-        futures = []
+        tasks = _Tasks(task, work)
         try:
-            for index in range(count):
-                futures.append(executor.submit(task, work, index))
+            futures = [executor.submit(tasks.do, index) for index in range(count)]
+            for future in futures:
+                if not future.cancelled():
+                    future.result()
         except BaseException as exception:  # the library must not see it
             raised.keep(exception)
-        # No task may run after this returns.
-        for future in futures:
-            if not future.cancelled():
-                try:
-                    future.result()
-                except BaseException as exception:
-                    raised.keep(exception)
+        # No task may run after this returns, however often it is interrupted.
+        while True:
+            try:
+                return tasks.close()
+            except BaseException as exception:
+                raised.keep(exception)
 
     return _layouts.Executor(run=_layouts.RUN_TASKS(run))
 

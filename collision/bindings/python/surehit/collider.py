@@ -53,9 +53,12 @@ class Collider(Queries[Hit, ShapeHit]):
                  resolution: tuple[int, int, int] = (0, 0, 0), crowded: int = 0) -> None:
         layouts = layouts_of(wished_dtype(vertices) if dtype is None else dtype)
         handle = c_void_p()
-        self._build("create", layouts, vertices, triangles, masks, executor,
-                    (cells_per_triangle, *resolution, crowded), None, handle)
-        self._own(layouts, handle)
+        try:
+            self._build("create", layouts, vertices, triangles, masks, executor,
+                        (cells_per_triangle, *resolution, crowded), None, handle)
+        finally:
+            if handle:  # also where the executor has raised an exception
+                self._own(layouts, handle)
 
     def _own(self, layouts: Layouts, handle: c_void_p) -> None:
         self._handle = handle
@@ -92,7 +95,8 @@ class Collider(Queries[Hit, ShapeHit]):
                 resolution: tuple[int, int, int] = (0, 0, 0), crowded: int = 0) -> None:
         """Replaces the mesh, the masks and the grid, in the same memory. No query may run at the same time.
 
-        If it raises an exception, the collider is as before.
+        If the mesh or an option cannot be used, the collider is as before. What ``executor`` raises comes afterwards: the
+        rest of the work is done without it.
         """
         self._build("rebuild", self._layouts, vertices, triangles, masks, executor,
                     (cells_per_triangle, *resolution, crowded), self._handle, None)
@@ -100,7 +104,8 @@ class Collider(Queries[Hit, ShapeHit]):
     def rebuild_vertices(self, vertices: ArrayLike, *, executor: Executor | None = None) -> None:
         """Moves the vertices. Triangles and masks stay. No query may run at the same time.
 
-        If it raises an exception, the collider is as before.
+        If the vertices cannot be used, the collider is as before. What ``executor`` raises comes afterwards, as in
+        ``rebuild``.
         """
         points = rows(vertices, self.dtype, "vertices")
         raised = Raised()

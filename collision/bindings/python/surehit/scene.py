@@ -232,7 +232,10 @@ class Scene(_Instances):
         check(self._function("set_mask")(self._handle, _struct(instance), _bits(mask)))
 
     def commit(self, executor: Executor | None = None) -> None:
-        """Lets all changes since the last commit take effect. No query may run at the same time."""
+        """Lets all changes since the last commit take effect. No query may run at the same time.
+
+        What ``executor`` raises comes afterwards: the rest of the work is done without it.
+        """
         raised = Raised()
         raised.check(self._function("commit")(self._handle, executor_pointer(executor, raised)))
 
