@@ -196,6 +196,14 @@ test('arguments of other kinds are refused', () => {
   refused(() => collider.firstHit({ ray: [], line: [] }), /ray, line/);
   refused(() => collider.firstHit(down, { maxt: 1 }), /no option maxt/);
   refused(() => collider.firstHit(down, { culling: 'both' }), /both/);
+  for (const mask of ['x', 0.5, 2 ** 32, -(2 ** 31) - 1]) {
+    refused(() => collider.firstHit(down, { mask }), /mask is a whole number of 32 bits/);
+  }
+  assert.notEqual(collider.firstHit(down, { mask: ~0 }), null);
+  refused(() => collider.firstHit(down, { ignoredTriangle: -1 }), /ignoredTriangle is a whole number of 32 bits/);
+  refused(() => collider.firstHit(down, { ignoredTriangle: 2 ** 32 }), /ignoredTriangle is a whole number of 32 bits/);
+  refused(() => collider.firstHit(down, { minT: '0' }), /minT is a number/);
+  refused(() => collider.firstHit(down, { maxT: [1] }), /maxT is a number/);
   refused(() => collider.firstHits({ rays: new Float32Array(6) }), /rays of this collider are a Float64Array/);
   refused(() => collider.firstHits({ rays: new Float64Array(8) }), /path 1 has 2/);
   refused(() => collider.anyHits({ ray: new Float64Array(6) }), /segments, rays, lines/);
@@ -204,6 +212,19 @@ test('arguments of other kinds are refused', () => {
   assert.throws(() => collider.firstHits({ rays: new Float64Array(6) }).at(1), /hit 1 of 1/);
   assert.equal(collider.firstHit({ ray: [NaN, 0, 0, 0, 0, 1] }), null);
   collider.free();
+});
+
+test('a mesh may lie in memory that grows while it is built', async () => {
+  const small = await load();
+  const numbers = small.numbers('double', floor.length);
+  numbers.array.set(floor);
+  const many = new Uint32Array(3 * 2_000_000);  // more than there is room for
+  many.set(halves);
+  const before = small.memoryBytes;
+  const collider = small.collider(numbers.array, many);
+  assert(small.memoryBytes > before);
+  assert.equal(collider.triangleCount, 2_000_000);
+  assert.equal(collider.firstHit(down)?.triangle, built(Float64Array).firstHit(down)?.triangle);
 });
 
 test('a lack of memory is an error, after which all is refused', async () => {

@@ -47,6 +47,22 @@ function onlyKind(paths, names) {
   return [kind, paths[found[0]]];
 }
 
+/** Returns an option that is a number. */
+function numberIn(options, name, preset) {
+  const value = options[name] ?? preset;
+  if (typeof value !== 'number') throw new TypeError(`surehit: ${name} is a number, but not ${value}`);
+  return value;
+}
+
+/** Returns an option of 32 bits. It may be negative where ~0 stands for all bits. */
+function wordIn(options, name, preset, least) {
+  const value = options[name] ?? preset;
+  if (!Number.isInteger(value) || value < least || value > 0xffffffff) {
+    throw new TypeError(`surehit: ${name} is a whole number of 32 bits, but not ${value}`);
+  }
+  return value;
+}
+
 /** The hits of a batch, or all hits of a path. Its arrays are made anew after the memory has grown. */
 export class Hits {
   #room;
@@ -62,13 +78,14 @@ export class Hits {
 
   /** For surehit alone: makes room, and returns the address of the columns and how many hits each has room for. */
   prepare(length) {
+    this.#arrays = null;
     if (length > this.#capacity) {
+      this.length = 0;
       this.#capacity = 0;
       this.#room.grow(length * (3 * this.#scalar.bytes + 5));
       this.#capacity = length;
     }
     this.length = length;
-    this.#arrays = null;
     return [this.#room.address, this.#capacity];
   }
 
@@ -156,13 +173,13 @@ class Asker {
     const culling = cullings.indexOf(options.culling ?? 'none');
     if (culling < 0) throw new TypeError(`surehit: culling is none, back or front, but not ${options.culling}`);
     const { bytes } = this.scalar;
-    this.setNumber(optionsAt, options.minT ?? -Infinity);
-    this.setNumber(optionsAt + bytes, options.maxT ?? Infinity);
+    this.setNumber(optionsAt, numberIn(options, 'minT', -Infinity));
+    this.setNumber(optionsAt + bytes, numberIn(options, 'maxT', Infinity));
     const words = this.block + optionsAt + 2 * bytes;
     const { view } = this.functions;
     view.setUint32(words, culling, true);
-    view.setUint32(words + 4, options.mask ?? 0xffffffff, true);
-    view.setUint32(words + 8, options.ignoredTriangle ?? noTriangle, true);
+    view.setUint32(words + 4, wordIn(options, 'mask', 0xffffffff, -0x80000000), true);
+    view.setUint32(words + 8, wordIn(options, 'ignoredTriangle', noTriangle, 0), true);
     const ignored =
       (options.ignoreStartContact ? 1 : 0) + (options.ignoreEndContact ? 2 : 0) + (options.ignoreEdgeOn ? 4 : 0);
     view.setUint32(words + 12, ignored, true);
@@ -278,10 +295,14 @@ export class Collider {
     this.#hits = new Hits(this.#hitsRoom, this.#scalar);
     const arrays = [new Room(functions), new Room(functions), new Room(functions)];
     try {
+      const inputs = [vertices, triangles, this.#checkedMasks(masks)];
+      // Where the module's memory grows, arrays that lie in it lose their contents and their lengths.
+      const [vertexLength, triangleLength, maskLength] = inputs.map((array) => array.length);
+      const known = inputs.map((array) => (array.buffer === functions.memory.buffer ? array.byteOffset : null));
       this.#self = this.#asker.call('create');
-      const addresses = [vertices, triangles, this.#checkedMasks(masks)].map((array, i) => arrays[i].addressOf(array));
-      this.#check(this.#asker.call('build', this.#self, addresses[0], vertices.length, addresses[1], triangles.length,
-        isWide ? 4 : 2, addresses[2], masks?.length ?? 0));
+      const addresses = inputs.map((array, i) => known[i] ?? arrays[i].addressOf(array));
+      this.#check(this.#asker.call('build', this.#self, addresses[0], vertexLength, addresses[1], triangleLength,
+        isWide ? 4 : 2, addresses[2], maskLength));
       for (const array of arrays) array.free();
     } catch (error) {
       if (functions.failure === null) {
