@@ -19,7 +19,9 @@ OutputFile::OutputFile(const std::string& path, Durability durability)
   }
   if (!fs::exists(path) || fs::is_regular_file(path)) {
     // Through a symbolic link the file it points to is replaced, not the link.
-    path_ = fs::weakly_canonical(path).string();
+    fs::path target = path;
+    while (fs::is_symlink(target) && !fs::exists(target)) target = target.parent_path() / fs::read_symlink(target);
+    path_ = fs::weakly_canonical(target).string();
     written_path_ = path_ + (durability == Durability::machine ? "" : "." + std::to_string(getpid())) + ".partial";
   }
   file_ = std::fopen(written_path_.empty() ? path_.c_str() : written_path_.c_str(), "wb");

@@ -265,6 +265,11 @@ TEST_F(SurehitQuery, writes_through_a_symbolic_link) {
   expect_output("pair pairs -o link.csv", "");
   EXPECT_TRUE(fs::is_symlink(folder_.at("link.csv")));
   EXPECT_EQ(folder_.read("target.csv"), "hit,t,u,v,side\n1,0.5,0.25,0.5,front\n");
+
+  fs::create_symlink("target_to_come.csv", folder_.at("early_link.csv"));
+  expect_output("pair pairs -o early_link.csv", "");
+  EXPECT_TRUE(fs::is_symlink(folder_.at("early_link.csv")));
+  EXPECT_EQ(folder_.read("target_to_come.csv"), folder_.read("target.csv"));
 }
 
 TEST_F(SurehitQuery, names_the_line_of_bad_paths) {
