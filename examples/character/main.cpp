@@ -53,8 +53,8 @@ void describe(CLI::App& app, Request& request) {
       ->capture_default_str();
   app.add_option("-o", request.picture_path, "The picture")->type_name("PNG")->capture_default_str();
   app.footer(
-      "Exit status: 0; 1 if a character touched the level with surehit, if the check is not sure that none did, if a "
-      "replay differs, or for other failures; 2 for bad usage.");
+      "Exit status: 0; 1 if a character touched the level or fell out of it with surehit, if the check is not sure "
+      "that none touched it, if a replay differs, or for other failures; 2 for bad usage.");
 }
 
 void print(const std::string& name, const WalkRecording& recording) {
@@ -120,7 +120,7 @@ ExitStatus play(Request request) {
   picture.write(encode_png(draw_trails(trails, 960, 540, request.walk.threads)));
   picture.finish();
   std::printf("%s\n", request.picture_path.c_str());
-  const bool is_clear = recording.counts.touching_ways + recording.counts.unsure_ways == 0;
+  const bool is_clear = recording.counts.touching_ways + recording.counts.unsure_ways + recording.counts.lost == 0;
   return is_clear && are_alike ? success : failure;
 }
 

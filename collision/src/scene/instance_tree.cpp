@@ -267,7 +267,7 @@ bool InstanceTree::reaches_a_side_of(const Planes& all, std::uint32_t instance) 
 
 bool InstanceTree::has_left(std::uint32_t instance, const Planes& planes) const noexcept {
   const std::uint32_t at = node_of_[instance];
-  if (at == 0 || nodes_.size() == nodes_.capacity() || !can_update(0, 1)) return false;
+  if (at == 0 || nodes_.size() >= std::min(nodes_.capacity(), parents_.size()) || !can_update(0, 1)) return false;
   const Planes all = planes_around(nodes_[at]);
   bool has_left = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
