@@ -146,6 +146,12 @@ class SceneAnswers {
  public:
   SceneAnswers(const Scene<Scalar>& scene, std::span<const Path<Scalar>> paths,
                const std::optional<Executor>& executor = {}, std::size_t batch = std::size_t{1} << 30)
+      : SceneAnswers(scene, scene, paths, executor, batch) {}
+
+  /// Asks `batched` in batches: the same scene elsewhere, such as on a GPU.
+  template <typename Batched>
+  SceneAnswers(const Scene<Scalar>& scene, const Batched& batched, std::span<const Path<Scalar>> paths,
+               const std::optional<Executor>& executor = {}, std::size_t batch = std::size_t{1} << 30)
       : first_(paths.size()), any_(paths.size()) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const SceneQueryOptions<Scalar> options = options_of(i);
@@ -155,9 +161,9 @@ class SceneAnswers {
       free_.push_back(is_segment ? scene.last_free_point({paths[i].start, paths[i].toward}, *hit, options)
                                  : Vector3<Scalar>(0, 0, 0));
     }
-    ask_batches<Segment<Scalar>>(scene, paths, PathKind::segment, executor, batch);
-    ask_batches<Ray<Scalar>>(scene, paths, PathKind::ray, executor, batch);
-    ask_batches<Line<Scalar>>(scene, paths, PathKind::line, executor, batch);
+    ask_batches<Segment<Scalar>>(batched, paths, PathKind::segment, executor, batch);
+    ask_batches<Ray<Scalar>>(batched, paths, PathKind::ray, executor, batch);
+    ask_batches<Line<Scalar>>(batched, paths, PathKind::line, executor, batch);
   }
 
   [[nodiscard]] std::uint64_t hash() const {
@@ -188,8 +194,8 @@ class SceneAnswers {
     hash.take(hit.instance.index);
   }
 
-  template <typename AnyPath>
-  void ask_batches(const Scene<Scalar>& scene, std::span<const Path<Scalar>> paths, PathKind kind,
+  template <typename AnyPath, typename Batched>
+  void ask_batches(const Batched& batched, std::span<const Path<Scalar>> paths, PathKind kind,
                    const std::optional<Executor>& executor, std::size_t batch) {
     std::vector<std::size_t> ids;
     std::vector<AnyPath> asked;
@@ -207,8 +213,8 @@ class SceneAnswers {
       const SceneBatchOptions<Scalar> with{.path_options = std::span(options).subspan(begin, count),
                                            .executor = executor};
       const auto some = std::span<const AnyPath>(asked).subspan(begin, count);
-      scene.first_hits(some, std::span(first).subspan(begin, count), with);
-      scene.any_hits(some, std::span(any).subspan(begin, count), with);
+      static_cast<void>(batched.first_hits(some, std::span(first).subspan(begin, count), with));
+      static_cast<void>(batched.any_hits(some, std::span(any).subspan(begin, count), with));
     }
     for (std::size_t i = 0; i < ids.size(); ++i) {
       first_[ids[i]] = first[i];

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "collision/scene/unit_scenes.hpp"
+#include "determinism/hard_scene.hpp"
 #include "drawn_scene_paths.hpp"
 #include "from_two_threads.hpp"
 #include "gpu_answers.hpp"
@@ -48,6 +49,13 @@ TEST_P(GpuSceneFamilies, have_the_answers_of_the_host) {
 
 INSTANTIATE_TEST_SUITE_P(Families, GpuSceneFamilies, testing::ValuesIn(all_scene_families),
                          [](const auto& family) { return name_of(family.param); });
+
+TEST_F(GpuSceneTest, answers_are_the_published_ones) {
+  const HardScene<float> hard;
+  const Scenef scene = hard.scene();
+  const GpuScene on_gpu(device, scene.snapshot());
+  EXPECT_EQ(SceneAnswers<float>(scene, on_gpu, hard.paths).hash(), published_scene_hash<float>);
+}
 
 /// The image is near the path, and both are near the origin. But in the frame of the mesh, the path is far away, so it
 /// is off by much more than the kernel's own roundings. Paths go through edges.
