@@ -513,13 +513,14 @@ def pages(_):
 
 
 def summaries(_):
-    """The summaries of all pages, each below its machine."""
+    """The summaries of all pages, each below its machine, with the day and the commit of its run."""
     texts = []
     for page in sorted(PAGES.glob("*.md")):
         blocks = {match[2]: match[0] for match in MARKED.finditer(page.read_text(encoding="utf-8"))}
         if page.name != TEMPLATE.name:
             inner = {name: re.sub(r"<!--.*?-->", "", text).strip() for name, text in blocks.items()}
-            texts.append(f"{inner['machine']}:\n\n{inner['summary']}\n")
+            day, commit = inner["run_of"].split(", ")[:2]
+            texts.append(f"{inner['machine']}, {day}, {commit}:\n\n{inner['summary']}\n")
     return "\n".join(texts)
 
 
