@@ -25,6 +25,10 @@ struct Entrant {
 [[nodiscard]] std::vector<Entrant> surehit_entrants();
 /// Counts as a peer, so that all tables have its ratio to floats.
 [[nodiscard]] std::vector<Entrant> surehit_double_entrants();
+/// The paths of a call to those that ask in small batches.
+inline constexpr std::size_t small_batch_sizes[] = {1, 4, 8, 12, 16, 24, 32, 48, 64};
+/// They count as peers too, and take part only if they are asked for.
+[[nodiscard]] std::vector<Entrant> surehit_small_batch_entrants();
 [[nodiscard]] std::vector<Entrant> embree_entrants();
 [[nodiscard]] std::vector<Entrant> cgal_entrants();
 [[nodiscard]] std::vector<Entrant> bullet_entrants();

@@ -170,6 +170,10 @@ void choose(const Words& words, Request& request) {
   };
   copy_chosen(all_entrants(), request.entrants);
   copy_chosen(all_world_entrants(), request.world_entrants);
+  if (!words.contenders.empty()) {
+    copy_chosen(surehit_small_batch_entrants(), request.entrants);
+    copy_chosen(surehit_small_batch_world_entrants(), request.world_entrants);
+  }
   copy_chosen(all_sweep_entrants(), request.sweep_entrants);
 }
 

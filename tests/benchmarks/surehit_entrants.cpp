@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <span>
+#include <string>
 #include <surehit/collider.hpp>
 #include <vector>
 
@@ -47,6 +50,33 @@ class SurehitSingle : public SurehitContender {
   }
 };
 
+/// A batch for a few paths each.
+class SurehitSmallBatches : public SurehitContender {
+ public:
+  explicit SurehitSmallBatches(std::size_t size) : size_(size) {}
+
+  void first(const PathBatch& paths, std::span<Hitf> hits) const override {
+    for_each_batch(paths, [&](std::span<const Segmentf> segments, std::size_t begin) {
+      collider_.first_hits(segments, hits.subspan(begin, segments.size()));
+    });
+  }
+
+  void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
+    for_each_batch(paths, [&](std::span<const Segmentf> segments, std::size_t begin) {
+      collider_.any_hits(segments, blocked.subspan(begin, segments.size()));
+    });
+  }
+
+ private:
+  template <typename Ask>
+  void for_each_batch(const PathBatch& paths, const Ask& ask) const {
+    const std::span<const Segmentf> all = paths.segments();
+    for (std::size_t i = 0; i < all.size(); i += size_) ask(all.subspan(i, std::min(size_, all.size() - i)), i);
+  }
+
+  std::size_t size_;
+};
+
 /// The same mesh and paths in double.
 class SurehitInDouble : public Contender {
  public:
@@ -90,6 +120,15 @@ class SurehitInDouble : public Contender {
 
 std::vector<Entrant> surehit_double_entrants() {
   return {{"surehit in double", "batch", "", [] { return std::make_unique<SurehitInDouble>(); }}};
+}
+
+std::vector<Entrant> surehit_small_batch_entrants() {
+  std::vector<Entrant> entrants;
+  for (const std::size_t size : small_batch_sizes) {
+    entrants.push_back({"surehit in batches of", std::to_string(size), "",
+                        [size] { return std::make_unique<SurehitSmallBatches>(size); }});
+  }
+  return entrants;
 }
 
 std::vector<Entrant> surehit_entrants() {

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <string>
 #include <surehit/scene.hpp>
 
 #include "world_entrants.hpp"
@@ -56,6 +58,35 @@ class SurehitWorldBatch : public SurehitWorld {
   std::vector<SceneHitf> hits_;
 };
 
+/// A batch for a few paths each.
+class SurehitWorldSmallBatches : public SurehitWorld {
+ public:
+  explicit SurehitWorldSmallBatches(std::size_t size) : size_(size) {}
+
+  void first(const PathBatch& paths, std::span<Hitf> hits) override {
+    std::vector<SceneHitf> some(size_);
+    for_each_batch(paths, [&](std::span<const Segmentf> segments, std::size_t begin) {
+      scene_.first_hits(segments, std::span(some).first(segments.size()));
+      std::copy_n(some.begin(), segments.size(), hits.begin() + static_cast<std::ptrdiff_t>(begin));
+    });
+  }
+
+  void any(const PathBatch& paths, std::span<std::uint8_t> blocked) override {
+    for_each_batch(paths, [&](std::span<const Segmentf> segments, std::size_t begin) {
+      scene_.any_hits(segments, blocked.subspan(begin, segments.size()));
+    });
+  }
+
+ private:
+  template <typename Ask>
+  void for_each_batch(const PathBatch& paths, const Ask& ask) const {
+    const std::span<const Segmentf> all = paths.segments();
+    for (std::size_t i = 0; i < all.size(); i += size_) ask(all.subspan(i, std::min(size_, all.size() - i)), i);
+  }
+
+  std::size_t size_;
+};
+
 class SurehitWorldSingle : public SurehitWorld {
  public:
   void first(const PathBatch& paths, std::span<Hitf> hits) override {
@@ -70,6 +101,15 @@ class SurehitWorldSingle : public SurehitWorld {
 };
 
 }  // namespace
+
+std::vector<WorldEntrant> surehit_small_batch_world_entrants() {
+  std::vector<WorldEntrant> entrants;
+  for (const std::size_t size : small_batch_sizes) {
+    entrants.push_back({"surehit in batches of", std::to_string(size),
+                        [size] { return std::make_unique<SurehitWorldSmallBatches>(size); }});
+  }
+  return entrants;
+}
 
 std::vector<WorldEntrant> surehit_world_entrants() {
   return {{Entrant::our_library, "batch", [] { return std::make_unique<SurehitWorldBatch>(); }},

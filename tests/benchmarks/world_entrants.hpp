@@ -47,6 +47,8 @@ struct WorldEntrant {
 
 /// Batches, and then single calls.
 [[nodiscard]] std::vector<WorldEntrant> surehit_world_entrants();
+/// They count as peers, and take part only if they are asked for.
+[[nodiscard]] std::vector<WorldEntrant> surehit_small_batch_world_entrants();
 /// Single rays. Meshes are of medium quality, and the names have the quality of what is above them.
 [[nodiscard]] std::vector<WorldEntrant> embree_world_entrants();
 
