@@ -404,8 +404,8 @@ HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[
 
 /// Returns true if a batch has so few paths that they are asked one by one, because they would fill too few lanes. The
 /// last paths of a large batch are asked as the others.
-template <typename Scalar>
-bool are_few(const Query<Scalar>& query, const PathSpan<Scalar>& paths) {
+template <typename AnyQuery, typename Scalar>
+bool are_few(const AnyQuery& query, const PathSpan<Scalar>& paths) {
   constexpr std::size_t min_paths = 12;
   return paths.size() < min_paths && query.path == 0;
 }

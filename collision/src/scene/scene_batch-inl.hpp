@@ -362,6 +362,10 @@ void search_scene_each_first(const SceneQuery<Scalar>& batch, const PathSpan<Sca
         search_scene_first(query_of_path(batch, own_options, index), paths[index]).value_or(SceneHit<Scalar>{});
   };
 #if HWY_TARGET != HWY_SCALAR
+  if (are_few(batch, paths)) {
+    for (std::size_t i = 0; i < paths.size(); ++i) alone(i);
+    return;
+  }
   if constexpr (std::is_same_v<Scalar, float>) {
     if (OneInstance::takes(batch, paths, own_options)) {
       OneInstance(batch, paths).find_first(hits, alone);
@@ -384,6 +388,10 @@ void search_scene_each_any(const SceneQuery<Scalar>& batch, const PathSpan<Scala
     blocked[index] = search_scene_any(query_of_path(batch, own_options, index), paths[index]) ? 1 : 0;
   };
 #if HWY_TARGET != HWY_SCALAR
+  if (are_few(batch, paths)) {
+    for (std::size_t i = 0; i < paths.size(); ++i) alone(i);
+    return;
+  }
   if constexpr (std::is_same_v<Scalar, float>) {
     if (OneInstance::takes(batch, paths, own_options)) {
       OneInstance(batch, paths).find_any(blocked, alone);
