@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <surehit/path.hpp>
@@ -33,5 +34,12 @@ class PathBatch {
   std::vector<Segmentd> in_double_;
   std::vector<PathOctet> octets_;
 };
+
+/// Calls ask(segments, begin) for one part of at most `size` paths after the other. It begins at path `begin`.
+template <typename Ask>
+void for_each_batch(const PathBatch& paths, std::size_t size, const Ask& ask) {
+  const std::span<const Segmentf> all = paths.segments();
+  for (std::size_t i = 0; i < all.size(); i += size) ask(all.subspan(i, std::min(size, all.size() - i)), i);
+}
 
 }  // namespace surehit::benchmark

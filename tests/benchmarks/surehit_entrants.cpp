@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <span>
 #include <string>
 #include <surehit/collider.hpp>
@@ -56,24 +55,18 @@ class SurehitSmallBatches : public SurehitContender {
   explicit SurehitSmallBatches(std::size_t size) : size_(size) {}
 
   void first(const PathBatch& paths, std::span<Hitf> hits) const override {
-    for_each_batch(paths, [&](std::span<const Segmentf> segments, std::size_t begin) {
+    for_each_batch(paths, size_, [&](std::span<const Segmentf> segments, std::size_t begin) {
       collider_.first_hits(segments, hits.subspan(begin, segments.size()));
     });
   }
 
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
-    for_each_batch(paths, [&](std::span<const Segmentf> segments, std::size_t begin) {
+    for_each_batch(paths, size_, [&](std::span<const Segmentf> segments, std::size_t begin) {
       collider_.any_hits(segments, blocked.subspan(begin, segments.size()));
     });
   }
 
  private:
-  template <typename Ask>
-  void for_each_batch(const PathBatch& paths, const Ask& ask) const {
-    const std::span<const Segmentf> all = paths.segments();
-    for (std::size_t i = 0; i < all.size(); i += size_) ask(all.subspan(i, std::min(size_, all.size() - i)), i);
-  }
-
   std::size_t size_;
 };
 

@@ -65,25 +65,19 @@ class SurehitWorldSmallBatches : public SurehitWorld {
 
   void first(const PathBatch& paths, std::span<Hitf> hits) override {
     std::vector<SceneHitf> some(size_);
-    for_each_batch(paths, [&](std::span<const Segmentf> segments, std::size_t begin) {
+    for_each_batch(paths, size_, [&](std::span<const Segmentf> segments, std::size_t begin) {
       scene_.first_hits(segments, std::span(some).first(segments.size()));
       std::copy_n(some.begin(), segments.size(), hits.begin() + static_cast<std::ptrdiff_t>(begin));
     });
   }
 
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) override {
-    for_each_batch(paths, [&](std::span<const Segmentf> segments, std::size_t begin) {
+    for_each_batch(paths, size_, [&](std::span<const Segmentf> segments, std::size_t begin) {
       scene_.any_hits(segments, blocked.subspan(begin, segments.size()));
     });
   }
 
  private:
-  template <typename Ask>
-  void for_each_batch(const PathBatch& paths, const Ask& ask) const {
-    const std::span<const Segmentf> all = paths.segments();
-    for (std::size_t i = 0; i < all.size(); i += size_) ask(all.subspan(i, std::min(size_, all.size() - i)), i);
-  }
-
   std::size_t size_;
 };
 
