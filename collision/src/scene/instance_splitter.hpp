@@ -90,31 +90,6 @@ class InstanceSplitter {
     return {this->group(group.first, middle_at), this->group(middle_at, group.last)};
   }
 
-  /// Splits the first one of some groups until there are as many as there is room for, or until all are single
-  /// instances. Returns the number of groups.
-  std::size_t split_all(std::span<InstanceGroup> groups, bool evenly) {
-    std::size_t count = 1;
-    while (count < groups.size()) {
-      // The group with the largest surface is split next.
-      std::size_t largest = groups.size();
-      double largest_cost = -1;
-      for (std::size_t i = 0; i < count; ++i) {
-        if (groups[i].last - groups[i].first < 2) continue;
-        double cost = surface(groups[i].box);
-        if (!std::isfinite(cost)) cost = std::numeric_limits<double>::max();
-        if (cost > largest_cost) {
-          largest_cost = cost;
-          largest = i;
-        }
-      }
-      if (largest == groups.size()) break;
-      const auto [left, right] = split(groups[largest], evenly);
-      groups[largest] = left;
-      groups[count++] = right;
-    }
-    return count;
-  }
-
  private:
   static constexpr std::size_t bins = 16;
   static constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/instance_splitter.hpp"
+#include "scene/tree_collapse.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit::detail {
@@ -371,34 +371,27 @@ void InstanceTree::build(std::span<const std::uint32_t> instances, std::span<con
   nodes_.clear();
   node_of_.clear();
   if (instances.empty()) return;
-  std::vector<std::uint32_t> order(instances.begin(), instances.end());
-  InstanceSplitter splitter(order, boxes);
+  const TreeCollapse collapse(instances, boxes);
   struct Task {
-    InstanceGroup group;
+    std::uint32_t part;
     std::uint32_t node;
-    std::uint32_t depth;
   };
-  std::vector<Task> tasks;
+  std::vector<Task> tasks = {{TreeCollapse::root, 0}};
   nodes_.push_back(empty_node());
-  tasks.push_back({splitter.group(0, static_cast<std::uint32_t>(order.size())), 0, 0});
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
-    // Halves of n instances have at most (n + 1) / 2, so bit_width(n - 1) more nodes hold all of them.
-    const std::uint32_t size = task.group.last - task.group.first;
-    const bool evenly = task.depth + static_cast<std::uint32_t>(std::bit_width(size - 1)) >= max_depth;
-    std::array<InstanceGroup, width> groups = {task.group};
-    const std::size_t count = splitter.split_all(groups, evenly);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const InstanceGroup& group = groups[lane];
-      if (group.last - group.first == 1) {
-        nodes_[task.node].child[lane] = order[group.first] | instance_bit;
+    const TreeCollapse::Children children = collapse.children_of(task.part);
+    for (std::size_t lane = 0; lane < children.count; ++lane) {
+      const std::uint32_t part = children.part[lane];
+      if (collapse.is_instance(part)) {
+        nodes_[task.node].child[lane] = collapse.instance(part) | instance_bit;
         continue;
       }
       const auto child = static_cast<std::uint32_t>(nodes_.size());
       nodes_[task.node].child[lane] = child;
       nodes_.push_back(empty_node());
-      tasks.push_back({group, child, task.depth + 1});
+      tasks.push_back({part, child});
     }
   }
   refit(boxes);
