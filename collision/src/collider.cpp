@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cassert>
 #include <cstddef>
-#include <new>
 #include <string>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "query/query.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/in_parts.hpp"
+#include "support/never_destroyed.hpp"
 #include "support/rounding_flags.hpp"
 #include "surehit/intersect.hpp"
 
@@ -108,11 +108,7 @@ Collider<Scalar>& Collider<Scalar>::operator=(const Collider& other) {
 
 template <FloatOrDouble Scalar>
 const State<Scalar>& Collider<Scalar>::state() const noexcept {
-  if (state_) return *state_;
-  // It is never destroyed, because a collider may be asked until the program ends.
-  alignas(State<Scalar>) static std::byte memory[sizeof(State<Scalar>)];
-  static const State<Scalar>& empty = *new (memory) State<Scalar>;
-  return empty;
+  return state_ ? *state_ : detail::never_destroyed<State<Scalar>>();
 }
 
 template <FloatOrDouble Scalar>

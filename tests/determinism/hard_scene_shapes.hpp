@@ -166,7 +166,7 @@ class SceneShapeAnswers {
     bool any = false;
     bool overlaps = false;
     std::vector<SceneShapeHit<Scalar>> all;
-    // Of a shape that hits.
+    // These are for a shape that hits.
     Scalar free_t = 0;
     Vector3<Scalar> free_point{0, 0, 0};
     Scalar share = 0;  ///< That of the free point.

@@ -198,7 +198,7 @@ class ShapeContacts {
     return hash.value();
   }
 
-  // Of those that hit, in their order.
+  // These are for the shapes that hit, in their order.
   std::vector<Vector3<Scalar>> free_points;
   std::vector<Vector3<Scalar>> points;
   std::vector<Vector3<Scalar>> normals;

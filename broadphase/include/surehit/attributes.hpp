@@ -9,8 +9,8 @@
 #define SUREHIT_API
 #endif
 
-/// Marks a parameter that the result refers to. Clang then warns if the result outlives the argument. Other compilers
-/// ignore the mark.
+/// Marks a parameter or an object that the result refers to. Clang then warns if the result outlives it. Other
+/// compilers ignore the mark.
 #if defined(__has_cpp_attribute)
 #if __has_cpp_attribute(clang::lifetimebound)
 #define SUREHIT_LIFETIMEBOUND [[clang::lifetimebound]]

@@ -6,7 +6,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "build/overlap_lanes.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h.
+// This header must come after foreach_target.h.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();

@@ -11,10 +11,10 @@ namespace surehit {
 
 class Grid;
 
-/// A few boxes around all that a grid lists (L7 in WALK.md). They help if they leave out much of the mesh's box: in a
-/// level with a prop far from the rest, or for a mesh that is turned against the axes. Then a long path that misses all
-/// boxes meets nothing. Any other path is walked from the first box that it enters to the last box that it leaves. If
-/// the boxes leave out little, to test them costs more than it saves.
+/// A few boxes around all that a grid lists (L7 in WALK.md). They help if they leave out much of the mesh's box. This
+/// is so in a level with a prop far from the rest, and for a mesh that is turned against the axes. A long path that
+/// misses all boxes meets nothing. Any other path is walked from the first box that it enters to the last box that it
+/// leaves. If the boxes leave out little, to test them costs more than it saves.
 class GridCover {
  public:
   static constexpr std::size_t max_boxes = 8;

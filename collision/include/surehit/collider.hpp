@@ -306,7 +306,7 @@ class SUREHIT_API Collider {
   /// Returns the same for the hits that the filter accepts. The filter is given hits of the shorter steps, and their t
   /// counts on these.
   [[nodiscard]] Vector3<Scalar> last_free_point(const SweptShape<Scalar>& shape, const ShapeHit<Scalar>& hit,
-                                                HitFilter<Scalar, ShapeHit<Scalar>> filter,
+                                                ShapeHitFilter<Scalar> filter,
                                                 const ShapeQueryOptions<Scalar>& options = {}) const noexcept;
 
   /// Returns the number of triangles.

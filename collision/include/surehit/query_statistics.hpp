@@ -7,6 +7,9 @@ namespace surehit {
 /// The work of queries. A query adds to the statistics that it is given, and never resets them. Threads that run at the
 /// same time need statistics of their own.
 ///
+/// A moving shape counts as a path. Its candidates are the triangles of its lists that may still count. Those that
+/// neither the filter nor a simple contact decides are undecided.
+///
 /// The numbers are not promised. They are no part of an answer, and may differ between machines and versions.
 struct QueryStatistics {
   /// The number of paths.

@@ -49,9 +49,9 @@ struct SUREHIT_API DeleteSceneState {
 /// looks at no triangle. The masks of a collider's triangles are the collider's, and take effect at once.
 ///
 /// Queries are const and may run in many threads at the same time, and while one thread adds, removes and sets. They
-/// are those of `SceneQueries`. The other const functions tell what was set last, so none may run while the scene
-/// changes or commits. No query of the scene may run while it commits, loads, or is assigned, or while one of its
-/// colliders changes. A query of a `snapshot` may run while the scene commits.
+/// are those of `SceneQueries`. The other const functions, except `snapshot`, tell what was set last. So none of them
+/// may run while the scene changes or commits. No query of the scene may run while it commits, loads, or is assigned,
+/// or while one of its colliders changes. A query of a `snapshot` may run while the scene commits.
 ///
 /// A collider is shared by the instances that have it, and by its maker. It may be rebuilt. Then no query may run until
 /// a commit has succeeded, which sees the new mesh.
@@ -120,8 +120,9 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   void set_mask(InstanceId id, std::uint32_t mask) { id_of(try_set_mask(id, mask)); }
 #endif
 
-  /// Lets all changes since the last commit take effect. No query may run at the same time. The executor spreads the
-  /// work over threads, and the result is the same. May throw std::bad_alloc. Then the committed state is as before.
+  /// Lets all changes since the last commit take effect. No query may run at the same time, and no collider of the
+  /// scene may change. The executor spreads the work over threads, and the result is the same. May throw
+  /// std::bad_alloc. Then the committed state is as before.
   ///
   /// Takes time linear in the changes, and hardly any for the other instances. It looks at all of them if dozens come
   /// or go, or if the box of the scene grows. It sorts them anew after half of them have come, gone or appeared

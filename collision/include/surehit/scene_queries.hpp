@@ -59,7 +59,7 @@ extern template class SUREHIT_API CommittedShare<double>;
 /// The queries that scenes and their snapshots answer. All but `all_hits` are noexcept and allocate nothing. They may
 /// run in many threads at the same time.
 ///
-/// Queries of paths use less than 64 KiB of stack.
+/// In an optimized build, queries and batches of paths use less than 64 KiB of stack.
 template <FloatOrDouble Scalar>
 class SUREHIT_API SceneQueries {
  public:
@@ -117,8 +117,8 @@ class SUREHIT_API SceneQueries {
                                                 Scalar* share = nullptr) const noexcept;
 
   // Shapes that move. Distances are those of the scene, whatever the poses are. While a shape moves, instances with a
-  // motion move too. Order, ids and options are those of paths. A query uses less than 64 KiB of stack in float, and
-  // less than 320 KiB in double.
+  // motion move too. Order, ids and options are those of paths. In an optimized build, a query or a batch uses less
+  // than 64 KiB of stack in float, and less than 320 KiB in double.
 
   /// Returns the hit with the lowest exact t, or nothing if the shape touches nothing.
   ///

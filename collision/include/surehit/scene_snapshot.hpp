@@ -36,10 +36,11 @@ class SUREHIT_API SceneSnapshot : public SceneQueries<Scalar> {
   [[nodiscard]] bool contains(InstanceId id) const noexcept;
   /// Returns the ids of all committed instances, in order. May throw std::bad_alloc.
   [[nodiscard]] std::vector<InstanceId> instances() const;
-  /// Returns the committed pose. The id must be that of a committed instance, here and below.
-  [[nodiscard]] const Pose<Scalar>& pose(InstanceId id) const noexcept;
-  /// Returns the committed motion.
-  [[nodiscard]] const Vector3<Scalar>& motion(InstanceId id) const noexcept;
+  /// Returns the committed pose. The id must be that of a committed instance, here and below. The reference is valid
+  /// until this snapshot is destroyed or assigned.
+  [[nodiscard]] const Pose<Scalar>& pose(InstanceId id) const noexcept SUREHIT_LIFETIMEBOUND;
+  /// Returns the committed motion. The reference is valid as long as that of the pose.
+  [[nodiscard]] const Vector3<Scalar>& motion(InstanceId id) const noexcept SUREHIT_LIFETIMEBOUND;
   /// Returns the committed mask.
   [[nodiscard]] std::uint32_t mask(InstanceId id) const noexcept;
   /// Returns `InstanceOptions::user_data`.

@@ -27,6 +27,10 @@ struct ShapeQueryOptions {
   bool ignore_start_contact = false;
 };
 
+/// A filter of hits of moving shapes.
+template <FloatOrDouble Scalar>
+using ShapeHitFilter = HitFilter<Scalar, ShapeHit<Scalar>>;
+
 /// How a batch of moving shapes is answered. The defaults keep all hits, and use the calling thread alone.
 template <FloatOrDouble Scalar>
 struct ShapeBatchOptions {
@@ -35,15 +39,12 @@ struct ShapeBatchOptions {
   /// The options of each shape, in place of `options`. Element i is for shape i. If it is empty, `options` are for all.
   std::span<const ShapeQueryOptions<Scalar>> path_options = {};
   /// Decides which hits count. None accepts all. The executor's threads may call it at the same time.
-  std::optional<HitFilter<Scalar, ShapeHit<Scalar>>> filter = {};
+  std::optional<ShapeHitFilter<Scalar>> filter = {};
   /// Spreads the batch over threads, in tasks of some hundred shapes each.
   std::optional<Executor> executor = {};
   /// The batch adds its work to these, unless this is null. Nothing else may use them while the batch runs.
   QueryStatistics* statistics = nullptr;
 };
-
-template <FloatOrDouble Scalar>
-using ShapeHitFilter = HitFilter<Scalar, ShapeHit<Scalar>>;  ///< A filter of hits of moving shapes.
 
 using ShapeQueryOptionsf = ShapeQueryOptions<float>;   ///< Options of a moving shape in float.
 using ShapeQueryOptionsd = ShapeQueryOptions<double>;  ///< Options of a moving shape in double.

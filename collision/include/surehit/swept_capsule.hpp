@@ -5,9 +5,9 @@
 
 namespace surehit {
 
-/// A capsule whose centre c moves in a straight line during one physics step: all points within `radius` of its core,
-/// the segment from c - half_axis to c + half_axis. At t, c is start + t (end - start), for t in [0, 1]. The capsule
-/// does not turn.
+/// A capsule whose centre c moves in a straight line during one physics step. It has all points within `radius` of its
+/// core, which is the segment from c - half_axis to c + half_axis. At t, c is start + t (end - start), for t in [0, 1].
+/// The capsule does not turn.
 ///
 /// It touches a triangle if their distance is zero, so a contact in a single point counts. Any finite numbers are
 /// allowed. With a half axis of zero, it is a ball, and hits what a `SweptSphere` hits, with the same bits. With radius

@@ -402,12 +402,14 @@ HWY_INLINE void search_paths(Queries& queries, const PathSpan<Scalar>& paths, [[
   for (std::size_t i = 0; i < paths.size(); ++i) alone(i);
 }
 
-/// Returns true if a batch has so few paths that they are asked one by one, because they would fill too few lanes. The
-/// last paths of a large batch are asked as the others.
+/// Fewer paths would fill too few lanes.
+inline constexpr std::size_t min_paths_in_lanes = 12;
+
+/// Returns true if a batch has so few paths that they are asked one by one. The last paths of a large batch are asked
+/// as the others.
 template <typename AnyQuery, typename Scalar>
 bool are_few(const AnyQuery& query, const PathSpan<Scalar>& paths) {
-  constexpr std::size_t min_paths = 12;
-  return paths.size() < min_paths && query.path == 0;
+  return paths.size() < min_paths_in_lanes && query.path == 0;
 }
 
 /// Sets `hits[i]` to the first hit of path i. Each element must be a miss before.

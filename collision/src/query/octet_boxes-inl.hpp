@@ -24,11 +24,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
 
-/// The most octets that one call of `octets_met` looks at.
+/// The maximum number of octets that one call of `octets_met` looks at.
 inline constexpr std::size_t max_octets = 8;
 
-/// Returns the boxes of a list's octets, or null if the kernel takes so few vectors of the list that a look at the
-/// boxes would take longer than it saves.
+/// Returns the boxes of a list's octets. Returns null if the list is short, because a look at the boxes would then take
+/// longer than it saves.
 template <typename Scalar>
 HWY_INLINE const Scalar* boxes_of(const MeshBlocks<Scalar>& mesh, std::size_t first_entry, std::size_t count) {
   constexpr std::size_t min_vectors = 4;

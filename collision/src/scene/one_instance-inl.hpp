@@ -85,9 +85,9 @@ class OneInstance {
   /// Returns true if a batch can be answered here, and if it is of a usual kind: no option leaves any hit out.
   static bool takes(const SceneQuery<float>& batch, const PathSpan<float>& paths,
                     std::span<const SceneQueryOptions<float>> own_options) {
-    constexpr std::size_t min_paths = 12;  // Fewer would fill too few lanes.
     const std::uint32_t index = batch.tree.only_instance();
-    if (index == InstanceTree::no_child || paths.size() < min_paths || paths.kind() != PathKind::segment) return false;
+    if (index == InstanceTree::no_child || paths.size() < min_paths_in_lanes) return false;
+    if (paths.kind() != PathKind::segment) return false;
     const PathRange<float> range(paths.kind(), batch.options);
     if (range.first != 0 || range.last != 1 || !own_options.empty() || batch.filter != nullptr) return false;
     const CommittedInstance<float>& instance = batch.instances[index];

@@ -13,6 +13,7 @@
 #include "scene/scene_state.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/in_parts.hpp"
+#include "support/never_destroyed.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit {
@@ -40,15 +41,7 @@ void detail::DeleteSceneState<Scalar>::operator()(SceneStateOf<Scalar>* state) c
 
 template <FloatOrDouble Scalar>
 const SceneStateOf<Scalar>& Scene<Scalar>::state() const noexcept {
-  if (state_) return *state_;
-  // It is never destroyed, because a scene may be asked until the program ends.
-  union Kept {
-    Kept() : empty() {}
-    ~Kept() {}
-    SceneStateOf<Scalar> empty;
-  };
-  static const Kept kept;
-  return kept.empty;
+  return state_ ? *state_ : detail::never_destroyed<SceneStateOf<Scalar>>();
 }
 
 template <FloatOrDouble Scalar>

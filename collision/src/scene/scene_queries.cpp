@@ -9,6 +9,7 @@
 #include "scene/committed_scene.hpp"
 #include "scene/scene_query.hpp"
 #include "support/floating_point_environment.hpp"
+#include "support/never_destroyed.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit {
@@ -67,15 +68,8 @@ Vector3<Scalar> find_free_point(const detail::CommittedScene<Scalar>& scene, con
 
 template <FloatOrDouble Scalar>
 const detail::CommittedScene<Scalar>& SceneQueries<Scalar>::committed() const noexcept {
-  if (committed_.get() != nullptr) return *committed_.get();
-  // It is never destroyed, because a scene may be asked until the program ends.
-  union Kept {
-    Kept() : empty() {}
-    ~Kept() {}
-    detail::CommittedScene<Scalar> empty;
-  };
-  static const Kept kept;
-  return kept.empty;
+  const detail::CommittedScene<Scalar>* const committed = committed_.get();
+  return committed != nullptr ? *committed : detail::never_destroyed<detail::CommittedScene<Scalar>>();
 }
 
 template <FloatOrDouble Scalar>

@@ -15,23 +15,22 @@
 
 namespace surehit::detail {
 
-/// A query of a scene.
-template <typename Scalar>
-struct SceneQuery {
+/// A query of a scene. The options and the answers are those of paths, or those of moving shapes.
+template <typename Scalar, typename Options, typename Answer>
+struct AnySceneQuery {
   const std::vector<CommittedInstance<Scalar>>& instances;  ///< The instances, by index.
   const InstanceTree& tree;                                 ///< The tree of their boxes.
-  const SceneQueryOptions<Scalar>& options;                 ///< The options of the query.
-  const SceneHitFilter<Scalar>* filter;                     ///< The filter, or null.
+  const Options& options;                                   ///< The options of the query.
+  const HitFilter<Scalar, Answer>* filter;                  ///< The filter, or null.
   QueryStatistics& statistics;                              ///< The query counts here.
   std::size_t path;  ///< The index of the path in its batch. For a part of a batch, it is that of the first path.
-  Scalar share = 1;  ///< The share of each motion that a segment sees.
+  Scalar share = 1;  ///< The share of each motion that a segment or a shape sees.
 
   /// Returns true if the filter accepts a hit, or if there is no filter.
-  [[nodiscard]] bool accepts(const SceneHit<Scalar>& hit) const { return filter == nullptr || (*filter)(path, hit); }
+  [[nodiscard]] bool accepts(const Answer& hit) const { return filter == nullptr || (*filter)(path, hit); }
   /// Returns true if no mask and no option leaves the instance out.
   [[nodiscard]] bool takes_part(std::uint32_t index) const {
-    const CommittedInstance<Scalar>& instance = instances[index];
-    return (instance.mask & options.instance_mask) != 0 &&
+    return (instances[index].mask & options.instance_mask) != 0 &&
            !(options.ignored_triangle == no_triangle && is_ignored(index));
   }
   /// Returns true if the instance is the one that the options name.
@@ -39,6 +38,10 @@ struct SceneQuery {
     return options.ignored_instance == InstanceId{index, instances[index].generation};
   }
 };
+
+/// A query of a scene about a path.
+template <typename Scalar>
+using SceneQuery = AnySceneQuery<Scalar, SceneQueryOptions<Scalar>, SceneHit<Scalar>>;
 
 /// The searches of scenes, compiled for one instruction set.
 template <typename Scalar>

@@ -14,8 +14,8 @@ namespace surehit::detail {
 struct BoxContact {
   double t_lower = 0;  ///< The exact t is at least this.
   double t_upper = 0;  ///< The exact t is at most this.
-  /// The axis of the side that the centre passes at t (B1). Of several, it is any one. It is `axis_count` if none is
-  /// known for certain.
+  /// The axis of the side that the centre passes at t (B1). If there are several, it is any of them. It is
+  /// `axis_count` if none is known for certain.
   std::size_t timed_by = axis_count;
   bool is_above = false;  ///< True if the centre passes this side from above.
   bool at_start = false;  ///< True if they touch at t = 0. Then no side is passed.

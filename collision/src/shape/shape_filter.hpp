@@ -100,8 +100,8 @@ class ShapeFilter {
            const Vector3<Scalar>& any_half, Scalar any_radius);
 };
 
-/// Returns the lane with the lowest time, among the lanes of these bits. There must be one. Of several, it is the
-/// lowest lane.
+/// Returns the lane with the lowest time, among the lanes of these bits. There must be one. If
+/// several have it, it is the lowest lane.
 template <typename Times>
 [[nodiscard]] std::size_t first_to_enter(std::uint64_t lanes, const Times& enters) {
   auto first = static_cast<std::size_t>(std::countr_zero(lanes));
