@@ -6,6 +6,7 @@
 // Only what is `precise` is computed as it is written (G1).
 
 #define real float
+#define OUT(type) out type
 #include "hit_rounding.glsl"
 #include "pair_kernel.glsl"
 #ifdef SCENE
