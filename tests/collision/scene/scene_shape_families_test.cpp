@@ -108,13 +108,23 @@ bool is_odd(const SceneShapeHit<Scalar>& hit) {
   return (hit.triangle + hit.instance.index) % 2 == 1;
 }
 
-/// Asks a scene about a shape in every way, and compares with all hits.
+template <typename Scalar>
+SceneShapeHit<Scalar> first_of(const Hits<Scalar>& hits) {
+  return hits.empty() ? SceneShapeHit<Scalar>{} : hits.front();
+}
+
+template <typename Scalar>
+Hits<Scalar> odd_ones_of(const Hits<Scalar>& hits) {
+  Hits<Scalar> odd;
+  std::copy_if(hits.begin(), hits.end(), std::back_inserter(odd), is_odd<Scalar>);
+  return odd;
+}
+
+/// Asks a scene about a shape in every way but batches, and compares with all hits.
 template <typename Scalar>
 std::string difference_from(const Hits<Scalar>& all, const Scene<Scalar>& scene, const SweptShape<Scalar>& shape,
                             const SceneShapeQueryOptions<Scalar>& options) {
-  Hits<Scalar> odd;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(odd), is_odd<Scalar>);
-  const auto first_of = [](const Hits<Scalar>& hits) { return hits.empty() ? SceneShapeHit<Scalar>{} : hits.front(); };
+  const Hits<Scalar> odd = odd_ones_of(all);
   Hits<Scalar> answered;
   scene.all_hits(shape, answered, is_odd<Scalar>, options);
   if (answered != odd) return "all_hits of the odd ones";
@@ -125,12 +135,6 @@ std::string difference_from(const Hits<Scalar>& all, const Scene<Scalar>& scene,
   }
   if (scene.any_hit(shape, options) == all.empty()) return "any_hit";
   if (scene.any_hit(shape, is_odd<Scalar>, options) == odd.empty()) return "any_hit of the odd ones";
-  Hits<Scalar> of_batch(1);
-  const auto ask_batch = [&](const auto& one) {
-    scene.first_hits(std::span(&one, 1), of_batch, {.options = options, .filter = is_odd<Scalar>});
-  };
-  std::visit(ask_batch, shape);
-  if (of_batch[0] != first_of(odd)) return "first_hits of the odd ones";
   if (!first || first->started_touching) return "";
   const Scalar free = scene.last_free_t(shape, *first);
   SceneShapeQueryOptions<Scalar> until = options;
@@ -138,6 +142,72 @@ std::string difference_from(const Hits<Scalar>& all, const Scene<Scalar>& scene,
   if (scene.any_hit(shape, until)) return "last_free_t is not free";
   until.max_t = std::nextafter(free, Scalar{2});
   if (!scene.any_hit(shape, until)) return "last_free_t is not the last";
+  return "";
+}
+
+/// What a scene is asked about a shape, and all of its hits. The oracle has judged these.
+template <typename Scalar>
+struct JudgedShape {
+  SweptShape<Scalar> shape;
+  SceneShapeQueryOptions<Scalar> options;
+  Hits<Scalar> all;
+};
+
+/// Asks a scene in batches about those shapes that are of one kind, and compares with all hits. Each shape is
+/// alone in a batch with its options, and has options of its own in a batch of all.
+template <typename Shape, typename Scalar>
+std::string difference_in_batches(const std::vector<JudgedShape<Scalar>>& judged, const Scene<Scalar>& scene) {
+  std::vector<Shape> shapes;
+  std::vector<SceneShapeQueryOptions<Scalar>> options;
+  std::vector<const Hits<Scalar>*> all;
+  for (const JudgedShape<Scalar>& one : judged) {
+    if (!std::holds_alternative<Shape>(one.shape)) continue;
+    shapes.push_back(std::get<Shape>(one.shape));
+    options.push_back(one.options);
+    all.push_back(&one.all);
+  }
+  const auto difference_of = [&](const SceneShapeBatchOptions<Scalar>& asked, std::size_t begin, std::size_t count) {
+    // Each answer has to be written, that of a miss too.
+    SceneShapeHit<Scalar> stale;
+    stale.triangle = 7;
+    Hits<Scalar> firsts(count, stale);
+    std::vector<std::uint8_t> blocked(count, 7);
+    const auto part = std::span(shapes).subspan(begin, count);
+    scene.first_hits(part, firsts, asked);
+    scene.any_hits(part, blocked, asked);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Hits<Scalar> expected = asked.filter ? odd_ones_of(*all[begin + i]) : *all[begin + i];
+      const std::string of_which = (asked.filter ? " of the odd ones, " : ", ") + hex_text(part[i]);
+      if (firsts[i] != first_of(expected)) return "first_hits" + of_which;
+      if (blocked[i] != (expected.empty() ? 0 : 1)) return "any_hits" + of_which;
+    }
+    return std::string();
+  };
+  for (const bool has_filter : {false, true}) {
+    SceneShapeBatchOptions<Scalar> asked;
+    if (has_filter) asked.filter = is_odd<Scalar>;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      asked.options = options[i];
+      const std::string difference = difference_of(asked, i, 1);
+      if (!difference.empty()) return difference;
+    }
+    // Those of the whole batch may have no say where each shape has its own.
+    asked.options = {.instance_mask = 0};
+    asked.path_options = options;
+    const std::string difference = difference_of(asked, 0, shapes.size());
+    if (!difference.empty()) return difference + ", with options of its own";
+  }
+  return "";
+}
+
+/// Does so with the shapes of each kind.
+template <typename Scalar>
+std::string difference_in_batches(const std::vector<JudgedShape<Scalar>>& judged, const Scene<Scalar>& scene) {
+  for (const std::string& difference : {difference_in_batches<SweptSphere<Scalar>>(judged, scene),
+                                        difference_in_batches<SweptBox<Scalar>>(judged, scene),
+                                        difference_in_batches<SweptCapsule<Scalar>>(judged, scene)}) {
+    if (!difference.empty()) return difference;
+  }
   return "";
 }
 
@@ -182,12 +252,14 @@ void check(SceneFamily family) {
     const DrawnScene<Scalar> drawn = draw_small_scene<Scalar>(family, random);
     const JudgedScene<Scalar> judged(drawn);
     ScenePathDrawer<Scalar> drawer(drawn, judged.oracle, judged.ids, random);
+    std::vector<JudgedShape<Scalar>> judged_shapes;
     for (const SweptShape<Scalar>& shape : draw_shapes(drawer, 6, random)) {
       Hits<Scalar> all;
       judged.scene.all_hits(shape, all);
       const auto error = judged.oracle.find_error(shape, {}, all);
       ASSERT_FALSE(error.has_value()) << *error << ", scene " << i << ", " << text_of(shape);
       ASSERT_EQ(difference_from(all, judged.scene, shape, {}), "") << "scene " << i << ", " << text_of(shape);
+      judged_shapes.push_back({shape, {}, all});
       ++asked;
       touched += !all.empty();
       if (all.empty() || random.one_in(2)) continue;
@@ -197,7 +269,9 @@ void check(SceneFamily family) {
       const auto other = judged.oracle.find_error(shape, options, some);
       ASSERT_FALSE(other.has_value()) << *other << ", scene " << i << ", " << text_of(shape);
       ASSERT_EQ(difference_from(some, judged.scene, shape, options), "") << "scene " << i << ", " << text_of(shape);
+      judged_shapes.push_back({shape, options, some});
     }
+    ASSERT_EQ(difference_in_batches(judged_shapes, judged.scene), "") << "scene " << i;
   }
   // A family that turned into hits or misses alone would test little.
   if (asked < 40) return;
