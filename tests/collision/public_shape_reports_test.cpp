@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "support/sphere_oracle.hpp"
 #include "support/swept_truth.hpp"
 #include "surehit/collider.hpp"
+#include "surehit/scene.hpp"
 #include "surehit/shape_hit.hpp"
 
 /// Situations in which other libraries were publicly reported to answer wrongly about a moving shape, made anew: each
@@ -308,6 +310,121 @@ TYPED_TEST(PublicShapeReports, ball_onto_plates_of_up_to_a_kilometre) {
     this->expect_hits(plate, ball, hits);
   }
   EXPECT_EQ(times.size(), 1U);
+}
+
+// Fast balls pass through a wall: https://github.com/avianphysics/avian/issues/940. Its numbers could not be had. Here
+// a ball flies at the seam of a thin wall, up to half a million times as far as the wall is thick.
+TYPED_TEST(PublicShapeReports, fast_balls_at_the_seam_of_a_thin_wall) {
+  const TypeParam thick{0x1p-6};
+  GeneratedMesh<TypeParam> mesh;
+  for (const TypeParam x : {TypeParam{0}, thick}) {
+    mesh.add({{x, -4, -4}, {x, 4, -4}, {x, 4, 4}});
+    mesh.add({{x, -4, -4}, {x, 4, 4}, {x, -4, 4}});
+  }
+  const TypeParam half{0.5};
+  const TypeParam radius{0.25};
+  for (const TypeParam reach : {TypeParam{1}, TypeParam{4096}}) {
+    const SweptSphere<TypeParam> there{{-reach, 0, 0}, {reach, 0, 0}, radius};
+    const SweptSphere<TypeParam> back{{reach, 0, 0}, {-reach, 0, 0}, radius};
+    const auto hits_of = [&](TypeParam near, TypeParam far, std::uint32_t first) {
+      const auto t = [&](TypeParam way) { return (reach + way - radius) / (2 * reach); };
+      return typename TestFixture::Hits{{t(near), 0, half, first, Feature::edge_ca, false},
+                                        {t(near), half, 0, first + 1, Feature::edge_ab, false},
+                                        {t(far), 0, half, 2 - first, Feature::edge_ca, false},
+                                        {t(far), half, 0, 3 - first, Feature::edge_ab, false}};
+    };
+    this->expect_hits(mesh, there, hits_of(0, thick, 0));
+    this->expect_hits(mesh, back, hits_of(-thick, 0, 2));
+  }
+}
+
+// The same in a closed room, which a ball flies through in steps of up to 20,000 of its widths. Each step ends at
+// the last free point, and the ball bounces.
+TYPED_TEST(PublicShapeReports, fast_balls_in_a_closed_room) {
+  const TypeParam size{8};
+  GeneratedMesh<TypeParam> room;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const TypeParam side : {-size, size}) {
+      const auto corner = [&](TypeParam x, TypeParam y) {
+        Vector3<TypeParam> point;
+        point[axis] = side;
+        point[(axis + 1) % 3] = x;
+        point[(axis + 2) % 3] = y;
+        return point;
+      };
+      room.add({corner(-size, -size), corner(size, -size), corner(size, size)});
+      room.add({corner(-size, -size), corner(size, size), corner(-size, size)});
+    }
+  }
+  const Collider<TypeParam> collider(room.view());
+  const TypeParam radius{0.25};
+  for (const TypeParam speed : {TypeParam{1}, TypeParam{100}, TypeParam{10'000}}) {
+    Vector3<TypeParam> place{0, 0, 0};
+    Vector3<TypeParam> step = speed * Vector3<TypeParam>{1, 1, 1};  // Into a corner at first.
+    std::size_t bounces = 0;
+    for (int i = 0; i < 500; ++i) {
+      const SweptSphere<TypeParam> ball{place, place + step, radius};
+      const auto hit = collider.first_hit(ball);
+      place = hit ? collider.last_free_point(ball, *hit) : ball.end;
+      ASSERT_LT(place.cwiseAbs().maxCoeff(), size - radius) << "step " << i << ", " << hex_text(ball);
+      if (!hit) continue;
+      ++bounces;
+      const Vector3<TypeParam> normal = contact_normal(SweptShape<TypeParam>(ball), collider.triangle(hit->triangle));
+      step -= 2 * step.dot(normal) * normal;
+      // No two bounces are alike.
+      step += speed / 64 * Vector3<TypeParam>{1, static_cast<TypeParam>(i % 3), static_cast<TypeParam>(i % 5)};
+      step *= speed / step.cwiseAbs().maxCoeff();
+    }
+    EXPECT_GE(bounces, 40U);
+  }
+}
+
+// Where positions are doubles, queries were in float. So 10,000 km away, what grazes a shape by less than an ulp was
+// missed, and a mover lost its small steps: https://github.com/erincatto/box3d, docs/large_worlds.md. Here a unit is a
+// millimetre in double and an ulp in float, and answers are those at the origin.
+TYPED_TEST(PublicShapeReports, shapes_ten_thousand_kilometres_away) {
+  using Scalar = TypeParam;
+  const Scalar unit = sizeof(Scalar) == 4 ? Scalar{1} : Scalar{0x1p-10};
+  const Triangle<Scalar> ledge{{0, -64 * unit, 0}, {0, 64 * unit, 0}, {-64 * unit, 0, 0}};
+  const Triangle<Scalar> wall{
+      {8 * unit, -64 * unit, -64 * unit}, {8 * unit, 64 * unit, -64 * unit}, {8 * unit, 0, 64 * unit}};
+  const ShapeHit<Scalar> grazing{Scalar{0.25}, 0, 0, 0, Feature::corner_a, false};
+  const ShapeHit<Scalar> stopped{1, Scalar{0.25}, Scalar{0.5}, 0, Feature::face, false};
+  for (const Scalar away : {Scalar{0}, Scalar{10'000'000}}) {
+    const Vector3<Scalar> offset{away, away, 0};
+    const auto expect = [&](const Triangle<Scalar>& triangle, const auto& shape, const auto& hits) {
+      auto moved = shape;
+      moved.start += offset;
+      moved.end += offset;
+      this->expect_hits(this->mesh_of({{triangle.a + offset, triangle.b + offset, triangle.c + offset}}), moved, hits);
+      // The mesh is made of floats, and only its pose is far away.
+      GeneratedMesh<float> local;
+      local.add(
+          {triangle.a.template cast<float>(), triangle.b.template cast<float>(), triangle.c.template cast<float>()});
+      Scene<Scalar> scene;
+      scene.add(std::make_shared<const Collider<float>>(local.view()), Pose<Scalar>::translated(offset));
+      scene.commit();
+      std::vector<SceneShapeHit<Scalar>> in_scene;
+      scene.all_hits(moved, in_scene);
+      ASSERT_EQ(in_scene.size(), hits.size());
+      for (std::size_t i = 0; i < hits.size(); ++i)
+        EXPECT_EQ(hex_text(ShapeHit<Scalar>(in_scene[i])), hex_text(hits[i]));
+    };
+    // 3² + 4² = 5²: along the edge of the ledge, from beyond its corner. There, it touches.
+    SweptSphere<Scalar> passing{{3 * unit, -128 * unit, 4 * unit}, {3 * unit, 128 * unit, 4 * unit}, 5 * unit};
+    expect(ledge, passing, typename TestFixture::Hits{grazing});
+    passing.radius = neighbour(passing.radius, -1);
+    expect(ledge, passing, typename TestFixture::Hits{});
+    // A mover is two units in front of a wall. It makes a step of one unit, and then another one.
+    for (const int from : {3, 4}) {
+      const Vector3<Scalar> start{static_cast<Scalar>(from) * unit, 0, 0};
+      const Vector3<Scalar> end = start + Vector3<Scalar>{unit, 0, 0};
+      const auto hits = from == 4 ? typename TestFixture::Hits{stopped} : typename TestFixture::Hits{};
+      expect(wall, SweptSphere<Scalar>{start, end, 3 * unit}, hits);
+      expect(wall, SweptBox<Scalar>{start, end, {3 * unit, 2 * unit, 4 * unit}}, hits);
+      expect(wall, SweptCapsule<Scalar>{start, end, {0, 0, 4 * unit}, 3 * unit}, hits);
+    }
+  }
 }
 
 }  // namespace
