@@ -45,6 +45,15 @@ Triangle<Scalar> converted(const Triangle<MeshScalar>& triangle) {
   return {triangle.a.template cast<Scalar>(), triangle.b.template cast<Scalar>(), triangle.c.template cast<Scalar>()};
 }
 
+/// Triangles of a list, placed. It has no meaning between two lists, and all instances of a query share it.
+struct PlacedGroup {
+  static constexpr std::size_t max_count = ShapeFilter<double>::max_count;  ///< The number of triangles in a call.
+
+  typename ShapeFilter<double>::Times enters;
+  /// The corners, in the layout of `MeshBlocks::corners`. A vector load may read beyond the last one.
+  std::array<double, 9 * max_count + 16> corners = {};
+};
+
 /// Gives the triangles of one instance that a shape may touch to `Keep`.
 template <typename Shape, typename MeshScalar, typename Keep>
 class PlacedShapeVisitor {
@@ -53,7 +62,7 @@ class PlacedShapeVisitor {
  public:
   PlacedShapeVisitor(const SceneShapeQuery<Scalar>& query, const PlacedNarrowphase<Shape>& narrowphase,
                      std::uint32_t index, const ColliderState<MeshScalar>& mesh, const PlacedShape& placed,
-                     const Shape& shape, Keep& keep)
+                     const Shape& shape, PlacedGroup& group, Keep& keep)
       : query_(query),
         narrowphase_(narrowphase),
         index_(index),
@@ -61,6 +70,7 @@ class PlacedShapeVisitor {
         is_ignored_(query.is_ignored(index)),
         placed_(placed),
         filter_(placed.near_anchor(shape)),
+        group_(group),
         keep_(keep) {}
 
   void count_cell() { ++query_.statistics.cells; }
@@ -69,15 +79,14 @@ class PlacedShapeVisitor {
     const std::size_t first = mesh_.grid.first_entry(word);
     const MeshScalar* const corners = MeshBlocks<MeshScalar>::corners(mesh_.mesh.block(word.list(), first));
     query_.statistics.candidates += count;
-    for (std::size_t from = 0; from < count; from += group) {
-      const std::size_t in_group = std::min(count - from, group);
-      placed_.place(corners + from, count, in_group, group, corners_.data());
-      std::uint64_t found = filter_.find(corners_.data(), group, 0, keep_.limit, enters_);
-      if (in_group < group) found &= (std::uint64_t{1} << in_group) - 1;
+    for (std::size_t from = 0; from < count; from += PlacedGroup::max_count) {
+      const std::size_t in_group = std::min(count - from, PlacedGroup::max_count);
+      placed_.place(corners + from, count, in_group, in_group, group_.corners.data());
+      std::uint64_t found = filter_.find(group_.corners.data(), in_group, 0, keep_.limit, group_.enters);
       while (found != 0) {
         // The triangle that may be touched first comes first. Its hit may lower the limit below all others.
-        const std::size_t lane = first_to_enter(found, enters_);
-        if (enters_[lane] > keep_.limit) break;
+        const std::size_t lane = first_to_enter(found, group_.enters);
+        if (group_.enters[lane] > keep_.limit) break;
         found &= ~(std::uint64_t{1} << lane);
         const std::uint32_t id = mesh_.grid.entries()[first + from + lane];
         if (recent_.has(id)) continue;
@@ -96,8 +105,6 @@ class PlacedShapeVisitor {
   [[nodiscard]] bool is_done() const { return keep_.is_done; }
 
  private:
-  static constexpr std::size_t group = ShapeFilter<double>::max_count;  ///< The number of triangles in a call.
-
   [[nodiscard]] bool takes_part(std::uint32_t id) const {
     const std::uint32_t mask = mesh_.masks.empty() ? ~std::uint32_t{0} : mesh_.masks[id];
     return (mask & query_.options.mask) != 0 && !(is_ignored_ && id == query_.options.ignored_triangle);
@@ -118,11 +125,9 @@ class PlacedShapeVisitor {
   const bool is_ignored_;
   const PlacedShape& placed_;
   const ShapeFilter<double> filter_;
+  PlacedGroup& group_;
   Keep& keep_;
   RecentTriangles recent_;
-  typename ShapeFilter<double>::Times enters_;
-  /// The corners of a group, in the layout of `MeshBlocks::corners`. A vector load may read beyond the last one.
-  std::array<double, 9 * group + 16> corners_ = {};
 };
 
 /// Keeps the first hit.
@@ -226,12 +231,15 @@ class SceneShapeSearch {
   void search_mesh(std::uint32_t index, const ColliderState<MeshScalar>& mesh) {
     const PlacedInstance<Scalar>& placed = query_.instances[index].placed;
     const PlacedShape shape(shape_, placed.placement, placed.frame, query_.share);
-    PlacedShapeVisitor<Shape, MeshScalar, Keep> visitor(query_, narrowphase, index, mesh, shape, shape_, keep);
-    if (!shape.is_usable() || !SweptWalk(mesh.grid, shape.in_mesh(), visitor).walk()) visitor.visit_all();
+    if (!group_) group_.emplace();
+    PlacedShapeVisitor<Shape, MeshScalar, Keep> visitor(query_, narrowphase, index, mesh, shape, shape_, *group_, keep);
+    if (!shape.is_usable() || !SweptWalk(mesh.grid, shape.in_mesh(), visitor, mesh.mesh.slabs()).walk())
+      visitor.visit_all();
   }
 
   const SceneShapeQuery<Scalar>& query_;
   const Shape& shape_;
+  std::optional<PlacedGroup> group_;  ///< Many shapes come to no instance, and need none.
 };
 
 }  // namespace

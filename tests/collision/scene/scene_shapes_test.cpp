@@ -7,9 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
+#include "collider_state.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/scalars.hpp"
@@ -144,6 +146,67 @@ TYPED_TEST(SceneShapes, of_placed_instances_have_the_bits_of_one_collider) {
     }
   }
   EXPECT_GE(touched, case_count(900));
+}
+
+// Lists of a smooth mesh of floats have slabs. A placed shape leaves out lists that it does not come to by them.
+TYPED_TEST(SceneShapes, of_placed_bowls_have_the_bits_of_one_collider) {
+  using Scalar = TypeParam;
+  using Point = Vector3<Scalar>;
+  GeneratedMesh<Scalar> bowl;
+  const auto at = [](int x, int y) {
+    const int height = (x + 24) * (x + 24) + (y + 32) * (y + 32);
+    return Point(static_cast<Scalar>(x) / 4, static_cast<Scalar>(y) / 4, static_cast<Scalar>(height) / 128);
+  };
+  for (int y = -16; y < 16; ++y) {
+    for (int x = -16; x < 16; ++x) {
+      bowl.add({at(x, y), at(x + 1, y), at(x, y + 1)});
+      bowl.add({at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
+    }
+  }
+  const auto collider = std::make_shared<Collider<Scalar>>(bowl.view());
+  ASSERT_EQ(detail::ColliderState<Scalar>::of(*collider).mesh.has_slabs(), (std::is_same_v<Scalar, float>));
+  const std::size_t count = bowl.triangles.size();
+  std::size_t touched = 0;
+  for (std::size_t i = case_count(10); i > 0; --i) {
+    Scene<Scalar> scene;
+    std::vector<InstanceId> ids;
+    GeneratedMesh<Scalar> all_triangles;
+    for (int k = 0; k < 2; ++k) {
+      const Pose<Scalar> pose{matrix_of_eighths<Scalar>(this->random), this->point_of_eighths(3)};
+      ids.push_back(scene.add(collider, pose));
+      const auto image = [&](const Point& x) -> Point { return pose.linear * x + pose.translation; };
+      for (std::size_t t = 0; t < count; ++t) {
+        const Triangle<Scalar> local = bowl.view().triangle(t);
+        all_triangles.add({image(local.a), image(local.b), image(local.c)});
+      }
+    }
+    scene.commit();
+    const Collider<Scalar> flat(all_triangles.view());
+    for (int k = 0; k < 20; ++k) {
+      auto shape = this->draw_shape();
+      const Point near = all_triangles.view().triangle(this->random.below(2 * count)).a + this->point_of_eighths(1);
+      std::visit(
+          [&](auto& any) {
+            any.end += near - any.start;
+            any.start = near;
+          },
+          shape);
+      std::vector<SceneShapeHit<Scalar>> hits;
+      std::vector<ShapeHit<Scalar>> expected;
+      scene.all_hits(shape, hits);
+      flat.all_hits(shape, expected);
+      ASSERT_EQ(hits.size(), expected.size()) << this->kind_of(shape);
+      for (std::size_t h = 0; h < hits.size(); ++h) {
+        SceneShapeHit<Scalar> one{expected[h], ids[expected[h].triangle / count]};
+        one.triangle %= static_cast<std::uint32_t>(count);
+        ASSERT_EQ(hits[h], one) << this->kind_of(shape) << ", scene " << i << ", hit " << h;
+      }
+      const SceneShapeHit<Scalar> none;
+      ASSERT_EQ(scene.first_hit(shape).value_or(none), hits.empty() ? none : hits.front()) << this->kind_of(shape);
+      touched += hits.empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GE(touched, case_count(50));
 }
 
 TYPED_TEST(SceneShapes, meet_moving_instances_as_they_see_them) {
