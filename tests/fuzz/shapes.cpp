@@ -3,7 +3,6 @@
 // and capsules against rationals and long floats.
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -34,6 +33,7 @@ namespace {
 struct Request {
   std::uint64_t pairs = 0;
   std::string shape = "sphere";
+  std::vector<std::string> families;
   std::uint64_t seed = 1;
   unsigned threads = 1;
   bool in_double = false;
@@ -87,16 +87,35 @@ std::string check(const Shape& shape, const Triangle<Scalar>& triangle, bool con
          "\nanswered: " + (answer ? hex_text(*answer) : "a miss") + '\n';
 }
 
+/// Returns the families that are asked for, or all of them.
+template <typename Family>
+std::vector<Family> chosen_families(const Request& request) {
+  std::vector<std::string> names;
+  for (const Family family : all_families<Family>) names.push_back(name_of(family));
+  for (const std::string& chosen : request.families) {
+    if (std::find(names.begin(), names.end(), chosen) == names.end()) {
+      throw CLI::ValidationError("--family", chosen + " not in {" + CLI::detail::join(names) + "}");
+    }
+  }
+  std::vector<Family> families;
+  for (const Family family : all_families<Family>) {
+    const auto& chosen = request.families;
+    if (chosen.empty() || std::find(chosen.begin(), chosen.end(), name_of(family)) != chosen.end())
+      families.push_back(family);
+  }
+  return families;
+}
+
 /// Each thread takes the next chunk, which has a seed of its own: what is drawn does not depend on the threads.
 template <typename Family, typename Scalar>
 class ShapeRun {
  public:
-  static constexpr const auto& families = all_families<Family>;
-  using CountsOfFamilies = std::array<Counts, families.size()>;
-
   explicit ShapeRun(const Request& request) : request_(request) {}
 
-  CountsOfFamilies run() {
+  [[nodiscard]] const std::vector<Family>& families() const { return families_; }
+
+  /// Returns the counts of each family.
+  std::vector<Counts> run() {
     std::vector<std::thread> threads;
     for (unsigned i = 0; i < request_.threads; ++i) threads.emplace_back([this] { work(); });
     for (std::thread& thread : threads) thread.join();
@@ -104,17 +123,16 @@ class ShapeRun {
   }
 
  private:
-  static constexpr std::uint64_t chunk = families.size() * 256;
-
   void work() {
-    CountsOfFamilies counts;
+    const std::uint64_t chunk = families_.size() * 256;
+    std::vector<Counts> counts(families_.size());
     for (;;) {
       const std::uint64_t first = next_.fetch_add(chunk);
       if (first >= request_.pairs) break;
       Random random(Random(request_.seed).bits() + first);
       for (std::uint64_t i = first; i < std::min(first + chunk, request_.pairs); ++i) {
-        const std::size_t family = i % families.size();
-        const auto [shape, triangle] = draw_shape_pair<Scalar>(families[family], random);
+        const std::size_t family = i % families_.size();
+        const auto [shape, triangle] = draw_shape_pair<Scalar>(families_[family], random);
         tell(check(shape, triangle, request_.confirm, counts[family]));
       }
     }
@@ -129,9 +147,10 @@ class ShapeRun {
   }
 
   const Request& request_;
+  const std::vector<Family> families_ = chosen_families<Family>(request_);
   std::atomic<std::uint64_t> next_ = 0;
   std::mutex mutex_;
-  CountsOfFamilies counts_;
+  std::vector<Counts> counts_ = std::vector<Counts>(families_.size());
 };
 
 void print_row(const char* name, const Counts& counts) {
@@ -145,13 +164,14 @@ void print_row(const char* name, const Counts& counts) {
 template <typename Run>
 example::ExitStatus run(const Request& request) {
   const auto start = std::chrono::steady_clock::now();
-  const auto counts = Run(request).run();
+  Run all_pairs(request);
+  const std::vector<Counts> counts = all_pairs.run();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
 
   std::printf("%-22s %13s %13s %13s %13s\n", "family", "pairs", "hits", "at the start", "findings");
   Counts all;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    print_row(name_of(Run::families[i]).c_str(), counts[i]);
+    print_row(name_of(all_pairs.families()[i]).c_str(), counts[i]);
     all += counts[i];
   }
   print_row("all", all);
@@ -177,6 +197,7 @@ example::Work describe(CLI::App& app) {
   app.add_option("--shape", request->shape, "What moves")
       ->check(CLI::IsMember({"sphere", "box", "capsule"}))
       ->capture_default_str();
+  app.add_option("--family", request->families, "Only these families of the shape");
   return [request] {
     if (request->shape == "box") return run_in<BoxFamily>(*request);
     if (request->shape == "capsule") return run_in<CapsuleFamily>(*request);
