@@ -28,12 +28,19 @@ struct TableKind {
 
 const std::vector<TableKind>& all_tables() {
   static const std::vector<TableKind> tables = {
-      {"queries", measure_queries},     {"build", measure_builds},
-      {"load", measure_loads},          {"size", measure_sizes},
-      {"tick", measure_ticks},          {"threads", measure_threads, false},
-      {"exactness", measure_exactness}, {"statistics", measure_statistics},
-      {"scene", measure_worlds},        {"shapes", measure_shapes},
-      {"gpu", measure_gpu, false},      {"gpu_scene", measure_gpu_scenes, false},
+      {"queries", measure_queries},
+      {"build", measure_builds},
+      {"load", measure_loads},
+      {"size", measure_sizes},
+      {"tick", measure_ticks},
+      {"threads", measure_threads, false},
+      {"exactness", measure_exactness},
+      {"statistics", measure_statistics},
+      {"scene", measure_worlds},
+      {"shapes", measure_shapes},
+      {"scene_shapes", measure_world_shapes},
+      {"gpu", measure_gpu, false},
+      {"gpu_scene", measure_gpu_scenes, false},
   };
   return tables;
 }
@@ -85,9 +92,10 @@ void describe(CLI::App& app, Words& words, Request& request) {
   add_choice(app, "--set", words.sets, "Only these path sets",
              names_of(all_path_sets, [](PathSet set) { return name_of(set); }))
       ->type_name("NAME");
-  add_choice(app, "--scene", words.worlds, "Only these scenes of the tables scene and gpu_scene", world_names())
+  add_choice(app, "--scene", words.worlds, "Only these scenes of the tables scene, scene_shapes and gpu_scene",
+             world_names())
       ->type_name("NAME");
-  add_choice(app, "--shape", words.shapes, "Only these moving shapes of table shapes",
+  add_choice(app, "--shape", words.shapes, "Only these moving shapes of the tables shapes and scene_shapes",
              names_of(all_shape_kinds, [](ShapeKind kind) { return name_of(kind); }))
       ->type_name("NAME");
   app.add_option("--contender", words.contenders, "Besides surehit only contenders whose name has one of these in it")
@@ -175,6 +183,7 @@ void choose(const Words& words, Request& request) {
     copy_chosen(surehit_small_batch_world_entrants(), request.world_entrants);
   }
   copy_chosen(all_sweep_entrants(), request.sweep_entrants);
+  copy_chosen(all_world_sweep_entrants(), request.world_sweep_entrants);
 }
 
 std::int64_t target_of(const std::string& instruction_set) {

@@ -57,6 +57,7 @@ TABLES, CONTENT = "tables", "content"
 # Moving shapes take the peers so long that one mesh and a third of the rounds have to do.
 TABLES_OF_PATHS = ["queries", "build", "load", "size", "tick", "threads", "exactness", "statistics", "scene"]
 SHAPES = ["--table", "shapes", "--mesh", "dungeon"]
+SCENES_OF_SHAPES = ["town", "forest", "bricks", "one"]
 
 
 def fail(reason):
@@ -413,6 +414,36 @@ def commits(figures):
     )
 
 
+def scene_shapes(figures):
+    """The ratios of moving shapes in scenes, from the lowest to the highest of all kinds of paths."""
+    batch, single = OURS
+    rows = []
+    for scene in figures.values("mesh", table="scene_shapes", run=TABLES):
+        for shape in figures.values("question", table="scene_shapes", mesh=scene, run=TABLES):
+            here = {"table": "scene_shapes", "mesh": scene, "question": shape}
+
+            def all_of(contender, measure):
+                return shown_range(
+                    [
+                        figures.median(**here, paths=paths, contender=contender, measure=measure)
+                        for paths in figures.values("paths", **here, run=TABLES)
+                    ]
+                )
+
+            rows.append(
+                [
+                    scene,
+                    shape,
+                    all_of("Bullet", f"over {single}"),
+                    all_of(single, "over surehit segment single"),
+                    all_of(batch, "over surehit segment batch"),
+                    all_of(batch, f"over {single}"),
+                ]
+            )
+    columns = ["Bullet over single calls", "single calls over points", "batches over points", "batches over single calls"]
+    return markdown(["scene", "shape", *columns], rows)
+
+
 def growth(figures):
     exponent = "growth exponent of "
     rows = []
@@ -527,7 +558,7 @@ def summaries(_):
 BLOCKS_OF_README = [wrong, summaries]
 BLOCKS_OF_FIGURES = [
     machine, run_of, summary, all_batches, all_batches_on_avx2, all_single_calls, all_doubles, all_builds, queries, ranges,
-    instruction_sets, builds, ticks, scenes, commits, growth, threads, exactness, bounds,
+    instruction_sets, builds, ticks, scenes, commits, scene_shapes, growth, threads, exactness, bounds,
 ]  # fmt: skip
 BLOCKS = {block.__name__: block for block in [*BLOCKS_OF_README, *BLOCKS_OF_FIGURES, pages]}
 
@@ -617,6 +648,9 @@ def main():
         run(CONTENT, "--uneven", "--table", "build")
         paths_of_shapes = [] if "--quick" in passed_on else ["--paths", "2000"]
         run(TABLES, *SHAPES, *paths_of_shapes, rounds=math.ceil(arguments.rounds / 3))
+        worlds = [option for scene in SCENES_OF_SHAPES for option in ("--scene", scene)]
+        paths_of_shapes = [] if "--quick" in passed_on else ["--paths", "500"]
+        run(TABLES, "--table", "scene_shapes", *worlds, *paths_of_shapes, rounds=math.ceil(arguments.rounds / 3))
 
         check(figures)
         name = re.sub(r"\W+", "_", machine(figures)).strip("_").lower()

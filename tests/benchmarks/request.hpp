@@ -28,6 +28,7 @@ struct Request {
   std::vector<std::string> worlds;
   std::vector<WorldEntrant> world_entrants;
   std::vector<SweepEntrant> sweep_entrants;
+  std::vector<WorldSweepEntrant> world_sweep_entrants;
   std::vector<ShapeKind> shapes;
   float detail = 1;  ///< of the worlds
 };

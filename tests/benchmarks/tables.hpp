@@ -27,6 +27,8 @@ void measure_worlds(const Request& request, Report& report);
 
 /// Moving shapes beside peers, beside segments of the same paths, and close decisions beside general ones.
 void measure_shapes(const Request& request, Report& report);
+/// Moving shapes in worlds, beside segments of the same paths, beside a collider, and beside peers.
+void measure_world_shapes(const Request& request, Report& report);
 
 /// Batches on a GPU beside those of the host. Without a device, it says so and measures nothing.
 void measure_gpu(const Request& request, Report& report);
