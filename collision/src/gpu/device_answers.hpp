@@ -51,11 +51,12 @@ enum class Leftover : std::uint8_t {
 };
 
 [[nodiscard]] inline Leftover leftover_of(const DeviceHit& answer, std::size_t triangle_count) {
+  constexpr auto edge_on = static_cast<std::uint32_t>(Side::edge_on);
   constexpr auto front = static_cast<std::uint32_t>(Side::front);
   constexpr auto back = static_cast<std::uint32_t>(Side::back);
   if (answer.triangle == no_triangle && answer.side == 0) return Leftover::nothing_of_miss;
   if (answer.triangle >= triangle_count) return Leftover::all;
-  if (answer.side == front || answer.side == back) return Leftover::nothing_of_hit;
+  if (answer.side == edge_on || answer.side == front || answer.side == back) return Leftover::nothing_of_hit;
   const std::uint32_t side = answer.side - DeviceHit::is_not_rounded;
   return side == front || side == back ? Leftover::rounding : Leftover::all;
 }

@@ -6,6 +6,11 @@ const uint is_missed = 0;
 const uint is_hit = 1;
 const uint is_open = 2;
 
+// The sides, as in an answer.
+const uint edge_on = 0;
+const uint front = 1;
+const uint back = 2;
+
 const real slack_of_sums = 1.5;          // G21
 const real slack_of_t = 16.0 * max_gap;  // G21
 const real min_t_of_pairs = 4.0 / 1152921504606846976.0;  // 2^-58 (G5)

@@ -19,6 +19,8 @@ const uint keeps_back = 2;
 const uint is_whole = 4;       // The range is [0, 1].
 const uint hits_nothing = 8;   // The range is empty.
 const uint is_for_host = 16;   // The kernel cannot weigh the range.
+const uint ignores_start = 32;  // Triangles that contain the start are left out.
+const uint ignores_end = 64;    // Those that contain the end are.
 
 const real relative = 72.0 * max_gap;               // G3
 const real min_size = 1.0 / 1073741824.0;           // 2^-30 (G2)

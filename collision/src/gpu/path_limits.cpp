@@ -29,6 +29,8 @@ PathLimits common_limits(PathKind kind, const Options& options) {
   limits.ignored_instance = no_instance;
   if (options.culling == Culling::back) limits.flags |= PathLimits::keeps_front;
   if (options.culling == Culling::front) limits.flags |= PathLimits::keeps_back;
+  if (options.ignore_start_contact && kind != PathKind::line) limits.flags |= PathLimits::ignores_start;
+  if (options.ignore_end_contact && kind == PathKind::segment) limits.flags |= PathLimits::ignores_end;
   const PathRange<float> range(kind, options);
   if (range.is_empty()) limits.flags |= PathLimits::hits_nothing;
   const RangeWeights<float> weights(range);

@@ -19,11 +19,13 @@ struct PathLimits {
   std::uint32_t instance_mask;
   std::uint32_t ignored_instance;  ///< The index of an instance, or `no_instance`.
 
-  static constexpr std::uint32_t keeps_front = 1;   ///< Leaves out hits that are not `front`.
-  static constexpr std::uint32_t keeps_back = 2;    ///< Leaves out hits that are not `back`.
-  static constexpr std::uint32_t is_whole = 4;      ///< The range is [0, 1].
-  static constexpr std::uint32_t hits_nothing = 8;  ///< The range is empty.
-  static constexpr std::uint32_t is_for_host = 16;  ///< The kernel cannot weigh the range.
+  static constexpr std::uint32_t keeps_front = 1;     ///< Leaves out hits that are not `front`.
+  static constexpr std::uint32_t keeps_back = 2;      ///< Leaves out hits that are not `back`.
+  static constexpr std::uint32_t is_whole = 4;        ///< The range is [0, 1].
+  static constexpr std::uint32_t hits_nothing = 8;    ///< The range is empty.
+  static constexpr std::uint32_t is_for_host = 16;    ///< The kernel cannot weigh the range.
+  static constexpr std::uint32_t ignores_start = 32;  ///< Leaves out triangles that contain the start.
+  static constexpr std::uint32_t ignores_end = 64;    ///< Leaves out triangles that contain the end.
 };
 
 /// Returns what the options of a path are for a device, for a mesh or for a scene.

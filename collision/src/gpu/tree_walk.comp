@@ -12,6 +12,9 @@
 #ifdef SCENE
 #include "placed_path.glsl"
 #include "placed_rounding.glsl"
+#else
+#include "wide_int.glsl"
+#include "exact_pair.glsl"
 #endif
 
 layout(local_size_x = 64) in;
@@ -25,7 +28,7 @@ struct TreeNode {
 };
 
 struct TreeTriangle {
-  float corners[9];
+  uint corners[9];  // The bits of floats.
   uint id;
   uint mask;
   uint plane;  // The same for triangles of a mesh that lie in one plane across an axis, or 0.
@@ -67,8 +70,10 @@ layout(push_constant) uniform Dispatch {
   uint lists;        // 1 if the host looks at no answers, but at a list of what is left to it.
 };
 
-// A decision in pairs takes about as long as so many steps.
+// A decision in pairs takes about as long as so many steps, and so does an exact one.
 const uint steps_of_pairs = 32;
+const uint steps_of_exact = 64;
+const float per_max_t = 1.0 / 79228162514264337593543950336.0;  // 2^-96 (G25)
 
 // What is no triangle.
 const uint miss = 0xffffffffu;
@@ -80,8 +85,6 @@ const uint any_miss = 0;
 const uint any_hit = 1;
 const uint any_undecided = 2;
 const uint no_side = 0;
-const uint front = 1;
-const uint back = 2;
 const uint is_not_rounded = 4;  // It is added to the side.
 const uint side_undecided = 8;
 
@@ -107,10 +110,16 @@ bool misses_node(TreeNode node, out float enters) {
   return misses_box(vec3(node.low_x, node.low_y, node.low_z), vec3(node.high_x, node.high_y, node.high_z), enters);
 }
 
+uint asked;  // The path.
+
+uvec3 path_bits(uint path, uint from) {
+  uint at = 6 * path + from;
+  return uvec3(path_words[at], path_words[at + 1], path_words[at + 2]);
+}
+
 bool read_path(uint path) {
-  return take_path(uvec3(path_words[6 * path], path_words[6 * path + 1], path_words[6 * path + 2]),
-                   uvec3(path_words[6 * path + 3], path_words[6 * path + 4], path_words[6 * path + 5]),
-                   is_segment != 0);
+  asked = path;
+  return take_path(path_bits(path, 0), path_bits(path, 3), is_segment != 0);
 }
 
 // The certain hits of a path so far, and what is undecided (G7, G8).
@@ -120,6 +129,9 @@ float best_lower;    // Its t is at least this,
 float best_upper;    // and at most this.
 float limit;         // Some certain hit has its t here or before.
 float others;        // All other hits have their t here or later.
+bool rounds_best;    // True once the walk has ended, and the best one is rounded.
+RoundedHit best_hit;
+uint best_side;
 bool has_open;       // True if something is undecided.
 uint steps;          // What the walk has taken so far.
 
@@ -131,15 +143,110 @@ bool leave_open(float enters) {
   return wants_first != 0 && others <= range.first;
 }
 
+uvec3 bits_of(TreeTriangle triangle, uint corner) {
+  uint at = 3 * corner;
+  return uvec3(triangle.corners[at], triangle.corners[at + 1], triangle.corners[at + 2]);
+}
+
+vec3 corner_of(TreeTriangle triangle, uint corner) { return uintBitsToFloat(bits_of(triangle, corner)); }
+
+// What is known of a triangle before it counts.
+struct Meeting {
+  uint verdict;
+  uint side;
+  float lower;
+  float upper;
+  int order;  // -1 if the triangle certainly comes before the best one, 1 if after it, and 0 if neither is certain.
+};
+
+#ifndef SCENE
+// Finds out exactly how a path and a triangle meet (G24).
+ExactContact exact_contact_with(TreeTriangle triangle) {
+  PairBits of;
+  of.start = path_bits(asked, 0);
+  of.toward = path_bits(asked, 3);
+  of.a = bits_of(triangle, 0);
+  of.b = bits_of(triangle, 1);
+  of.c = bits_of(triangle, 2);
+  return exact_contact_of(of, is_segment != 0, range.first, range.last);
+}
+
+// Hits of triangles in one plane are told apart without that (G22).
+bool overlaps_best(uint triangle, Meeting met) {
+  if (best == miss) return false;
+  uint plane = triangles[best].plane;
+  bool is_told = met.side != edge_on && plane != 0 && plane == triangles[triangle].plane;
+  return !is_told && wants_first != 0 && met.lower <= best_upper && met.upper >= best_lower;
+}
+
+// Finds out exactly what is open, and whether a triangle comes before the best one (G24 to G26). At the end of a walk,
+// rounds the best one.
+void settle(uint triangle, inout Meeting met) {
+  WideInt height;
+  WideInt det;
+  bool has_order = true;
+  for (uint i = 0; i < 2; ++i) {
+    bool is_asked = has_order && met.verdict == is_hit && overlaps_best(triangle, met);
+    if (i == 0) is_asked = rounds_best || met.verdict == is_open || is_asked;
+    if (is_asked) {
+      steps += steps_of_exact;
+      ExactContact contact = exact_contact_with(triangles[i == 0 ? triangle : best]);
+      has_order = contact.verdict == is_hit && !is_negative(contact.height);
+      if (wants_first != 0 && rounds_best) {
+        if (contact.verdict == is_hit) {
+          best_hit = round_contact(contact);
+          best_side = contact.side;
+        }
+        return;
+      }
+      if (i == 0) {
+        height = contact.height;
+        det = contact.det;
+        bool is_left_out = ((range.flags & ignores_start) != 0 && contact.has_start) ||
+                           ((range.flags & ignores_end) != 0 && contact.has_end);
+        if (met.verdict == is_open) {
+          met.side = contact.side;
+          met.verdict = contact.verdict == is_hit && is_left_out ? is_missed : contact.verdict;
+          if (met.verdict == is_hit && wants_first != 0) {
+            float num = pair_from(height).high;
+            float den = pair_from(det).high;
+            precise float share = abs(num) * per_max_t;
+            precise float t = num / den;
+            precise float radius = slack_of_t * abs(t) + min_t_of_pairs;
+            precise float lower = t - radius;
+            precise float upper = t + radius;
+            met.lower = lower;
+            met.upper = upper;
+            if (share >= den) met.verdict = is_open;
+          }
+        }
+      } else if (has_order) {
+        met.order = order_of_products(height, contact.det, contact.height, det);
+        if (met.order == 0) met.order = triangles[triangle].id < triangles[best].id ? -1 : 1;
+      }
+    }
+  }
+}
+#endif
+
 // Notes a certain hit.
-void take_hit(uint triangle, uint instance, float lower, float upper) {
+void take_hit(uint triangle, uint instance, Meeting met) {
+  float lower = met.lower;
+  float upper = met.upper;
   limit = min(limit, upper);
-  if (best != miss && best_instance == instance && triangles[best].plane != 0 &&
+  if (best != miss && best_instance == instance && triangles[best].plane != 0 && met.side != edge_on &&
       triangles[best].plane == triangles[triangle].plane) {
     // Both have the same t, and the lower id comes first (G22).
     best_lower = max(best_lower, lower);
     best_upper = min(best_upper, upper);
     if (triangles[triangle].id < triangles[best].id) best = triangle;
+    return;
+  }
+  if (met.order > 0) return;
+  if (met.order < 0) {
+    best = triangle;
+    best_lower = lower;
+    best_upper = upper;
     return;
   }
   if (lower < best_lower) {
@@ -164,40 +271,67 @@ PairVerdict decide_in_pairs(vec3 a, vec3 b, vec3 c, uint instance) {
   return decide(of, EndWeights(range.t_first, range.det_first, range.t_last, range.det_last));
 }
 
+// Returns true if the kernel, or a decision in pairs, is certain that a triangle is missed. Otherwise says what is
+// known. What is open is hit at `enters` or later.
+bool misses_triangle(TreeTriangle triangle, uint instance, bool is_turned, inout Meeting met, inout float enters) {
+  vec3 a = corner_of(triangle, 0);
+  vec3 b = corner_of(triangle, 1);
+  vec3 c = corner_of(triangle, 2);
+  bool is_front;
+  met.verdict = classify(a, b, c, met.lower, met.upper, is_front);
+  if (met.verdict == is_open) {
+    if (misses_box(min(min(a, b), c), max(max(a, b), c), enters)) return true;
+    PairVerdict decided = decide_in_pairs(a, b, c, instance);
+    met.verdict = decided.verdict;
+    met.lower = decided.lower;
+    met.upper = decided.upper;
+    is_front = decided.is_front;
+  } else {
+    is_front = is_front != is_turned;
+  }
+  met.side = is_front ? front : back;
+  return met.verdict == is_missed;
+}
+
 // Gives the triangles of a leaf to the kernel. Returns true if the walk may end.
 bool meet_leaf(TreeNode leaf, uint ignored, uint instance, bool is_turned) {
   for (uint i = leaf.first; i < leaf.first + leaf.count; ++i) {
     TreeTriangle triangle = triangles[i];
     if ((triangle.mask & range.mask) == 0 || triangle.id == ignored) continue;
-    vec3 a = vec3(triangle.corners[0], triangle.corners[1], triangle.corners[2]);
-    vec3 b = vec3(triangle.corners[3], triangle.corners[4], triangle.corners[5]);
-    vec3 c = vec3(triangle.corners[6], triangle.corners[7], triangle.corners[8]);
-    float lower;
-    float upper;
-    bool is_front;
-    uint verdict = classify(a, b, c, lower, upper, is_front);
-    if (verdict == is_missed) continue;
-    if (verdict == is_open) {
-      float its_enters;
-      if (misses_box(min(min(a, b), c), max(max(a, b), c), its_enters)) continue;
-      PairVerdict decided = decide_in_pairs(a, b, c, instance);
-      if (decided.verdict == is_missed) continue;
-      if (decided.verdict == is_open) {
-        if (leave_open(its_enters)) return true;
-        continue;
-      }
-      lower = decided.lower;
-      upper = decided.upper;
-      is_front = decided.is_front;
-    } else {
-      is_front = is_front != is_turned;
+    Meeting met;
+    met.verdict = is_open;
+    met.order = 0;
+    float enters;
+    if (!rounds_best && misses_triangle(triangle, instance, is_turned, met, enters)) continue;
+#ifndef SCENE
+    settle(i, met);
+    if (rounds_best) return true;
+    if (met.verdict == is_missed) continue;
+#endif
+    if (met.verdict == is_open) {
+      if (leave_open(enters)) return true;
+      continue;
     }
-    if ((range.flags & keeps_front) != 0 && !is_front) continue;
-    if ((range.flags & keeps_back) != 0 && is_front) continue;
-    take_hit(i, instance, lower, upper);
+    if ((range.flags & keeps_front) != 0 && met.side != front) continue;
+    if ((range.flags & keeps_back) != 0 && met.side != back) continue;
+    take_hit(i, instance, met);
     if (wants_first == 0) return true;
   }
   return false;
+}
+
+// Rounds the best hit in pairs (G9, G20).
+void round_best() {
+  TreeTriangle triangle = triangles[best];
+  vec3 a = corner_of(triangle, 0);
+  vec3 b = corner_of(triangle, 1);
+  vec3 c = corner_of(triangle, 2);
+#ifdef SCENE
+  best_hit = round_placed_hit(instances[best_instance], given_start, toward, is_segment != 0, a, b, c);
+#else
+  best_hit = round_hit(given_start, toward, is_segment != 0, a, b, c);
+#endif
+  best_side = best_hit.is_front ? front : back;
 }
 
 // Returns the place of a triangle among all, or `miss`, or `undecided`.
@@ -212,6 +346,7 @@ uint answer(uint path) {
   limit = beyond;
   others = beyond;
   has_open = false;
+  rounds_best = false;
   uint ignored = range.ignored;
   uint instance = 0;  // The instance whose mesh is walked through.
   bool is_turned = false;
@@ -230,6 +365,10 @@ uint answer(uint path) {
   uint depth = 0;
   for (steps = 0; steps < max_steps; ++steps) {
     TreeNode node = node_at(at);
+    if (rounds_best) {
+      node.first = best;
+      node.count = 1;
+    }
     if (node.count == 0) {
       float left_enters;
       float right_enters;
@@ -270,7 +409,7 @@ uint answer(uint path) {
       }
 #endif
     } else if (meet_leaf(node, ignored, instance, is_turned)) {
-      return wants_first != 0 ? undecided : best;
+      return wants_first != 0 && !rounds_best ? undecided : best;
     }
     // On to the next node that waits, unless all that it has comes later than a certain hit (G7).
     bool has_next = false;
@@ -280,7 +419,16 @@ uint answer(uint path) {
     }
     if (!has_next) {
       if (best == miss) return has_open ? undecided : miss;  // G8
-      return best_upper < others ? best : undecided;         // G8
+      if (best_upper >= others) return undecided;            // G8
+      if (wants_first == 0 || rounds_best) return best;
+      round_best();
+#ifndef SCENE
+      if (!best_hit.is_rounded) {
+        rounds_best = true;
+        continue;
+      }
+#endif
+      return best;
     }
     at = waiting[depth];
 #ifdef SCENE
@@ -315,21 +463,14 @@ void main() {
   uint side = found == miss ? no_side : side_undecided;
   vec3 weights = vec3(0.0);
   if (found != miss && found != undecided) {
-    TreeTriangle triangle = triangles[found];
-    vec3 a = vec3(triangle.corners[0], triangle.corners[1], triangle.corners[2]);
-    vec3 b = vec3(triangle.corners[3], triangle.corners[4], triangle.corners[5]);
-    vec3 c = vec3(triangle.corners[6], triangle.corners[7], triangle.corners[8]);
-#ifdef SCENE
-    RoundedHit hit = round_placed_hit(instances[best_instance], given_start, toward, is_segment != 0, a, b, c);
-#else
-    RoundedHit hit = round_hit(given_start, toward, is_segment != 0, a, b, c);
-#endif
-    id = triangle.id;
-    side = hit.is_front ? front : back;
-    weights = vec3(hit.t, hit.u, hit.v);
-    if (!hit.is_rounded) {
-      side += is_not_rounded;
-      if (lists != 0) list(path, id);
+    id = triangles[found].id;
+    side = best_side;
+    weights = vec3(best_hit.t, best_hit.u, best_hit.v);
+    if (!best_hit.is_rounded) {
+      // Of a path in the plane of the triangle, the host needs the range too (G9).
+      bool is_in_plane = side == edge_on;
+      side = is_in_plane ? side_undecided : side + is_not_rounded;
+      if (lists != 0) list(path, is_in_plane ? miss : id);
     }
   }
   uint place = words_per_answer * path;

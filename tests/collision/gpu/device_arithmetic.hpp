@@ -134,6 +134,7 @@ struct DeviceArithmetic {
     bool x, y, z;
   };
   struct uvec3 {
+    uvec3() = default;
     explicit uvec3(uint all) : x(all), y(all), z(all) {}
     uvec3(uint of_x, uint of_y, uint of_z) : x(of_x), y(of_y), z(of_z) {}
     uint x, y, z;
@@ -153,6 +154,13 @@ struct DeviceArithmetic {
   friend vec3 operator-(const vec3& p) { return {-p.x, -p.y, -p.z}; }
   friend uvec3 operator&(const uvec3& p, uint bits) { return {p.x & bits, p.y & bits, p.z & bits}; }
 
+  static int min(int x, int y) { return x < y ? x : y; }
+  static int max(int x, int y) { return x < y ? y : x; }
+  static void umulExtended(uint x, uint y, uint& high, uint& low) {
+    const std::uint64_t product = std::uint64_t{x} * y;
+    high = static_cast<uint>(product >> 32U);
+    low = static_cast<uint>(product);
+  }
   static real abs(real x) { return x < 0 ? -x : x; }
   static real max(real x, real y) { return x < y ? y : x; }
   static real min(real x, real y) { return y < x ? y : x; }
@@ -191,8 +199,11 @@ struct DeviceArithmetic {
 #include "gpu/pair_kernel.glsl"
 #include "gpu/placed_path.glsl"
 #include "gpu/placed_rounding.glsl"
-// The next one needs what is above.
+// The next ones need what is above.
 #include "gpu/path_kernel.glsl"
+#include "gpu/wide_int.glsl"
+// So does the last one.
+#include "gpu/exact_pair.glsl"
 #undef precise
 #undef OUT
 #undef SCENE
