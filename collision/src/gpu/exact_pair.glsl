@@ -255,16 +255,31 @@ ExactContact exact_contact_of(PairBits of, bool is_segment, real range_first, re
   return contact;
 }
 
-// Returns (start + t way) / whole, rounded once where this is certain (G25). `num` and `den` are those of t, and `den`
-// and `whole` are positive.
-RoundedNumber rounded_share_of(WideInt start, WideInt way, FloatPair num, FloatPair den, FloatPair whole) {
+// A sum of two products, and how far off it is at most.
+struct PairSum {
+  FloatPair sum;
+  real bound;
+};
+
+// Returns start den + way num, where t is num / den (G25).
+PairSum weight_of(WideInt start, WideInt way, FloatPair num, FloatPair den) {
   FloatPair of_start = product_of_pairs(pair_from(start), den);
   FloatPair of_way = product_of_pairs(pair_from(way), num);
   FloatPair sum = sum_of_pairs(of_start, of_way);
+  precise real bound = share_error * (abs(of_start.high) + abs(of_way.high));
+  PairSum result;
+  result.sum = sum_of(sum.high, sum.low);
+  result.bound = bound;
+  return result;
+}
+
+// Returns (start + t way) / whole, rounded once where this is certain (G25). `num` and `den` are those of t, and `den`
+// and `whole` are positive.
+RoundedNumber rounded_share_of(WideInt start, WideInt way, FloatPair num, FloatPair den, FloatPair whole) {
+  PairSum weight = weight_of(start, way, num, den);
   FloatPair all = product_of_pairs(whole, den);
-  precise real n_bound = share_error * (abs(of_start.high) + abs(of_way.high));
   precise real d_bound = share_error * all.high;
-  RoundedNumber result = quotient_of(sum_of(sum.high, sum.low), n_bound, all, d_bound);
+  RoundedNumber result = quotient_of(weight.sum, weight.bound, all, d_bound);
   if (is_zero(start) && is_zero(way)) {
     result.number = 0.0;
     result.is_rounded = true;

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <optional>
+#include <string>
 
 #include "device_arithmetic.hpp"
 #include "support/case_count.hpp"
@@ -152,6 +152,61 @@ TEST(GpuExactPair, numbers_of_all_sizes_fit) {
   }
 }
 
+mpq_class exact(const Arithmetic::FloatPair& x) {
+  return mpq_class(double{x.high.value()}) + mpq_class(double{x.low.value()});
+}
+
+/// The shares are those of the largest errors in the bounds of G25.
+TEST(GpuExactPair, numbers_in_pairs_stay_within_their_bounds) {
+  double worst_number = 0;
+  double worst_weight = 0;
+  on_every_device([&] {
+    Arithmetic device;
+    Random random(65);
+    const auto draw = [&](std::size_t bits, bool may_be_negative) {
+      std::array<std::uint32_t, 5> words = {};
+      for (std::size_t i = 0; i < bits; ++i) {
+        if (!random.one_in(3)) words[i / 32] |= std::uint32_t{1} << (i % 32);  // Long carries are more likely.
+      }
+      words[0] |= 1;
+      const auto size = device.int_of(words[0], words[1], words[2], words[3], words[4]);
+      return may_be_negative && random.one_in(2) ? device.negated(size) : size;
+    };
+    const auto value = [&](const Arithmetic::WideInt& x) {
+      const auto size = device.size_of(x);
+      mpz_class sum = 0;
+      for (const std::uint32_t word : {size.e, size.d, size.c, size.b, size.a}) sum = (sum << 32) + word;
+      return mpq_class(device.is_negative(x) ? mpz_class(-sum) : sum, mpz_class(1) << 32);
+    };
+    for (std::size_t i = case_count(2'000); i > 0; --i) {
+      const auto x = draw(1 + random.below(142), true);
+      const mpq_class number_error = abs(exact(device.pair_from(x)) - value(x));
+      worst_number =
+          std::max(worst_number,
+                   mpq_class(number_error / (mpq_class(double{device.pair_error.value()}) * abs(value(x)))).get_d());
+      // Weights in a plane have at most 95 bits.
+      const std::size_t bits = 60 + random.below(35);
+      const auto start = draw(bits, true);
+      const auto way = draw(bits, true);
+      const auto num = draw(bits, false);
+      const auto den = draw(bits, false);
+      const auto of = device.weight_of(start, way, device.pair_from(num), device.pair_from(den));
+      const mpq_class of_start = value(start) * value(den);
+      const mpq_class of_way = value(way) * value(num);
+      const mpq_class weight_error = abs(exact(of.sum) - of_start - of_way);
+      worst_weight = std::max(worst_weight, mpq_class(weight_error / mpq_class(double{of.bound.value()})).get_d());
+    }
+  });
+  testing::Test::RecordProperty("worst_number", std::to_string(worst_number));
+  testing::Test::RecordProperty("worst_weight", std::to_string(worst_weight));
+  EXPECT_LT(worst_number, 1);
+  EXPECT_LT(worst_weight, 1);
+  if (runs_all_cases()) {
+    EXPECT_GT(worst_number, 0.05) << "room to waste";
+    EXPECT_GT(worst_weight, 0.05) << "room to waste";
+  }
+}
+
 /// t of two triangles is compared exactly. They share corners, so it is often the same.
 TEST(GpuExactPair, orders_of_two_triangles_are_exact) {
   Arithmetic device;
@@ -169,8 +224,10 @@ TEST(GpuExactPair, orders_of_two_triangles_are_exact) {
     const auto of_x = contact_of(device, segment, x);
     const auto of_y = contact_of(device, segment, y);
     if (of_x.verdict != device.is_hit || of_y.verdict != device.is_hit) continue;
-    const auto t_of = [&](const Triangle<float>& triangle) -> mpq_class {
-      return exact_contact<float>(segment, triangle)->t;
+    const auto t_of = [&](const Triangle<float>& triangle) {
+      const auto truth = exact_contact<float>(segment, triangle);
+      EXPECT_TRUE(truth);
+      return truth ? truth->t : mpq_class();
     };
     const int expected = cmp(t_of(x), t_of(y));
     equal += expected == 0 ? 1 : 0;
