@@ -12,8 +12,11 @@ namespace surehit::detail {
 struct DeviceHit {
   float t, u, v;
   std::uint32_t triangle;
-  std::uint32_t side;  ///< The number of a `Side`, which may have `is_not_rounded` added to it, or `undecided`.
+  /// The number of a `Side`, which may have `is_not_rounded` added to it, or `undecided`. `Side::edge_on` has its own
+  /// number here, so that memory which was never written is no answer. In buffers of the caller's it is 0.
+  std::uint32_t side;
 
+  static constexpr std::uint32_t edge_on = 3;
   static constexpr std::uint32_t is_not_rounded = 4;
   static constexpr std::uint32_t undecided = 8;
 };
@@ -51,12 +54,11 @@ enum class Leftover : std::uint8_t {
 };
 
 [[nodiscard]] inline Leftover leftover_of(const DeviceHit& answer, std::size_t triangle_count) {
-  constexpr auto edge_on = static_cast<std::uint32_t>(Side::edge_on);
   constexpr auto front = static_cast<std::uint32_t>(Side::front);
   constexpr auto back = static_cast<std::uint32_t>(Side::back);
   if (answer.triangle == no_triangle && answer.side == 0) return Leftover::nothing_of_miss;
   if (answer.triangle >= triangle_count) return Leftover::all;
-  if (answer.side == edge_on || answer.side == front || answer.side == back) return Leftover::nothing_of_hit;
+  if (answer.side == DeviceHit::edge_on || answer.side == front || answer.side == back) return Leftover::nothing_of_hit;
   const std::uint32_t side = answer.side - DeviceHit::is_not_rounded;
   return side == front || side == back ? Leftover::rounding : Leftover::all;
 }
@@ -68,7 +70,8 @@ enum class Leftover : std::uint8_t {
 
 /// Returns an answer that has left nothing to the host.
 [[nodiscard]] inline Hitf answer_of(const DeviceHit& answer) {
-  return {answer.t, answer.u, answer.v, answer.triangle, static_cast<Side>(answer.side)};
+  const Side side = answer.side == DeviceHit::edge_on ? Side::edge_on : static_cast<Side>(answer.side);
+  return {answer.t, answer.u, answer.v, answer.triangle, side};
 }
 [[nodiscard]] inline std::uint8_t answer_of(DeviceAny answer) { return static_cast<std::uint8_t>(answer); }
 

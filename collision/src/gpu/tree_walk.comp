@@ -87,6 +87,7 @@ const uint any_undecided = 2;
 const uint no_side = 0;
 const uint is_not_rounded = 4;  // It is added to the side.
 const uint side_undecided = 8;
+const uint edge_on_for_host = 3;  // Memory that was never written has only zeros, and is no answer.
 
 #ifdef SCENE
 const uint words_per_answer = 6;
@@ -471,6 +472,8 @@ void main() {
       bool is_in_plane = side == edge_on;
       side = is_in_plane ? side_undecided : side + is_not_rounded;
       if (lists != 0) list(path, is_in_plane ? miss : id);
+    } else if (side == edge_on && lists == 0) {
+      side = edge_on_for_host;
     }
   }
   uint place = words_per_answer * path;

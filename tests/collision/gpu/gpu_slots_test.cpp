@@ -39,12 +39,17 @@ class GpuSlotsTest : public testing::Test {
     others.assign(paths.rbegin(), paths.rend());
     expected_of_others.assign(expected.rbegin(), expected.rend());
   }
-  /// Draws paths of which a quarter ends in vertices. So the host has enough to answer for its executor.
+  /// Draws paths of which a quarter ends in vertices, and begins where whole numbers of a device do not hold it. So the
+  /// host has enough to answer for its executor.
   void draw(std::size_t count) {
     for (std::size_t i = paths.size(); i < count; ++i) {
       Vector3f end(random.symmetric<float>(), random.symmetric<float>(), random.unit<float>() - 0.5F);
-      if (i % 4 == 0) end = ground.vertices[random.below(ground.vertices.size())];
-      paths.push_back({{random.symmetric<float>(), random.symmetric<float>(), 1}, end});
+      Vector3f start(random.symmetric<float>(), random.symmetric<float>(), 1);
+      if (i % 4 == 0) {
+        end = ground.vertices[random.below(ground.vertices.size())];
+        start.x() = 0x1p-40F;
+      }
+      paths.push_back({start, end});
     }
     expected.resize(count);
     collider.first_hits(paths, expected);
