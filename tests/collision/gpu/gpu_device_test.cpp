@@ -250,15 +250,16 @@ TEST_F(GpuDeviceTest, a_device_that_does_not_answer_keeps_the_mesh) {
         Case{VK_ERROR_OUT_OF_HOST_MEMORY, false, Reason::out_of_memory}}) {
     device = any_gpu();
     GpuCollider on_gpu(device, collider);
-    std::vector<Hitf> hits(paths.size());
-    // A driver may compile the shader for the first batch, and the device is not waited for so long at its end.
-    ASSERT_TRUE(on_gpu.first_hits(paths, hits));
+    // At its end, a device is waited for a second. So it has little to do, and the driver has compiled the shader.
+    const std::span<const Segmentf> few = std::span(paths).first(100);
+    std::vector<Hitf> hits(few.size());
+    ASSERT_TRUE(on_gpu.first_hits(few, hits));
     wait_for = std::exchange(state().vulkan.WaitForFences, no_wait);
     give_back = std::exchange(state().vulkan.FreeMemory, counted_free);
     wait_result = result;
     calls_left = 0;
     failures_left = answers_at_last ? 1 : 1000;
-    EXPECT_EQ(on_gpu.first_hits(paths, hits).error->reason, reason);
+    EXPECT_EQ(on_gpu.first_hits(few, hits).error->reason, reason);
     freed = 0;
     on_gpu = GpuCollider();
     EXPECT_EQ(freed, 0);
