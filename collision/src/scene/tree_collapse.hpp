@@ -16,9 +16,11 @@
 namespace surehit::detail {
 
 /// A binary tree of instances, and how it is collapsed into nodes of up to `InstanceTree::width` children. A path meets
-/// a box with a probability in proportion to its surface. So a node costs the surface of its box, and all nodes
-/// together cost as little as this binary tree allows (Ylitie, Karras and Laine, Efficient Incoherent Ray Traversal on
-/// GPUs Through Compressed Wide BVHs, 2017, section 3.1).
+/// a box with a probability in proportion to its surface, so a node costs this surface. The sum of all costs is the
+/// minimum for this binary tree.
+///
+/// Source: Ylitie, Karras and Laine, Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs, 2017,
+/// section 3.1.
 class TreeCollapse {
  public:
   /// The parts below a node that become its children.
