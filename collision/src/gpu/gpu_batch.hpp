@@ -46,7 +46,6 @@ class GpuBatch {
   }
 
  private:
-  static constexpr std::size_t step = paths_in_dispatch;
   static constexpr bool wants_first = std::is_same_v<Answer, typename State::FirstHit>;
   using DeviceAnswer = std::conditional_t<wants_first, typename State::DeviceFirst, DeviceAny>;
 
@@ -61,7 +60,7 @@ class GpuBatch {
   }
 
   std::optional<GpuError> begin(GpuSlot& slot, std::size_t first) {
-    const std::size_t count = std::min(step, count_ - first);
+    const std::size_t count = std::min(step_, count_ - first);
     auto* const numbers = reinterpret_cast<float*>(slot.host_paths.data());
     if (paths_.is_packed()) {
       std::memcpy(numbers, paths_.packed(first), count * sizeof(float[6]));
@@ -83,7 +82,7 @@ class GpuBatch {
   /// Answers the paths of a dispatch. All that may find no memory comes before the first answer.
   void finish(GpuSlot& slot, std::size_t first) {
     const std::span found(reinterpret_cast<const DeviceAnswer*>(slot.host_answers.data()),
-                          std::min(step, count_ - first));
+                          std::min(step_, count_ - first));
     open_.clear();
     unrounded_.clear();
     std::size_t misses = 0;
@@ -160,6 +159,7 @@ class GpuBatch {
   std::span<Answer> answers_;
   const BatchOptions& options_;
   const GpuBatchOptions& gpu_;
+  const std::size_t step_ = state_.device->paths_in_dispatch;
   std::size_t count_ = 0;
   std::size_t finished_ = 0;
   GpuStatistics statistics_;

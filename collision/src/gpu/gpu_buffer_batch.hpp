@@ -72,7 +72,6 @@ class GpuBufferBatch {
   }
 
  private:
-  static constexpr std::size_t step = paths_in_dispatch;
   static constexpr std::size_t path_size = sizeof(float[6]);
   static constexpr bool wants_first = std::is_same_v<Answer, typename State::FirstHit>;
   /// True if the host only rounds the hits that the device has found. A scene rounds while it answers.
@@ -82,15 +81,16 @@ class GpuBufferBatch {
   static constexpr std::size_t listed_at_once = 1024;
 
   [[nodiscard]] GpuRange paths_from(std::size_t first) const {
-    return {buffer_of(paths_.part), paths_.part.offset + first * path_size, std::min(step, count_ - first) * path_size};
+    return {buffer_of(paths_.part), paths_.part.offset + first * path_size,
+            std::min(step_, count_ - first) * path_size};
   }
   [[nodiscard]] GpuRange answers_from(std::size_t first) const {
     return {buffer_of(answers_), answers_.offset + first * sizeof(DeviceAnswer),
-            std::min(step, count_ - first) * sizeof(DeviceAnswer)};
+            std::min(step_, count_ - first) * sizeof(DeviceAnswer)};
   }
 
   std::optional<GpuError> begin(GpuSlot& slot, std::size_t first) {
-    const std::size_t count = std::min(step, count_ - first);
+    const std::size_t count = std::min(step_, count_ - first);
     const GpuRange paths = paths_from(first);
     const bool waits_for_all = first == 0;  // All work of the caller's comes before the first dispatch.
     if (is_for_host_) {
@@ -124,7 +124,7 @@ class GpuBufferBatch {
 
   /// Takes all paths of a dispatch, which the host answers.
   void take_all(GpuSlot& slot, std::size_t first) {
-    const std::size_t count = std::min(step, count_ - first);
+    const std::size_t count = std::min(step_, count_ - first);
     statistics_.undecided += count;
     listed_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -136,7 +136,7 @@ class GpuBufferBatch {
 
   /// Takes the list of a dispatch, by the order of paths.
   std::optional<GpuError> take_list(GpuSlot& slot, std::size_t first) {
-    const std::size_t count = std::min(step, count_ - first);
+    const std::size_t count = std::min(step_, count_ - first);
     ListedCounts counts;
     std::memcpy(&counts, slot.host_list.data(), sizeof counts);
     if (counts.leftovers > count || counts.misses > count - counts.leftovers) return odd_list();
@@ -224,6 +224,7 @@ class GpuBufferBatch {
   const GpuBufferPart& answers_;
   const BatchOptions& options_;
   const GpuBatchOptions& gpu_;
+  const std::size_t step_ = device_.paths_in_dispatch;
   std::size_t count_ = 0;
   bool is_for_host_ = false;
   GpuStatistics statistics_;

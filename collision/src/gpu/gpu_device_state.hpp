@@ -120,6 +120,7 @@ struct GpuDeviceState {
   /// The slots of all batches and uploads under way, and a few that are free.
   std::vector<std::unique_ptr<GpuSlotPair>> pairs;
   static constexpr std::ptrdiff_t max_free_pairs = 4;
+  std::uint32_t paths_in_dispatch = max_paths_in_dispatch;  ///< Tests take fewer.
 
  private:
   /// Makes the slots of a pair.

@@ -116,7 +116,7 @@ std::optional<GpuError> GpuDeviceState::make(GpuSlot& slot, const GpuSlotPair& p
                                Wanted{&slot.host_limits, &slot.limits, sizeof(PathLimits)},
                                Wanted{&slot.host_answers, &slot.answers, sizeof(DeviceSceneHit)},
                                Wanted{&slot.host_list, &slot.list, sizeof(ListedPath)}}) {
-    const std::size_t bytes = wanted.size * paths_in_dispatch + sizeof(ListedCounts);
+    const std::size_t bytes = wanted.size * max_paths_in_dispatch + sizeof(ListedCounts);
     if (auto error = wanted.on_host->make(*this, bytes, GpuBuffer::Place::host, "a batch")) return error;
     if (auto error = wanted.on_device->make(*this, bytes, GpuBuffer::Place::device, "a batch")) return error;
   }

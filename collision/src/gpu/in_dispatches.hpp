@@ -21,7 +21,7 @@ template <typename Begin, typename Finish>
 [[nodiscard]] std::optional<GpuError> in_dispatches(GpuDeviceState& device, const std::shared_ptr<GpuMesh>& mesh,
                                                     std::size_t count, std::size_t& finished, const Begin& begin,
                                                     const Finish& finish) {
-  constexpr std::size_t step = paths_in_dispatch;
+  const std::size_t step = device.paths_in_dispatch;
   GpuWork work(device);
   if (auto error = work.begin(mesh)) return error;
   std::array<GpuSlot, 2>& slots = work.slots();

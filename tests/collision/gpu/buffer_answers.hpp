@@ -13,6 +13,7 @@
 #include "faulty_vulkan.hpp"
 #include "gpu/device_answers.hpp"
 #include "gpu_answers.hpp"
+#include "small_dispatches.hpp"
 
 namespace surehit::test {
 
@@ -72,7 +73,7 @@ void expect_failures_of_works_are_told(const GpuDevice& device, const OnGpu& on_
     EXPECT_FALSE(result);
     ASSERT_TRUE(result.error) << works;
     EXPECT_EQ(result.error->reason, GpuError::Reason::out_of_memory);
-    EXPECT_EQ(result.finished, works < 4 ? 0U : 1U << 16) << works;
+    EXPECT_EQ(result.finished, works < 4 ? 0U : paths_in_small_dispatch) << works;
   }
   calls_left = 6;
   EXPECT_TRUE(on_gpu.first_hits(in_buffers.paths, in_buffers.hits.part()));

@@ -16,6 +16,7 @@
 #include "gpu_answers.hpp"
 #include "segments_to_ground.hpp"
 #include "shared_gpu.hpp"
+#include "small_dispatches.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/pair_families.hpp"
@@ -32,6 +33,7 @@ using detail::GpuDeviceState;
 
 class GpuBufferBatchTest : public SharedGpu {
  protected:
+  GpuBufferBatchTest() { with_small_dispatches(device); }
   GpuDeviceState& state() { return *GpuDeviceState::of(device); }
 };
 
@@ -80,30 +82,30 @@ class GpuGroundTest : public GpuBufferBatchTest {
 TEST_F(GpuGroundTest, dispatches_that_list_few_paths_and_many) {
   const GpuCollider on_gpu(device, collider);
   const Threads threads(2);
-  const std::vector<Segmentf> few = draw(140'000, 1000);
+  const std::vector<Segmentf> few = draw(17'500, 1000);
   const Executor executor = threads;
   expect_same_in_buffers(device, on_gpu, collider, few, {.executor = executor}, &statistics);
-  EXPECT_EQ(statistics.paths, 280'000U);
+  EXPECT_EQ(statistics.paths, 35'000U);
   EXPECT_EQ(statistics.dispatches, 6U);
   EXPECT_EQ(statistics.paths, statistics.hits + statistics.misses + statistics.undecided);
-  EXPECT_GT(statistics.misses, 1000U);
+  EXPECT_GT(statistics.misses, 125U);
   EXPECT_GT(statistics.undecided, 0U);
-  EXPECT_LT(statistics.undecided, 1000U);
-  EXPECT_GT(statistics.rounded, 10'000U);
+  EXPECT_LT(statistics.undecided, 125U);
+  EXPECT_GT(statistics.rounded, 1250U);
   EXPECT_LT(statistics.rounded_by_host, statistics.rounded / 100);
   statistics = {};
-  const std::vector<Segmentf> many = draw(70'000, 4);
+  const std::vector<Segmentf> many = draw(8750, 4);
   expect_same_in_buffers(device, on_gpu, collider, many, {}, &statistics);
-  EXPECT_GT(statistics.undecided, 20'000U);
+  EXPECT_GT(statistics.undecided, 2500U);
 }
 
 /// The host answers all of them, and the device only carries paths and answers.
 TEST_F(GpuGroundTest, filters_and_meshes_that_the_device_cannot_have) {
   const auto odd = [](const Hitf& hit) { return hit.triangle % 2 == 1; };
-  const std::vector<Segmentf> paths = draw(70'000, 10);
+  const std::vector<Segmentf> paths = draw(8750, 10);
   const GpuCollider on_gpu(device, collider);
   expect_same_in_buffers(device, on_gpu, collider, paths, {.filter = odd}, &statistics);
-  EXPECT_EQ(statistics.undecided, 140'000U);
+  EXPECT_EQ(statistics.undecided, 17'500U);
   EXPECT_EQ(statistics.dispatches, 0U);
   const Colliderf empty;
   expect_same_in_buffers(device, GpuCollider(device, empty), empty, std::span(paths).first(100));
@@ -178,7 +180,7 @@ TEST_F(GpuGroundTest, bad_buffers_are_refused_with_the_reason) {
 
 TEST_F(GpuGroundTest, a_device_that_fails_says_how_many_answers_there_are) {
   const GpuCollider on_gpu(device, collider);
-  expect_failures_of_works_are_told<DeviceHit>(device, on_gpu, draw(70'000, 4));
+  expect_failures_of_works_are_told<DeviceHit>(device, on_gpu, draw(12'700, 4));
 }
 
 /// Lists that no sound device writes: too long, with a path twice, and with a path that was not asked about.
@@ -238,9 +240,9 @@ TEST(GpuBufferValidationTest, the_validation_layer_has_nothing_to_say) {
     Random random(1);
     const auto ground = rough_ground<float>(20, 0.1F, random);
     const Colliderf collider(ground.view());
-    const GpuCollider on_gpu(device, collider);
-    std::vector<Segmentf> paths(70'000, {{0.25F, 0.5F, 1}, {0.25F, 0.5F, -1}});
-    for (std::size_t i = 0; i < 5000; ++i) paths[2 * i].end = ground.vertices[i % ground.vertices.size()];
+    const GpuCollider on_gpu(with_small_dispatches(device), collider);
+    std::vector<Segmentf> paths(8750, {{0.25F, 0.5F, 1}, {0.25F, 0.5F, -1}});
+    for (std::size_t i = 0; i < 4000; ++i) paths[2 * i].end = ground.vertices[i % ground.vertices.size()];
     expect_same_in_buffers(device, on_gpu, collider, paths);
     const auto odd = [](const Hitf& hit) { return hit.triangle % 2 == 1; };
     expect_same_in_buffers(device, on_gpu, collider, paths, {.filter = odd});

@@ -175,7 +175,8 @@ TEST(GpuShaderTest, no_operation_may_be_fused) {
   EXPECT_EQ(fusible(scene_walk_spirv, all), 0U);
   EXPECT_GT(all, 150U);
   EXPECT_EQ(fusible(roundings_spirv, all), 0U);
-  EXPECT_GE(all, 20U);  // Six operations, 3 of a sum in two floats, and 11 of a product.
+  // Six operations, 3 of a sum in two floats, and 11 of a product. The optimizer joins equal sums and equal products.
+  EXPECT_GE(all, 18U);
 }
 
 TEST(GpuLoaderTest, without_a_loader_there_is_an_error) {

@@ -15,6 +15,7 @@
 #include "gpu/device_answers.hpp"
 #include "gpu/gpu_device_state.hpp"
 #include "gpu_answers.hpp"
+#include "small_dispatches.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 #include "validation_layer.hpp"
@@ -31,7 +32,7 @@ class GpuDeviceTest : public testing::Test {
     SUREHIT_SKIP_WITHOUT(device);
     Random random(1);
     collider = Colliderf(rough_ground<float>(20, 0.1F, random).view());
-    for (std::size_t i = 0; i < 140'000; ++i) {
+    for (std::size_t i = 0; i < 17'500; ++i) {
       const auto x = random.symmetric<float>();
       const auto y = random.symmetric<float>();
       paths.push_back({{x, y, 1}, {x, y + 0.125F, random.unit<float>() - 0.5F}});
@@ -41,7 +42,7 @@ class GpuDeviceTest : public testing::Test {
   }
   [[nodiscard]] GpuDeviceState& state() const { return *GpuDeviceState::of(device); }
 
-  GpuDevice device = any_gpu();
+  GpuDevice device = with_small_dispatches(any_gpu());
   Colliderf collider;
   std::vector<Segmentf> paths;
   std::vector<Hitf> expected;
@@ -152,7 +153,7 @@ TEST_F(GpuDeviceTest, a_device_that_fails_in_the_middle_leaves_the_rest) {
   EXPECT_FALSE(result);
   ASSERT_TRUE(result.error);
   EXPECT_EQ(result.error->reason, Reason::out_of_memory);
-  EXPECT_EQ(result.finished, std::size_t{1} << 16);
+  EXPECT_EQ(result.finished, paths_in_small_dispatch);
   for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(hits[i], i < result.finished ? expected[i] : unset) << i;
 
   calls_left = 1;
@@ -195,7 +196,7 @@ TEST_F(GpuDeviceTest, a_batch_without_memory_leaves_no_work_under_way) {
   const GpuBatchResult result = on_gpu.first_hits(paths, hits);
   ASSERT_TRUE(result.error);
   EXPECT_EQ(result.error->reason, Reason::out_of_memory);
-  EXPECT_EQ(result.finished, std::size_t{1} << 16);
+  EXPECT_EQ(result.finished, paths_in_small_dispatch);
   state().vulkan.WaitForFences = wait_for;
   expect_idle(state());
   std::reverse(paths.begin(), paths.end());
@@ -301,10 +302,10 @@ TEST(GpuValidationTest, the_validation_layer_has_nothing_to_say) {
   expect_nothing_from_validation([](const GpuDevice& device) {
     Random random(1);
     Colliderf collider(rough_ground<float>(20, 0.1F, random).view());
-    GpuCollider on_gpu(device, collider);
+    GpuCollider on_gpu(with_small_dispatches(device), collider);
     collider.set_mask(1, 2);
     on_gpu.update();
-    const std::vector<Segmentf> paths(150'000, {{0.25F, 0.5F, 1}, {0.25F, 0.5F, -1}});
+    const std::vector<Segmentf> paths(18'000, {{0.25F, 0.5F, 1}, {0.25F, 0.5F, -1}});
     std::thread other([&] { expect_same_as_host(on_gpu, collider, paths); });
     expect_same_as_host(on_gpu, collider, paths);
     other.join();

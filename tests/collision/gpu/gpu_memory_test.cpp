@@ -17,6 +17,7 @@
 #include "faulty_vulkan.hpp"
 #include "gpu/in_dispatches.hpp"
 #include "gpu_answers.hpp"
+#include "small_dispatches.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 
@@ -51,11 +52,11 @@ class GpuMemoryTest : public testing::Test {
       on_gpu = GpuCollider(device, host);
     }
     // Two dispatches. In the second one, the host has more to do than in the first, where most paths are far away.
-    for (std::size_t i = 0; i < detail::paths_in_dispatch + 2000; ++i) {
+    for (std::size_t i = 0; i < paths_in_small_dispatch + 2000; ++i) {
       Vector3f start(random.symmetric<float>(), random.symmetric<float>(), 2);
       Vector3f end(random.symmetric<float>(), random.symmetric<float>(), 3);
       if (i % 64 == 0) end.z() = random.unit<float>() - 0.5F;
-      if (i % 64 == 1 || i >= detail::paths_in_dispatch) {
+      if (i % 64 == 1 || i >= paths_in_small_dispatch) {
         end = ground.vertices[random.below(ground.vertices.size())];
         start.x() = 0x1p-40F;  // Whole numbers of a device do not hold it, so the host decides.
       }
@@ -136,7 +137,7 @@ class GpuMemoryTest : public testing::Test {
     }
   }
 
-  GpuDevice device = any_gpu();
+  GpuDevice device = with_small_dispatches(any_gpu());
   Host host;
   OnGpu on_gpu;
   std::vector<Segmentf> paths;
@@ -158,7 +159,7 @@ TYPED_TEST_SUITE(GpuMemoryTest, Hosts, HostNames);
 TYPED_TEST(GpuMemoryTest, batches_tell_what_is_finished) {
   for (std::size_t successes = 0; this->ask_spans(successes < 3, {}, successes, ScarceMemory::all); ++successes) {
   }
-  EXPECT_EQ(this->finished, (std::set<std::size_t>{0, detail::paths_in_dispatch}));
+  EXPECT_EQ(this->finished, (std::set<std::size_t>{0, paths_in_small_dispatch}));
 }
 
 /// The host goes on whether it finds memory again or not.
@@ -172,7 +173,7 @@ TYPED_TEST(GpuMemoryTest, the_host_goes_on) {
 
 TYPED_TEST(GpuMemoryTest, batches_on_buffers_tell_what_is_finished) {
   this->ask_buffers(true);
-  EXPECT_EQ(this->finished, (std::set<std::size_t>{0, detail::paths_in_dispatch}));
+  EXPECT_EQ(this->finished, (std::set<std::size_t>{0, paths_in_small_dispatch}));
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "gpu_answers.hpp"
 #include "segments_to_ground.hpp"
 #include "shared_gpu.hpp"
+#include "small_dispatches.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "validation_layer.hpp"
@@ -33,6 +34,7 @@ using detail::GpuDeviceState;
 
 class GpuSceneBufferTest : public SharedGpu {
  protected:
+  GpuSceneBufferTest() { with_small_dispatches(device); }
   GpuDeviceState& state() { return *GpuDeviceState::of(device); }
 };
 
@@ -80,11 +82,11 @@ class GpuSceneGroundTest : public GpuSceneBufferTest {
 /// Two dispatches, whose lists are longer than what comes back at once.
 TEST_F(GpuSceneGroundTest, buffers_count_as_spans_do) {
   const GpuScene on_gpu(device, scene.snapshot());
-  const std::vector<Segmentf> paths = draw(70'000, 10);
+  const std::vector<Segmentf> paths = draw(8750, 10);
   GpuStatistics in_spans;
   expect_same_as_host(on_gpu, scene, paths, {}, &in_spans);
   expect_same_in_buffers(device, on_gpu, scene, paths, {}, &statistics);
-  EXPECT_EQ(statistics.paths, 140'000U);
+  EXPECT_EQ(statistics.paths, 17'500U);
   EXPECT_EQ(statistics.dispatches, 4U);
   EXPECT_EQ(statistics.paths, statistics.hits + statistics.misses + statistics.undecided);
   EXPECT_EQ(statistics.misses, in_spans.misses);
@@ -92,15 +94,15 @@ TEST_F(GpuSceneGroundTest, buffers_count_as_spans_do) {
   EXPECT_EQ(statistics.rounded, in_spans.rounded);
   EXPECT_EQ(statistics.rounded_by_host, in_spans.rounded_by_host);
   EXPECT_EQ(statistics.undecided, in_spans.undecided);
-  EXPECT_GT(statistics.misses, 1000U);
-  EXPECT_GT(statistics.rounded, 10'000U);
+  EXPECT_GT(statistics.misses, 125U);
+  EXPECT_GT(statistics.rounded, 1250U);
   EXPECT_GT(statistics.rounded_by_host, 0U);
-  EXPECT_GT(statistics.undecided, 4000U);
+  EXPECT_GT(statistics.undecided, 500U);
 }
 
 /// The host answers all of them, and the device only carries paths and answers.
 TEST_F(GpuSceneGroundTest, filters_and_scenes_that_the_device_cannot_have) {
-  const std::vector<Segmentf> paths = draw(70'000, 10);
+  const std::vector<Segmentf> paths = draw(8750, 10);
   const auto odd = [](const SceneHitf& hit) { return hit.triangle % 2 == 1; };
   expect_same_in_buffers(device, GpuScene(device, scene.snapshot()), scene, paths, {.filter = odd}, &statistics);
   const std::span<const Segmentf> few = std::span(paths).first(100);
@@ -130,7 +132,7 @@ TEST_F(GpuSceneGroundTest, what_cannot_be_asked_is_refused) {
 
 TEST_F(GpuSceneGroundTest, a_device_that_fails_says_how_many_answers_there_are) {
   const GpuScene on_gpu(device, scene.snapshot());
-  expect_failures_of_works_are_told<DeviceSceneHit>(device, on_gpu, draw(70'000, 2));
+  expect_failures_of_works_are_told<DeviceSceneHit>(device, on_gpu, draw(12'700, 2));
 }
 
 /// A list may name any triangle, because the host answers the whole path. It may not name a path twice.

@@ -12,6 +12,7 @@
 #include "faulty_vulkan.hpp"
 #include "gpu/device_answers.hpp"
 #include "gpu_answers.hpp"
+#include "small_dispatches.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 #include "surehit/gpu_scene.hpp"
@@ -57,7 +58,7 @@ class GpuSceneFailuresTest : public testing::Test {
   static constexpr std::array<float, 9> corners = {0, 0, 0.5F, 1, 0, 0.5F, 0, 1, 0.5F};
   static constexpr std::array<unsigned, 3> triangle = {0, 1, 2};
 
-  GpuDevice device = any_gpu();
+  GpuDevice device = with_small_dispatches(any_gpu());
   std::shared_ptr<Colliderf> ground;
   Scenef scene;
   InstanceId first;
@@ -119,7 +120,7 @@ TEST_F(GpuSceneFailuresTest, a_device_with_few_buffers_has_meshes_alone) {
 }
 
 TEST_F(GpuSceneFailuresTest, a_device_that_fails_in_the_middle_leaves_the_rest) {
-  draw_paths(140'000);  // Three dispatches.
+  draw_paths(17'500);  // Three dispatches.
   const GpuScene on_gpu(device, scene.snapshot());
   SceneHitf unset;
   unset.t = 7;
@@ -131,7 +132,7 @@ TEST_F(GpuSceneFailuresTest, a_device_that_fails_in_the_middle_leaves_the_rest) 
   EXPECT_FALSE(result);
   ASSERT_TRUE(result.error);
   EXPECT_EQ(result.error->reason, Reason::out_of_memory);
-  EXPECT_EQ(result.finished, std::size_t{1} << 16);
+  EXPECT_EQ(result.finished, paths_in_small_dispatch);
   for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(hits[i], i < result.finished ? expected[i] : unset) << i;
 
   submit_result = VK_ERROR_DEVICE_LOST;
@@ -155,7 +156,7 @@ TEST_F(GpuSceneFailuresTest, faulty_answers_of_a_device_are_left_to_the_host) {
   const auto beyond_the_last = static_cast<std::uint32_t>(ground->triangle_count());
   for (const auto& [triangle, side, instance] :
        {std::array{beyond_the_last, 1U, 0U}, std::array{0U, 1U, 2U}, std::array{0U, 2U, no_instance},
-        std::array{0U, 3U, 0U}, std::array{0U, 1 + detail::DeviceHit::is_not_rounded, 0U}}) {
+        std::array{0U, 7U, 0U}, std::array{0U, 1 + detail::DeviceHit::is_not_rounded, 0U}}) {
     set_faulty_answer(detail::DeviceSceneHit{{0.5F, 0.5F, 0.5F, triangle, side}, instance});
     EXPECT_TRUE(on_gpu.first_hits(paths, hits));
     EXPECT_EQ(hits, expected);

@@ -19,6 +19,7 @@
 #include "faulty_vulkan.hpp"
 #include "gpu/gpu_device_state.hpp"
 #include "gpu_answers.hpp"
+#include "small_dispatches.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 
@@ -35,17 +36,17 @@ class GpuSlotsTest : public testing::Test {
     ground = rough_ground<float>(20, 0.1F, random);
     collider = Colliderf(ground.view());
     on_gpu = GpuCollider(device, collider);
-    draw(70'000);  // Two dispatches.
+    draw(8750);  // Two dispatches.
     others.assign(paths.rbegin(), paths.rend());
     expected_of_others.assign(expected.rbegin(), expected.rend());
   }
-  /// Draws paths of which a quarter ends in vertices, and begins where whole numbers of a device do not hold it. So the
-  /// host has enough to answer for its executor.
+  /// Draws paths of which three quarters end in vertices, and begin where whole numbers of a device do not hold it. So
+  /// the host has enough to answer for its executor.
   void draw(std::size_t count) {
     for (std::size_t i = paths.size(); i < count; ++i) {
       Vector3f end(random.symmetric<float>(), random.symmetric<float>(), random.unit<float>() - 0.5F);
       Vector3f start(random.symmetric<float>(), random.symmetric<float>(), 1);
-      if (i % 4 == 0) {
+      if (i % 4 != 0) {
         end = ground.vertices[random.below(ground.vertices.size())];
         start.x() = 0x1p-40F;
       }
@@ -76,7 +77,7 @@ class GpuSlotsTest : public testing::Test {
     EXPECT_EQ(hits, expected_of_others);
   }
 
-  GpuDevice device = any_gpu();
+  GpuDevice device = with_small_dispatches(any_gpu());
   Random random{1};
   GeneratedMesh<float> ground;
   Colliderf collider;
@@ -162,9 +163,9 @@ TEST_F(GpuSlotsTest, a_batch_without_memory_for_slots_fails_alone) {
 
 /// The batch has a dispatch under way by then. It gives the device no more, or does not wait for what it has.
 TEST_F(GpuSlotsTest, a_batch_sees_that_another_has_lost_the_device) {
-  for (const std::size_t count : {std::size_t{70'000}, std::size_t{140'000}}) {
+  for (const std::size_t count : {std::size_t{8750}, std::size_t{17'500}}) {
     draw(count);
-    device = any_gpu();
+    device = with_small_dispatches(any_gpu());
     on_gpu = GpuCollider(device, collider);
     const auto lose = [&] {
       submit = std::exchange(state().vulkan.QueueSubmit, no_submit);
