@@ -77,10 +77,11 @@ class PlacedShapeVisitor {
   void visit_list(CellWord word) {
     const std::uint32_t count = mesh_.grid.entry_count(word);
     const std::size_t first = mesh_.grid.first_entry(word);
+    const std::size_t counting = keep_.count_that_counts(index_, mesh_.grid.entries(), first, count);
     const MeshScalar* const corners = MeshBlocks<MeshScalar>::corners(mesh_.mesh.block(word.list(), first));
-    query_.statistics.candidates += count;
-    for (std::size_t from = 0; from < count; from += PlacedGroup::max_count) {
-      const std::size_t in_group = std::min(count - from, PlacedGroup::max_count);
+    query_.statistics.candidates += counting;
+    for (std::size_t from = 0; from < counting; from += PlacedGroup::max_count) {
+      const std::size_t in_group = std::min(counting - from, PlacedGroup::max_count);
       placed_.place(corners + from, count, in_group, in_group, group_.corners.data());
       std::uint64_t found = filter_.find(group_.corners.data(), in_group, 0, keep_.limit, group_.enters);
       while (found != 0) {
@@ -154,6 +155,14 @@ struct KeepFirstPlaced {
   [[nodiscard]] bool passes_over(std::uint32_t instance) const {
     return first && first->contact.at_start && instance > first->instance;
   }
+  /// Returns how many triangles of an instance's list may be the first one. If the shape begins with a contact there,
+  /// they are those with lower ids. Ids ascend in a list.
+  [[nodiscard]] std::size_t count_that_counts(std::uint32_t instance, const PackedIds& ids, std::size_t from,
+                                              std::size_t count) const {
+    if (!first || !first->contact.at_start || instance != first->instance) return count;
+    const PackedIds::Range list = ids.between(from, from + count);
+    return static_cast<std::size_t>(std::ranges::lower_bound(list, first->id) - list.begin());
+  }
   std::optional<PlacedCandidateOf<Shape>> first;
   double limit;
   static constexpr bool is_done = false;
@@ -171,6 +180,9 @@ struct KeepAnyPlaced {
   }
   [[nodiscard]] static bool passes_over(std::uint32_t, std::uint32_t) { return false; }
   [[nodiscard]] static bool passes_over(std::uint32_t) { return false; }
+  [[nodiscard]] static std::size_t count_that_counts(std::uint32_t, const PackedIds&, std::size_t, std::size_t count) {
+    return count;
+  }
   double limit;
   bool is_done = false;
 };
@@ -187,6 +199,9 @@ struct KeepAllPlaced {
   }
   [[nodiscard]] static bool passes_over(std::uint32_t, std::uint32_t) { return false; }
   [[nodiscard]] static bool passes_over(std::uint32_t) { return false; }
+  [[nodiscard]] static std::size_t count_that_counts(std::uint32_t, const PackedIds&, std::size_t, std::size_t count) {
+    return count;
+  }
   std::vector<PlacedCandidateOf<Shape>> all;
   double limit;
   static constexpr bool is_done = false;

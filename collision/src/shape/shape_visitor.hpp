@@ -171,16 +171,8 @@ struct KeepFirst {
   /// lower ids. Ids ascend in a list.
   [[nodiscard]] std::size_t count_that_counts(const PackedIds& ids, std::size_t from, std::size_t count) const {
     if (!first || !first->contact.at_start) return count;
-    std::size_t low = 0;
-    while (low < count) {
-      const std::size_t middle = low + (count - low) / 2;
-      if (ids[from + middle] < first->id) {
-        low = middle + 1;
-      } else {
-        count = middle;
-      }
-    }
-    return low;
+    const PackedIds::Range list = ids.between(from, from + count);
+    return static_cast<std::size_t>(std::ranges::lower_bound(list, first->id) - list.begin());
   }
   std::optional<ShapeCandidate<Shape>> first;
   double limit;

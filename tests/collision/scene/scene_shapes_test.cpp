@@ -209,6 +209,27 @@ TYPED_TEST(SceneShapes, of_placed_bowls_have_the_bits_of_one_collider) {
   EXPECT_GE(touched, case_count(50));
 }
 
+// Once a triangle is touched at the start, only lower ids of its instance count, and instances that come before it.
+TYPED_TEST(SceneShapes, that_begin_with_a_contact_meet_few_candidates) {
+  using Scalar = TypeParam;
+  Random random(28);
+  const auto mesh = rough_ground<Scalar>(100, Scalar(0.05), random);
+  const auto collider = std::make_shared<Collider<Scalar>>(mesh.view());
+  Scene<Scalar> scene;
+  for (int i = 0; i < 4; ++i) scene.add(collider, Pose<Scalar>::translated({0, 0, static_cast<Scalar>(i) / 64}));
+  scene.commit();
+  QueryStatistics statistics;
+  for (std::size_t i = 0; i < 20; ++i) {
+    const Scalar x = random.symmetric<Scalar>() / 2;
+    const Scalar y = random.symmetric<Scalar>() / 2;
+    const SweptSphere<Scalar> ball{{x, y, 0}, {x, y, 1}, Scalar(0.25)};
+    const auto hit = scene.first_hit(ball, {}, &statistics);
+    ASSERT_TRUE(hit);
+    EXPECT_TRUE(hit->started_touching);
+  }
+  EXPECT_LT(statistics.candidates, mesh.triangles.size());
+}
+
 TYPED_TEST(SceneShapes, meet_moving_instances_as_they_see_them) {
   using Scalar = TypeParam;
   std::size_t touched = 0;
