@@ -96,6 +96,19 @@ struct LanePrecision<float> {
 ///     is at most r |n|. Both are finite, so their difference is no NaN: h² is below 2^968 in double and 2^128 in
 ///     float. Underflow changes the root by less than 2^-73 (1 + |n| + r), and 1024 u E² F is above it.
 ///
+/// V7. Let m be any three numbers of a lane, and M the largest of their sizes. m separates until a limit if the height
+/// m·w above the corners, less c(m), less 64 u (F + M) (F + S), and less what the centre comes back along m by then, is
+/// more than r |m|.
+/// Proof. m is what is in the lane, so it has no error. w, p, q and D have one rounding for each component, which
+///     changes their products with m by 3 u M of their sizes. Products and sums of three add 9 u M of them. So m·w is
+///     off by 12 u M W, the corners are by 12 u M E, and c(m) is by 9 u M H. The way until the limit is off by 18 u M S
+///     with the rounded limit and its product. Four sums of all of these add 12 u M (F + S). Underflow is below the
+///     bound as in V5. An infinity or a NaN in m makes the left side infinite below, or a NaN.
+///
+/// The corner a and the point of the core that is nearest to it at the start give such an m, and what is left of it
+/// across the step gives another one. They leave out small triangles beside large shapes, which edges and the normal
+/// hardly tell apart.
+///
 /// On an axis of coordinates, the heights are off by less than 16 u (W + E + S). The reach r + h_i has one rounding,
 /// and counts only if it is less than W + E + S.
 ///
@@ -256,9 +269,12 @@ class FilterLanes {
     return test_intervals(shape, corners, count, apart, limit, enters);
   }
 
-  /// Returns the lanes that the first tests leave out.
+  /// Returns the lanes that the tests without quotients leave out, or those that the nearest points leave out too.
   static HWY_INLINE Mask are_apart(const Numbers& shape, const Terms& terms, V limit) {
-    return hn::And(terms.is_usable, hn::Or(are_apart_across(shape, terms), are_apart_until(shape, terms, limit)));
+    const Mask apart =
+        hn::And(terms.is_usable, hn::Or(are_apart_across(shape, terms), are_apart_until(shape, terms, limit)));
+    if (hn::AllTrue(d, apart)) return apart;
+    return hn::Or(apart, hn::And(terms.is_usable, are_apart_between_points(shape, terms, limit)));
   }
 
   /// Returns the lanes where f, g or f - g separates (V2).
@@ -290,6 +306,42 @@ class FilterLanes {
     const V comes = hn::Max(hn::Mul(limit, approach), hn::Zero(d));
     const V gap = hn::Sub(hn::Abs(terms.height), hn::Add(error, reach_of_core(terms.n, shape)));
     return is_above_root(hn::Sub(gap, comes), hn::Mul(set(shape.squared_radius), terms.nn));
+  }
+
+  /// Returns the lanes where the way from a corner to the core separates until a limit, or what is left of it across
+  /// the step (V7).
+  static HWY_INLINE Mask are_apart_between_points(const Numbers& shape, const Terms& terms, V limit) {
+    Point m;
+    set_way_to_core(shape, terms.w, m);
+    const V along = hn::Div(dot(m, terms.step), dot(terms.step, terms.step));
+    const Point across = {hn::NegMulAdd(along, terms.step[0], m[0]), hn::NegMulAdd(along, terms.step[1], m[1]),
+                          hn::NegMulAdd(along, terms.step[2], m[2])};
+    return hn::Or(is_apart_along(m, shape, terms, limit), is_apart_along(across, shape, terms, limit));
+  }
+  /// Sets `way` to that from corner a to the nearest point of the core, rounded.
+  static HWY_INLINE void set_way_to_core(const Numbers& shape, const Point& w, Point& way) {
+    const V zero = hn::Zero(d);
+    if constexpr (core == Core::segment) {
+      const Point half = {set(shape.half[0]), set(shape.half[1]), set(shape.half[2])};
+      const V one = set(1);
+      const V place = hn::Max(hn::Min(hn::Div(dot(w, half), dot(half, half)), one), hn::Neg(one));
+      for (std::size_t i = 0; i < 3; ++i) way[i] = hn::NegMulAdd(place, half[i], w[i]);
+      return;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const V beyond = hn::Max(hn::Sub(hn::Abs(w[i]), set(shape.half[i])), zero);
+      way[i] = hn::CopySign(beyond, w[i]);
+    }
+  }
+  /// Returns the lanes where m separates until a limit (V7).
+  static HWY_INLINE Mask is_apart_along(const Point& m, const Numbers& shape, const Terms& terms, V limit) {
+    const V zero = hn::Zero(d);
+    const V highest = hn::Max(hn::Max(dot(m, terms.p), dot(m, terms.q)), zero);
+    const V comes = hn::Max(hn::Neg(hn::Mul(limit, dot(m, terms.step))), zero);
+    const V size = hn::Add(terms.far, size_of(m));
+    const V error = hn::Mul(hn::Mul(size, hn::Add(terms.far, set(shape.size_of_step))), errors(64));
+    const V gap = hn::Sub(hn::Sub(dot(m, terms.w), highest), hn::Add(error, reach_of_core(m, shape)));
+    return is_above_root(hn::Sub(gap, comes), hn::Mul(set(shape.squared_radius), dot(m, m)));
   }
 
   /// Returns the lanes where x is certainly above the root of `square` (V5).

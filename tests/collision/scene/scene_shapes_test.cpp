@@ -228,6 +228,7 @@ TYPED_TEST(SceneShapes, that_begin_with_a_contact_meet_few_candidates) {
     EXPECT_TRUE(hit->started_touching);
   }
   EXPECT_LT(statistics.candidates, mesh.triangles.size());
+  EXPECT_LT(statistics.undecided, 500U);
 }
 
 TYPED_TEST(SceneShapes, meet_moving_instances_as_they_see_them) {

@@ -436,6 +436,7 @@ TYPED_TEST(ColliderSpheres, VisitFewCells) {
   EXPECT_LT(small.candidates, 3 * point.candidates);
   EXPECT_LT(large.candidates, 200 * mesh.triangles.size() / 4);
   EXPECT_LT(large.cells, 200 * mesh.triangles.size() / 30);
+  EXPECT_LT(large.undecided, 200 * mesh.triangles.size() / 80);
 }
 
 // A fuzzer found the first one: one over the step on an axis is infinite.
