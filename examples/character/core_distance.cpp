@@ -13,7 +13,7 @@ namespace {
 
 /// The parallelogram and the triangle, both seen from the start of the way.
 ///
-/// D1. Let L be the largest coordinate of `core` and `corners`. Each coordinate is a sum of at most three floats with
+/// CD1. Let L be the largest coordinate of `core` and `corners`. Each coordinate is a sum of at most three floats with
 /// at most two roundings in double, and no part of a sum exceeds 2 L. So it is off by less than 2^-51 L.
 struct Pair {
   std::array<Vector3d, 4> core;
@@ -32,10 +32,10 @@ struct Pair {
 
   /// Whether a direction proves that they are farther than the radius from each other.
   ///
-  /// D2. For any m, all points x of one polygon and y of the other have |x - y| |m| >= m·x - m·y. So they are apart if
-  /// the smallest m·x of corners x exceeds the largest m·y by more than r |m|. By D1, a product m·x is off by less than
-  /// |m|_1 L (2^-51 + 3 · 2^-53), its sums included, and r |m| by less than 2^-50 r |m|. Twice this and the rounding of
-  /// the difference are below the allowances.
+  /// CD2. For any m, all points x of one polygon and y of the other have |x - y| |m| >= m·x - m·y. So they are apart if
+  /// the smallest m·x of corners x exceeds the largest m·y by more than r |m|. By CD1, a product m·x is off by less
+  /// than |m|_1 L (2^-51 + 3 · 2^-53), its sums included, and r |m| by less than 2^-50 r |m|. Twice this and the
+  /// rounding of the difference are below the allowances.
   [[nodiscard]] bool is_apart_along(const Vector3d& m) const {
     double low_core = m.dot(core[0]);
     double high_core = low_core;
@@ -121,9 +121,9 @@ CoreDistance core_distance(const Vector3f& from, const Vector3f& to, const Trian
   if (pair.is_apart_along(side)) return {Verdict::free, infinity};
   const NearPair nearest = near_pair(pair, n);
   if (pair.is_apart_along(nearest.core - nearest.corner)) return {Verdict::free, infinity};
-  // D3. Weights in [0, 1] name points of both polygons exactly. A computed point p + s d is off by less than 2^-49 L on
-  // each axis, by D1 and its three roundings. So is a + u ab + v ac, by five: its weights add up to less than 1, even
-  // if they are rounded. So the distance is off by less than 2^-46 L, and its own roundings are below 2^-50 of it.
+  // CD3. Weights in [0, 1] name points of both polygons exactly. A computed point p + s d is off by less than 2^-49 L
+  // on each axis, by CD1 and its three roundings. So is a + u ab + v ac, by five: its weights add up to less than 1,
+  // even if they are rounded. So the distance is off by less than 2^-46 L, and its own roundings are below 2^-50 of it.
   const double upper = std::sqrt(nearest.square);
   const bool is_touching = upper < double{Body::radius} - 0x1p-44 * (pair.size + double{Body::radius});
   return {is_touching ? Verdict::touching : Verdict::unsure, upper};

@@ -38,7 +38,7 @@ struct QuadraticRoot {
     return range_of(ScaledDouble::of_magnitude(c) / (root + ScaledDouble::of_magnitude(b)));
   }
 
-  /// Returns the sign of the root less x = m 2^e, where m ≥ 0 has at most 55 bits and e ≤ 0 (R1).
+  /// Returns the sign of the root less x = m 2^e, where m ≥ 0 has at most 55 bits and e ≤ 0 (QR1).
   template <typename Scalar>
   [[nodiscard]] SUREHIT_NOINLINE int compare(const Dyadic& x) const {
     constexpr int shift = 1 - Decomposed<Scalar>::min_exponent;
@@ -66,7 +66,7 @@ struct QuadraticRoot {
   }
 };
 
-/// Returns the sign of a root less another one (R2 to R4).
+/// Returns the sign of a root less another one (QR2 to QR4).
 template <int B>
 class RootOrder {
  public:

@@ -28,16 +28,16 @@ struct Bounded {
   }
 };
 
-/// B1. This factor covers the roundings of a computed radius, where eps = 2^-53.
+/// BN1. This factor covers the roundings of a computed radius, where eps = 2^-53.
 /// Proof. A radius is a sum of at most four terms, and none is negative. A term has at most four roundings, since a
 ///     product and three sums take part. This factor and `radius_underflow` add one each. Finally,
 ///     (1 + 16 eps) (1 - eps)^6 > 1.
 inline constexpr double radius_growth = 1 + 0x1p-49;
-/// B2. This term covers what a radius loses by underflow.
+/// BN2. This term covers what a radius loses by underflow.
 /// Proof. The radius of a product has four products, and one error from a fused multiply-add. Each loses less than
 ///     2^-1074, and this is 16 times as much.
 inline constexpr double radius_underflow = 0x1p-1070;
-/// B3. From this size on, the error of a product is a double.
+/// BN3. From this size on, the error of a product is a double.
 /// Proof. The exact product has at most 106 bits. So its last bit is worth 2^-1066 or more, which a double can hold.
 inline constexpr double min_exact_product = 0x1p-960;
 
@@ -54,10 +54,10 @@ inline constexpr double min_exact_product = 0x1p-960;
 [[nodiscard]] inline Bounded operator-(const Bounded& a) { return {-a.value, a.radius}; }
 [[nodiscard]] inline Bounded operator-(const Bounded& a, const Bounded& b) { return a + -b; }
 
-/// B4. `product_error` is a b - product, where `product` is a b as it was rounded, if that is at least
+/// BN4. `product_error` is a b - product, where `product` is a b as it was rounded, if that is at least
 ///     `min_exact_product`. Without an instruction, `std::fma` is a call, whose cost is many times that of a product.
-/// Proof. For `std::fma` this is B3. The other way is Dekker's product (1971), in which Veltkamp's `high_half` splits a
-///     double into two with 26 bits and a sign each. The four products of halves are exact, because they have no bits
+/// Proof. For `std::fma` this is BN3. The other way is Dekker's product (1971), in which Veltkamp's `high_half` splits
+///     a double into two with 26 bits and a sign each. The four products of halves are exact, because they have no bits
 ///     below those of a b. See Muller et al., "Handbook of Floating-Point Arithmetic", section 4.4. Nothing overflows,
 ///     since a, b and `product` are at most 2^900.
 [[nodiscard]] inline double product_error(double a, double b, double product) {

@@ -84,11 +84,11 @@ struct Determinants {
 
 /// Returns the verdict, and the contact of a hit. The five numbers are U, V, W and the two ends of the range.
 ///
-/// B5. The pair is a miss if two of the five numbers have certain and opposite signs. This holds for any det.
+/// BN5. The pair is a miss if two of the five numbers have certain and opposite signs. This holds for any det.
 /// Proof. At a hit, K1 gives u det, v det, w det, (t - first) det and (last - t) det. No factor of det is negative.
 ///
-/// B6. The pair is a hit if all five signs and that of det are certain, det is not zero, and B5 does not hold.
-/// Proof. U, V and W sum to det, so one of them has the sign of det. Without B5, all five have this sign or are zero.
+/// BN6. The pair is a hit if all five signs and that of det are certain, det is not zero, and BN5 does not hold.
+/// Proof. U, V and W sum to det, so one of them has the sign of det. Without BN5, all five have this sign or are zero.
 ///     So U / det, V / det and W / det are not negative, and T / det is in the range.
 template <typename Scalar>
 BoundedContact decide(const Determinants& of, const Path<Scalar>& path, const PathRange<Scalar>& range) {
@@ -110,13 +110,13 @@ BoundedContact decide(const Determinants& of, const Path<Scalar>& path, const Pa
   const bool has_last = range.last < PathRange<Scalar>::infinity;
   if (has_first) classify(of.above_first);
   if (has_last) classify(of.below_last);
-  if (any_positive && any_negative) {  // B5
+  if (any_positive && any_negative) {  // BN5
     result.verdict = Verdict::miss;
     return result;
   }
   const bool front = of.det.value > of.det.radius;
   const bool back = of.det.value < -of.det.radius;
-  if (!all_certain || !(front || back)) return result;  // Otherwise it is a hit by B6.
+  if (!all_certain || !(front || back)) return result;  // Otherwise it is a hit by BN6.
   result.by_det = BoundedQuotients(of.det);
   const auto [lower, upper] = result.by_det.of(of.height);
   if (!std::isfinite(lower) || !std::isfinite(upper)) return result;

@@ -82,16 +82,16 @@ CornerContact<Scalar> contact_at(Corner corner, double t, Side side) {
 
 }  // namespace
 
-// V1. Let det be certain not to be zero, and let the start or the end of the path be a corner. Then the path's line
+// CC1. Let det be certain not to be zero, and let the start or the end of the path be a corner. Then the path's line
 //     crosses the triangle's plane there and nowhere else, at t = 0 or t = 1. The pair is a hit if the range has this
 //     t, with the weights of the corner, and a miss otherwise.
 // Proof. The corner is in the plane, and the line has one point in the plane because det is not zero.
 //
-// V2. Let both ends of a segment be corners, at two points, and let the triangle span a plane. Then det is exactly
+// CC2. Let both ends of a segment be corners, at two points, and let the triangle span a plane. Then det is exactly
 //     zero, and the triangle contains the segment. If the range begins at 0, the first contact is at t = 0.
 // Proof. The direction is an edge or its opposite, so it is perpendicular to the normal. The triangle is convex.
 //
-// V3. If the triangle spans a plane, the weights of a corner are unique: one is 1, and the others are 0.
+// CC3. If the triangle spans a plane, the weights of a corner are unique: one is 1, and the others are 0.
 template <typename Scalar>
 CornerContact<Scalar> corner_contact(const Path<Scalar>& path, const Triangle<Scalar>& triangle,
                                      const PathRange<Scalar>& range) {
@@ -100,13 +100,13 @@ CornerContact<Scalar> corner_contact(const Path<Scalar>& path, const Triangle<Sc
   if (!at_start && !at_end) return {};
   if (at_start && at_end) {
     if (*at_start == *at_end || range.first != 0 || range.last < 0 || !spans_plane(triangle)) return {};
-    CornerContact<Scalar> result = contact_at<Scalar>(*at_start, 0, Side::edge_on);  // V2
+    CornerContact<Scalar> result = contact_at<Scalar>(*at_start, 0, Side::edge_on);  // CC2
     result.contact.at_start = result.contact.at_end = true;
     return result;
   }
   const int sign = sign_of_det(path, triangle);
   if (sign == 0) return {};
-  // V1
+  // CC1
   const Scalar t = at_start ? Scalar{0} : Scalar{1};
   CornerContact<Scalar> result =
       contact_at<Scalar>(at_start ? *at_start : *at_end, double{t}, sign > 0 ? Side::front : Side::back);

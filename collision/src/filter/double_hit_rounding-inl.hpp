@@ -30,9 +30,9 @@ namespace surehit::detail::HWY_NAMESPACE {
 /// computed determinants at least 2^-700.
 ///
 /// D1. A computed determinant is off by at most 2^-98 times its product of sizes.
-/// Proof. The differences of coordinates are exact (W1). Let x and y be the sizes of two factors of a cross product.
-///     By W3 and W2, a component is off by 7 eps^2 of each product and 3.1 eps^2 of their sum. This is 20.2 eps^2 x y.
-///     It is at most 2 x y in size. Let z be the size of the third factor.
+/// Proof. The differences of coordinates are exact (DW1). Let x and y be the sizes of two factors of a cross product.
+///     By DW3 and DW2, a component is off by 7 eps^2 of each product and 3.1 eps^2 of their sum.
+///     This is 20.2 eps^2 x y. It is at most 2 x y in size. Let z be the size of the third factor.
 ///     Each of the three products with it is off by (7 · 2 + 20.2) eps^2 x y z, and these are 102.6 eps^2 x y z.
 ///     The two sums are at most 4 x y z and 6 x y z, and they add 31 eps^2 x y z.
 ///     Together, this is below 134 eps^2, and 2^-98 = 256 eps^2. The sizes are those of the high parts, off by eps.

@@ -20,9 +20,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Building Blocks of Double-Word Arithmetic" (2017). Here eps = 2^-53. Factors must be at most 2^900, so that nothing
 /// overflows.
 ///
-/// W1. `exact_sum` and `exact_product` have no error, unless the error of a product underflows (B3 in bounded.hpp).
-/// W2. The sum of two double words is off by at most 3.1 eps^2 times the exact sum (algorithm 6).
-/// W3. The product of two double words is off by at most 7 eps^2 times the exact product (algorithm 10). If it
+/// DW1. `exact_sum` and `exact_product` have no error, unless the error of a product underflows (BN3 in bounded.hpp).
+/// DW2. The sum of two double words is off by at most 3.1 eps^2 times the exact sum (algorithm 6).
+/// DW3. The product of two double words is off by at most 7 eps^2 times the exact product (algorithm 10). If it
 ///     underflows, it may be off by 2^-1070 in addition.
 template <class D>
 struct DoubleWords {
@@ -58,7 +58,7 @@ struct DoubleWords {
   }
 
   HWY_INLINE DoubleWords operator-() const { return {hn::Neg(high), hn::Neg(low)}; }
-  /// The sum, with the error of W2.
+  /// The sum, with the error of DW2.
   HWY_INLINE friend DoubleWords operator+(const DoubleWords& x, const DoubleWords& y) {
     const DoubleWords high = exact_sum(x.high, y.high);
     const DoubleWords low = exact_sum(x.low, y.low);
@@ -66,7 +66,7 @@ struct DoubleWords {
     return fast_sum(middle.high, hn::Add(low.low, middle.low));
   }
   HWY_INLINE friend DoubleWords operator-(const DoubleWords& x, const DoubleWords& y) { return x + -y; }
-  /// The product, with the error of W3.
+  /// The product, with the error of DW3.
   HWY_INLINE friend DoubleWords operator*(const DoubleWords& x, const DoubleWords& y) {
     const DoubleWords product = exact_product(x.high, y.high);
     const V crossed = hn::Add(hn::Mul(x.high, y.low), hn::Mul(x.low, y.high));

@@ -22,13 +22,13 @@ struct PlaneVector {
 
 /// Returns the component of x × y on the axis of the plane.
 ///
-/// G1. The computed value is off by at most 8 eps (|x.x y.y| + |x.y y.x|), where eps = 2^-53. This includes the
+/// PC1. The computed value is off by at most 8 eps (|x.x y.y| + |x.y y.x|), where eps = 2^-53. This includes the
 ///     roundings of the differences, and those of the bound. The smallest normal number covers underflow.
 /// Proof. Each product passes through four roundings: two differences, the product and the sum. This is 4 eps, up to
 ///     terms in eps^2. The bound itself has three roundings, so 5 eps would be enough. Each product and the bound lose
 ///     at most 2^-1075 by underflow.
 ///
-/// G2. If each product has a factor that is zero, the value is an exact zero.
+/// PC2. If each product has a factor that is zero, the value is an exact zero.
 /// Proof. A difference is computed as zero only if it is zero.
 Bounded cross(const PlaneVector& x, const PlaneVector& y) {
   if ((x.x == 0 || y.y == 0) && (x.y == 0 || y.x == 0)) return exact(0);
@@ -50,24 +50,24 @@ std::optional<Eigen::Index> axis_of_plane(const Path<Scalar>& path, const Triang
 
 /// The weight of a corner at the line's point at t, times the normal's size: s + t d.
 ///
-/// G3. The line's point at t is in the triangle if and only if no weight is negative.
+/// PC3. The line's point at t is in the triangle if and only if no weight is negative.
 /// Proof. A weight is the signed area between the point and the edge opposite the corner, with the sign of the
 /// triangle.
 ///
-/// G4. Each weight with d > 0 bounds t from below, and each one with d < 0 from above, by -s / d. The maximum of the
+/// PC4. Each weight with d > 0 bounds t from below, and each one with d < 0 from above, by -s / d. The maximum of the
 ///     lower bounds of intervals is a lower bound of the maximum, and so on for upper bounds and for minima.
 ///     So `first` and `last` hold the ends of the interval in which no weight is negative.
 ///
-/// G5. The pair is a miss if this interval is certain to be empty, or to be beside the range. It is a hit if
+/// PC5. The pair is a miss if this interval is certain to be empty, or to be beside the range. It is a hit if
 ///     the interval and the range are certain to overlap. The first contact is at the larger one of the two lower ends.
 ///
-/// G6. Let the interval begin with -s / d of one weight, and let this be certain. Another weight is s' + t d' there.
+/// PC6. Let the interval begin with -s / d of one weight, and let this be certain. Another weight is s' + t d' there.
 ///     This is (s' d - s d') / d, and the weight itself is zero.
 ///
-/// G7. If a point is at a corner, the weights by both edges of this corner are zero there. The arithmetic may not see
+/// PC7. If a point is at a corner, the weights by both edges of this corner are zero there. The arithmetic may not see
 ///     this, because both products of `cross` are rounded.
 ///
-/// G8. Let e be the weight at t = 1 of a segment. If s < 0 and e < 0, the pair is a miss in the range [0, 1]. If s < 0
+/// PC8. Let e be the weight at t = 1 of a segment. If s < 0 and e < 0, the pair is a miss in the range [0, 1]. If s < 0
 ///     and e = 0, the contact can only be at t = 1. Then it is a hit if no weight is negative there. If no weight is
 ///     negative at t = 0, the first contact is there.
 /// Proof. The weight is linear in t. In the second case it is negative at all t below 1.
@@ -128,7 +128,7 @@ std::optional<bool> are_positive(const std::array<Bounded, 3>& weights) {
 /// Returns the weight at t.
 Bounded weight_at(double t, const PlaneWeight& weight) { return weight.s + exact(t) * weight.d; }
 
-/// Returns the weight where `entry` is zero, times `entry.d` (G6).
+/// Returns the weight where `entry` is zero, times `entry.d` (PC6).
 Bounded weight_at_entry(const PlaneWeight& entry, const PlaneWeight& weight) {
   return &weight == &entry ? exact(0) : weight.s * entry.d - entry.s * weight.d;
 }
@@ -167,7 +167,7 @@ BoundedContact plane_contact(const Path<Scalar>& path, const Triangle<Scalar>& t
     const Vector3<Scalar>& to = *corners[i + 1];
     const auto weight_of = [&](const Vector3<Scalar>& point) {
       const auto is_at = [&](const Vector3<Scalar>& corner) { return point[x] == corner[x] && point[y] == corner[y]; };
-      return is_at(from) || is_at(to) ? exact(0) : cross(difference(to, from), difference(point, from));  // G7
+      return is_at(from) || is_at(to) ? exact(0) : cross(difference(to, from), difference(point, from));  // PC7
     };
     weights[i] = {weight_of(path.start), cross(difference(to, from), d)};
     if (*side < 0) weights[i] = {-weights[i].s, -weights[i].d};
@@ -179,7 +179,7 @@ BoundedContact plane_contact(const Path<Scalar>& path, const Triangle<Scalar>& t
   const Bounded size = *side < 0 ? -normal : normal;
   std::optional<bool> at_start = path.has_start() ? are_positive(starts) : false;
   std::optional<bool> at_end = path.has_end() ? are_positive(ends) : false;
-  if (path.has_end() && range.first == 0 && range.last == 1) {  // G8
+  if (path.has_end() && range.first == 0 && range.last == 1) {  // PC8
     bool is_behind = false;
     for (std::size_t i = 0; i < 3; ++i) {
       if (starts[i].sign() != -1) continue;
@@ -206,7 +206,7 @@ BoundedContact plane_contact(const Path<Scalar>& path, const Triangle<Scalar>& t
   }
   const double first = range.first;
   const double last = range.last;
-  // G5
+  // PC5
   if (interval.first_lower > std::min(interval.last_upper, last) || interval.last_upper < first) {
     result.verdict = Verdict::miss;
     return result;
@@ -224,7 +224,7 @@ BoundedContact plane_contact(const Path<Scalar>& path, const Triangle<Scalar>& t
     const PlaneWeight& entry = weights[interval.entry];
     const Bounded denominator = size * entry.d;
     if (denominator.sign() != 1) return result;  // Its sign must be certain.
-    set_quotients(result, weight_at_entry(entry, weights[0]), weight_at_entry(entry, weights[1]), denominator);  // G6
+    set_quotients(result, weight_at_entry(entry, weights[0]), weight_at_entry(entry, weights[1]), denominator);  // PC6
   }
   return result;
 }

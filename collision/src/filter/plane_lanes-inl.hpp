@@ -65,25 +65,25 @@ struct SeenLanes {
 /// Here x and y are the other two axes, P is the start and Q the end. The area of three points p, q and r is the sum
 /// (p - r).x (q - r).y - (p - r).y (q - r).x, with (p - r) and (q - r) as computed in double.
 ///
-/// C1. Let no component of the differences exceed m. Then an area is off by at most 2^-49 m^2.
+/// PL1. Let no component of the differences exceed m. Then an area is off by at most 2^-49 m^2.
 /// Proof. Each of the two products passes through four roundings: two differences, the product and the sum. So it is
 ///     off by 4 eps m^2, up to terms in eps^2, where eps = 2^-53. Both together are 2^-50 m^2. The other half is for
 ///     the roundings of m and of the bound, and the smallest normal number covers underflow. A fused product has fewer.
 ///     If a sum of six products might overflow, the bound is infinite, because 16 m^2 is. Then nothing is certain.
 ///
-/// C2. Let n be the sum of P's three areas with the edges. It is off by at most 4 bounds of C1.
+/// PL2. Let n be the sum of P's three areas with the edges. It is off by at most 4 bounds of PL1.
 /// Proof. Each area is off by half a bound. Its size is at most 2 m^2, so the two roundings of the sum are below a
 ///     whole bound. What is left covers the roundings of five bounds, and of their sum with n.
 ///
-/// C3. The segment misses the triangle if they are apart as seen along the axis. They are apart there if P and Q are
+/// PL3. The segment misses the triangle if they are apart as seen along the axis. They are apart there if P and Q are
 ///     beside an edge's line, and if no corner is as far on this side. They also are if all corners are on one side of
 ///     the segment's line.
 /// Proof. A point that they share is seen in both. The area with an edge is a linear function of the point. It is zero
 ///     at two corners, and n at the third one. If it is below 0 and below n at P and Q, it is below the minimum of the
 ///     triangle on all of the segment. The same holds above 0 and n. The second condition is such a function too: that
-///     of the segment's line. The bounds of C1 and C2 make each comparison certain.
+///     of the segment's line. The bounds of PL1 and PL2 make each comparison certain.
 ///
-/// C4. If P's areas with all three edges are above their bounds, or all are below the opposite, P is inside as seen.
+/// PL4. If P's areas with all three edges are above their bounds, or all are below the opposite, P is inside as seen.
 /// Proof. P is on the same side of each edge's line, which for a triangle is the inside.
 template <typename Scalar>
 HWY_NOINLINE SeenLanes lanes_seen_along(std::size_t axis, const Path<Scalar>& segment, const TriangleList<Scalar>& list,
@@ -129,13 +129,13 @@ HWY_NOINLINE SeenLanes lanes_seen_along(std::size_t axis, const Path<Scalar>& se
       size = hn::Max(size, hn::Max(hn::Abs(from_start[i].x), hn::Abs(from_start[i].y)));
     }
     size = hn::Add(size, length);
-    // C1
+    // PL1
     const V sizes = hn::Mul(hn::Mul(size, size), hn::Set(d, 16));
     const V bound = hn::MulAdd(sizes, hn::Set(d, 0x1p-53), hn::Set(d, std::numeric_limits<double>::min()));
     const V of_start[3] = {area(from_start[0], from_start[1]), area(from_start[1], from_start[2]),
                            area(from_start[2], from_start[0])};
     const V sum = hn::Add(hn::Add(of_start[0], of_start[1]), of_start[2]);
-    const V of_sum = hn::Mul(bound, hn::Set(d, 5));  // C2, and the bound of the area that is compared with it.
+    const V of_sum = hn::Mul(bound, hn::Set(d, 5));  // PL2, and the bound of the area that is compared with it.
     const V low = hn::Min(hn::Neg(bound), hn::Sub(sum, of_sum));
     const V high = hn::Max(bound, hn::Add(sum, of_sum));
     auto apart = hn::FirstN(d, 0);
@@ -151,9 +151,9 @@ HWY_NOINLINE SeenLanes lanes_seen_along(std::size_t axis, const Path<Scalar>& se
     const auto are_above = [&](const V(&areas)[3]) {
       return hn::Gt(hn::Min(hn::Min(areas[0], areas[1]), areas[2]), bound);
     };
-    apart = hn::Or(apart, hn::Or(are_below(beside), are_above(beside)));  // C3
+    apart = hn::Or(apart, hn::Or(are_below(beside), are_above(beside)));  // PL3
     result.misses |= (bits_of(d, apart) & some) << at;
-    result.around |= (bits_of(d, hn::Or(are_below(of_start), are_above(of_start))) & some) << at;  // C4
+    result.around |= (bits_of(d, hn::Or(are_below(of_start), are_above(of_start))) & some) << at;  // PL4
   }
   return result;
 }

@@ -50,12 +50,12 @@ BoundedContact placed_contact(const PlacedPath<Scalar>& path, bool is_mirrored, 
     any_negative |= side.value < -side.radius;
     all_certain &= std::fabs(side.value) > side.radius;
   }
-  if (any_positive && any_negative) {  // B5
+  if (any_positive && any_negative) {  // BN5
     result.verdict = Verdict::miss;
     return result;
   }
   if (!all_certain || !(std::fabs(det) > bounded_det.radius)) return result;
-  // By B6, the path's line meets the inside of the triangle. The interval of t decides the rest.
+  // By BN6, the path's line meets the inside of the triangle. The interval of t decides the rest.
   result.by_det = BoundedQuotients(bounded_det);
   auto [lower, upper] = result.by_det.of(bounded(number(of.height), number(of.height_size)));
   const auto rounding = [&](double t) { return (std::fabs(t) + std::fabs(moved_t)) * 0x1p-51; };

@@ -31,8 +31,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// A path in the frame of a tree, in float. A start that is far away is moved near the middle of the tree. The
 /// parameter tau counts from there: t = moved_t + tau / inverse_unit.
 ///
-/// I9. Let the path meet a box at some t of its range. Then no test of this path calls the box a miss.
-/// Proof. See POSES.md.
+/// Let the path meet a box at some t of its range. Then no test of this path calls the box a miss (I9 in POSES.md).
 struct TreePath {
   template <typename Scalar>
   TreePath(const InstanceTree& tree, const ScenePath<Scalar>& path);

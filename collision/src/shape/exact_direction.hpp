@@ -22,7 +22,9 @@ struct SignedSize {
 
 /// A vector of any length.
 ///
-/// Let eps be 2^-53. N1. A component is off by at most 9 eps of itself.
+/// Let eps be 2^-53.
+///
+/// N1. A component is off by at most 9 eps of itself.
 /// Proof. The size of an integer is off by 2 eps, and a root by half of what its square is off, and eps. Numbers are
 ///     only added if they have the same sign. So p + q √d is off by 5 eps for the product, and eps for the sum. If p
 ///     and q √d have opposite signs, it is a quotient of an integer and such a sum: 2 + 6 + 1 eps.
