@@ -9,6 +9,7 @@
 #include "scene/swept_tree_walk.hpp"
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
+#include "shape/kept_contacts.hpp"
 #include "shape/placed_shape_candidate.hpp"
 #include "shape/recent_triangles.hpp"
 #include "shape/shape_contact.hpp"
@@ -18,7 +19,6 @@
 #include "walk/swept_walk.hpp"
 
 namespace surehit::detail {
-namespace {
 
 template <typename Shape>
 using PlacedCandidateOf = PlacedShapeCandidate<Shape>;
@@ -27,17 +27,13 @@ using PlacedNarrowphase = ShapeNarrowphase<Shape, PlacedShapeCandidate<Shape>>;
 
 /// Returns a hit as it is reported.
 template <typename Shape>
-SceneShapeHit<ScalarOf<Shape>> placed_hit(const SceneShapeQuery<ScalarOf<Shape>>& query,
-                                          const PlacedNarrowphase<Shape>& narrowphase,
-                                          const PlacedCandidateOf<Shape>& candidate) {
+SceneShapeHit<ScalarOf<Shape>> hit_of(const SceneShapeQuery<ScalarOf<Shape>>& query,
+                                      const PlacedNarrowphase<Shape>& narrowphase,
+                                      const PlacedCandidateOf<Shape>& candidate) {
   return {narrowphase.hit(candidate), {candidate.instance, query.instances[candidate.instance].generation}};
 }
 
-/// Returns the last t that counts.
-template <typename Scalar>
-double last_placed_t(const SceneShapeQuery<Scalar>& query) {
-  return std::min(1.0, double{query.options.max_t});
-}
+namespace {
 
 /// Returns a triangle of a mesh in the Scalar of a scene.
 template <typename Scalar, typename MeshScalar>
@@ -77,7 +73,8 @@ class PlacedShapeVisitor {
   void visit_list(CellWord word) {
     const std::uint32_t count = mesh_.grid.entry_count(word);
     const std::size_t first = mesh_.grid.first_entry(word);
-    const std::size_t counting = keep_.count_that_counts(index_, mesh_.grid.entries(), first, count);
+    const PackedIds::Range ids = mesh_.grid.entries().between(first, first + count);
+    const std::size_t counting = keep_.count_that_counts(ids, [&](std::uint32_t id) { return std::tuple(index_, id); });
     const MeshScalar* const corners = MeshBlocks<MeshScalar>::corners(mesh_.mesh.block(word.list(), first));
     query_.statistics.candidates += counting;
     for (std::size_t from = 0; from < counting; from += PlacedGroup::max_count) {
@@ -111,7 +108,7 @@ class PlacedShapeVisitor {
     return (mask & query_.options.mask) != 0 && !(is_ignored_ && id == query_.options.ignored_triangle);
   }
   void take(std::uint32_t id, const Triangle<MeshScalar>& triangle) {
-    if (!takes_part(id) || keep_.passes_over(index_, id)) return;
+    if (!takes_part(id) || keep_.passes_over(std::tuple(index_, id))) return;
     PlacedCandidateOf<Shape> candidate{
         index_, id, converted<Scalar>(triangle), &query_.instances[index_].placed.placement, {}, query_.share};
     ++query_.statistics.undecided;
@@ -131,82 +128,6 @@ class PlacedShapeVisitor {
   RecentTriangles recent_;
 };
 
-/// Keeps the first hit.
-template <typename Shape>
-struct KeepFirstPlaced {
-  using Scalar = ScalarOf<Shape>;
-
-  explicit KeepFirstPlaced(const SceneShapeQuery<Scalar>& query) : limit(last_placed_t(query)) {}
-  void take(const SceneShapeQuery<Scalar>& query, const PlacedNarrowphase<Shape>& narrowphase,
-            const PlacedCandidateOf<Shape>& candidate) {
-    if (first && !narrowphase.comes_before(candidate, *first)) return;
-    if (query.filter != nullptr && !query.accepts(placed_hit(query, narrowphase, candidate))) {
-      return;
-    }
-    first = candidate;
-    limit = std::min(limit, candidate.contact.t_upper);
-  }
-  /// Returns true if a triangle cannot be the first one, whatever its contact is.
-  [[nodiscard]] bool passes_over(std::uint32_t instance, std::uint32_t id) const {
-    if (!first) return false;
-    return first->contact.at_start ? std::tie(instance, id) >= first->ids() : std::tie(instance, id) == first->ids();
-  }
-  /// Returns the same for all triangles of an instance.
-  [[nodiscard]] bool passes_over(std::uint32_t instance) const {
-    return first && first->contact.at_start && instance > first->instance;
-  }
-  /// Returns how many triangles of an instance's list may be the first one. If the shape begins with a contact there,
-  /// they are those with lower ids. Ids ascend in a list.
-  [[nodiscard]] std::size_t count_that_counts(std::uint32_t instance, const PackedIds& ids, std::size_t from,
-                                              std::size_t count) const {
-    if (!first || !first->contact.at_start || instance != first->instance) return count;
-    const PackedIds::Range list = ids.between(from, from + count);
-    return static_cast<std::size_t>(std::ranges::lower_bound(list, first->id) - list.begin());
-  }
-  std::optional<PlacedCandidateOf<Shape>> first;
-  double limit;
-  static constexpr bool is_done = false;
-};
-
-/// Notes whether there is a hit.
-template <typename Shape>
-struct KeepAnyPlaced {
-  using Scalar = ScalarOf<Shape>;
-
-  explicit KeepAnyPlaced(const SceneShapeQuery<Scalar>& query) : limit(last_placed_t(query)) {}
-  void take(const SceneShapeQuery<Scalar>& query, const PlacedNarrowphase<Shape>& narrowphase,
-            const PlacedCandidateOf<Shape>& candidate) {
-    is_done = query.filter == nullptr || query.accepts(placed_hit(query, narrowphase, candidate));
-  }
-  [[nodiscard]] static bool passes_over(std::uint32_t, std::uint32_t) { return false; }
-  [[nodiscard]] static bool passes_over(std::uint32_t) { return false; }
-  [[nodiscard]] static std::size_t count_that_counts(std::uint32_t, const PackedIds&, std::size_t, std::size_t count) {
-    return count;
-  }
-  double limit;
-  bool is_done = false;
-};
-
-/// Keeps all hits.
-template <typename Shape>
-struct KeepAllPlaced {
-  using Scalar = ScalarOf<Shape>;
-
-  explicit KeepAllPlaced(const SceneShapeQuery<Scalar>& query) : limit(last_placed_t(query)) {}
-  void take(const SceneShapeQuery<Scalar>&, const PlacedNarrowphase<Shape>&,
-            const PlacedCandidateOf<Shape>& candidate) {
-    all.push_back(candidate);
-  }
-  [[nodiscard]] static bool passes_over(std::uint32_t, std::uint32_t) { return false; }
-  [[nodiscard]] static bool passes_over(std::uint32_t) { return false; }
-  [[nodiscard]] static std::size_t count_that_counts(std::uint32_t, const PackedIds&, std::size_t, std::size_t count) {
-    return count;
-  }
-  std::vector<PlacedCandidateOf<Shape>> all;
-  double limit;
-  static constexpr bool is_done = false;
-};
-
 /// The search of one shape in a scene. It is the visitor of the walk through the tree.
 template <typename Shape, typename Keep>
 class SceneShapeSearch {
@@ -214,7 +135,10 @@ class SceneShapeSearch {
 
  public:
   SceneShapeSearch(const SceneShapeQuery<Scalar>& query, const Shape& shape)
-      : keep(query), narrowphase(shape, query.options, query.statistics), query_(query), shape_(shape) {}
+      : keep(last_t(query.options)),
+        narrowphase(shape, query.options, query.statistics),
+        query_(query),
+        shape_(shape) {}
 
   void run() {
     ++query_.statistics.paths;
@@ -224,7 +148,7 @@ class SceneShapeSearch {
   }
 
   void visit(std::uint32_t index) {
-    if (!query_.takes_part(index) || keep.passes_over(index)) return;
+    if (!query_.takes_part(index) || keep.passes_over_from(std::tuple(index, std::uint32_t{0}))) return;
     ++query_.statistics.instances;
     const InstanceMesh<Scalar>& mesh = query_.instances[index].mesh;
     if constexpr (std::is_same_v<Scalar, double>) {
@@ -262,16 +186,16 @@ class SceneShapeSearch {
 template <typename Shape>
 std::optional<SceneShapeHit<ScalarOf<Shape>>> search_first(const SceneShapeQuery<ScalarOf<Shape>>& query,
                                                            const Shape& shape) noexcept {
-  SceneShapeSearch<Shape, KeepFirstPlaced<Shape>> search(query, shape);
+  SceneShapeSearch<Shape, KeepFirst<PlacedCandidateOf<Shape>>> search(query, shape);
   search.run();
   const auto& first = search.keep.first;
   if (!first) return std::nullopt;
-  return placed_hit(query, search.narrowphase, *first);
+  return hit_of(query, search.narrowphase, *first);
 }
 
 template <typename Shape>
 bool search_any(const SceneShapeQuery<ScalarOf<Shape>>& query, const Shape& shape) noexcept {
-  SceneShapeSearch<Shape, KeepAnyPlaced<Shape>> search(query, shape);
+  SceneShapeSearch<Shape, KeepAny<PlacedCandidateOf<Shape>>> search(query, shape);
   search.run();
   return search.is_done();
 }
@@ -279,11 +203,11 @@ bool search_any(const SceneShapeQuery<ScalarOf<Shape>>& query, const Shape& shap
 template <typename Shape>
 void search_all(const SceneShapeQuery<ScalarOf<Shape>>& query, const Shape& shape,
                 std::vector<SceneShapeHit<ScalarOf<Shape>>>& hits) {
-  SceneShapeSearch<Shape, KeepAllPlaced<Shape>> search(query, shape);
+  SceneShapeSearch<Shape, KeepAll<PlacedCandidateOf<Shape>>> search(query, shape);
   search.run();
   search.narrowphase.sort(search.keep.all);
   for (const PlacedCandidateOf<Shape>& candidate : search.keep.all) {
-    const auto hit = placed_hit(query, search.narrowphase, candidate);
+    const auto hit = hit_of(query, search.narrowphase, candidate);
     if (query.accepts(hit)) hits.push_back(hit);
   }
 }

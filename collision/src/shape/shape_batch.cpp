@@ -84,7 +84,7 @@ class ShapeLanes {
         entering_.end[axis][lane] = extents.end[axis];
         entering_.half_extents[axis][lane] = extents.half_extents[axis];
       }
-      lanes_.end[lane] = SweptLanes::beyond(std::min(1.0, double{options.max_t}));
+      lanes_.end[lane] = SweptLanes::beyond(last_t(options));
     }
     std::uint32_t apart = 0;
     const std::uint32_t entered = lanes_.enter(entering_, entering, apart);
@@ -211,7 +211,7 @@ void search_first(const ShapeBatch<Shape>& batch, std::span<ShapeHit<ScalarOf<Sh
     const auto& first = visitor.keep().first;
     hits[index] = first ? visitor.narrowphase().hit(*first) : Hit{};
   };
-  answer<KeepFirst<Shape>>(
+  answer<KeepFirst<ShapeCandidate<Shape>>>(
       batch, finish, [&](std::size_t index) { hits[index] = Hit{}; },
       [&](std::size_t index) { hits[index] = search_first(batch.query(index), batch.shapes[index]).value_or(Hit{}); });
 }
@@ -219,7 +219,7 @@ void search_first(const ShapeBatch<Shape>& batch, std::span<ShapeHit<ScalarOf<Sh
 template <typename Shape>
 void search_any(const ShapeBatch<Shape>& batch, std::span<std::uint8_t> blocked) noexcept {
   const auto finish = [&](std::size_t index, auto& visitor) { blocked[index] = visitor.is_done() ? 1 : 0; };
-  answer<KeepAny<Shape>>(
+  answer<KeepAny<ShapeCandidate<Shape>>>(
       batch, finish, [&](std::size_t index) { blocked[index] = 0; },
       [&](std::size_t index) { blocked[index] = search_any(batch.query(index), batch.shapes[index]) ? 1 : 0; });
 }

@@ -15,7 +15,7 @@ class LateVisitor {
 
  public:
   LateVisitor(const ShapeQuery<Scalar>& query, const Shape& shape)
-      : query_(query), shape_(shape), limit_(last_t(query)) {}
+      : query_(query), shape_(shape), limit_(last_t(query.options)) {}
 
   void count_cell() { ++query_.statistics.cells; }
   void visit_list(CellWord word) { made().visit_list(word); }
@@ -51,7 +51,7 @@ void walk(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape, Visitor&
 template <typename Shape>
 std::optional<ShapeHit<ScalarOf<Shape>>> search_first(const ShapeQuery<ScalarOf<Shape>>& query,
                                                       const Shape& shape) noexcept {
-  LateVisitor<Shape, KeepFirst<Shape>> late(query, shape);
+  LateVisitor<Shape, KeepFirst<ShapeCandidate<Shape>>> late(query, shape);
   walk(query, shape, late);
   auto* const visitor = late.visitor();
   if (visitor == nullptr || !visitor->keep().first) return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<ShapeHit<ScalarOf<Shape>>> search_first(const ShapeQuery<ScalarOf<
 
 template <typename Shape>
 bool search_any(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape) noexcept {
-  LateVisitor<Shape, KeepAny<Shape>> late(query, shape);
+  LateVisitor<Shape, KeepAny<ShapeCandidate<Shape>>> late(query, shape);
   walk(query, shape, late);
   return late.is_done();
 }
@@ -68,7 +68,7 @@ bool search_any(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape) no
 template <typename Shape>
 void search_all(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape,
                 std::vector<ShapeHit<ScalarOf<Shape>>>& hits) {
-  LateVisitor<Shape, KeepAll<Shape>> late(query, shape);
+  LateVisitor<Shape, KeepAll<ShapeCandidate<Shape>>> late(query, shape);
   walk(query, shape, late);
   auto* const visitor = late.visitor();
   if (visitor == nullptr) return;

@@ -1,16 +1,15 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <vector>
+#include <tuple>
 
 #include "shape/box_contact.hpp"
 #include "shape/capsule_contact.hpp"
+#include "shape/kept_contacts.hpp"
 #include "shape/recent_triangles.hpp"
 #include "shape/shape_filter.hpp"
 #include "shape/shape_narrowphase.hpp"
@@ -33,7 +32,7 @@ class ShapeVisitor {
         filter_(shape),
         enters_(enters),
         narrowphase_(shape, query.options, query.statistics),
-        keep_(query) {}
+        keep_(last_t(query.options)) {}
 
   void count_cell() { ++query_.statistics.cells; }
   void visit_list(CellWord word) {
@@ -49,7 +48,8 @@ class ShapeVisitor {
   [[nodiscard]] ShapeList<Scalar> list_of(CellWord word) const {
     const std::uint32_t count = query_.grid.entry_count(word);
     const std::size_t first = query_.grid.first_entry(word);
-    const std::size_t counting = keep_.count_that_counts(query_.grid.entries(), first, count);
+    const PackedIds::Range ids = query_.grid.entries().between(first, first + count);
+    const std::size_t counting = keep_.count_that_counts(ids, [](std::uint32_t id) { return std::tuple(id); });
     query_.statistics.candidates += counting;
     return {&filter_, MeshBlocks<Scalar>::corners(query_.mesh.block(word.list(), first)), count, 0, counting, limit()};
   }
@@ -107,7 +107,7 @@ class ShapeVisitor {
       if (enters_[lane] > keep_.limit) return;
       found &= ~(std::uint64_t{1} << lane);
       const std::uint32_t id = query_.grid.entries()[first + lane];
-      if (recent_.has(id) || keep_.passes_over(id)) continue;
+      if (recent_.has(id) || keep_.passes_over(std::tuple(id))) continue;
       take(id, MeshBlocks<Scalar>::triangle(list.corners, list.count, from + lane));
     }
   }
@@ -118,7 +118,7 @@ class ShapeVisitor {
     for (; found != 0 && !is_done(); found &= found - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(found));
       const std::uint32_t id = query_.grid.entries()[first + lane];
-      if (recent_.has(id) || keep_.passes_over(id) || !query_.takes_part(id)) continue;
+      if (recent_.has(id) || keep_.passes_over(std::tuple(id)) || !query_.takes_part(id)) continue;
       ShapeCandidate<Shape> candidate{id, MeshBlocks<Scalar>::triangle(list.corners, list.count, from + lane), {}};
       const Verdict verdict = narrowphase_.find_simple_contact(candidate.triangle, keep_.limit, candidate.contact);
       if (verdict == Verdict::hit) keep_.take(query_, narrowphase_, candidate);
@@ -144,71 +144,11 @@ class ShapeVisitor {
   Keep keep_;
 };
 
-/// Returns the last t that counts.
-template <typename Scalar>
-double last_t(const ShapeQuery<Scalar>& query) {
-  return std::min(1.0, double{query.options.max_t});
+/// Returns a hit as it is reported.
+template <typename Shape>
+ShapeHit<ScalarOf<Shape>> hit_of(const ShapeQuery<ScalarOf<Shape>>&, const ShapeNarrowphase<Shape>& narrowphase,
+                                 const ShapeCandidate<Shape>& candidate) {
+  return narrowphase.hit(candidate);
 }
-
-/// Keeps the first hit.
-template <typename Shape>
-struct KeepFirst {
-  using Scalar = ScalarOf<Shape>;
-
-  explicit KeepFirst(const ShapeQuery<Scalar>& query) : limit(last_t(query)) {}
-  void take(const ShapeQuery<Scalar>& query, const ShapeNarrowphase<Shape>& narrowphase,
-            const ShapeCandidate<Shape>& candidate) {
-    if (first && !narrowphase.comes_before(candidate, *first)) return;
-    if (query.filter != nullptr && !query.accepts(narrowphase.hit(candidate))) return;
-    first = candidate;
-    limit = std::min(limit, candidate.contact.t_upper);
-  }
-  /// Returns true if a triangle cannot be the first one, whatever its contact is.
-  [[nodiscard]] bool passes_over(std::uint32_t id) const {
-    return first && (id == first->id || (first->contact.at_start && id > first->id));
-  }
-  /// Returns how many triangles of a list may be the first one. If the shape begins with a contact, they are those with
-  /// lower ids. Ids ascend in a list.
-  [[nodiscard]] std::size_t count_that_counts(const PackedIds& ids, std::size_t from, std::size_t count) const {
-    if (!first || !first->contact.at_start) return count;
-    const PackedIds::Range list = ids.between(from, from + count);
-    return static_cast<std::size_t>(std::ranges::lower_bound(list, first->id) - list.begin());
-  }
-  std::optional<ShapeCandidate<Shape>> first;
-  double limit;
-  static constexpr bool is_done = false;
-};
-
-/// Notes whether there is a hit.
-template <typename Shape>
-struct KeepAny {
-  using Scalar = ScalarOf<Shape>;
-
-  explicit KeepAny(const ShapeQuery<Scalar>& query) : limit(last_t(query)) {}
-  void take(const ShapeQuery<Scalar>& query, const ShapeNarrowphase<Shape>& narrowphase,
-            const ShapeCandidate<Shape>& candidate) {
-    is_done = query.filter == nullptr || query.accepts(narrowphase.hit(candidate));
-  }
-  [[nodiscard]] static bool passes_over(std::uint32_t) { return false; }
-  [[nodiscard]] static std::size_t count_that_counts(const PackedIds&, std::size_t, std::size_t count) { return count; }
-  double limit;
-  bool is_done = false;
-};
-
-/// Keeps all hits.
-template <typename Shape>
-struct KeepAll {
-  using Scalar = ScalarOf<Shape>;
-
-  explicit KeepAll(const ShapeQuery<Scalar>& query) : limit(last_t(query)) {}
-  void take(const ShapeQuery<Scalar>&, const ShapeNarrowphase<Shape>&, const ShapeCandidate<Shape>& candidate) {
-    all.push_back(candidate);
-  }
-  [[nodiscard]] static bool passes_over(std::uint32_t) { return false; }
-  [[nodiscard]] static std::size_t count_that_counts(const PackedIds&, std::size_t, std::size_t count) { return count; }
-  std::vector<ShapeCandidate<Shape>> all;
-  double limit;
-  static constexpr bool is_done = false;
-};
 
 }  // namespace surehit::detail
