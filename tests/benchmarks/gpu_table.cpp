@@ -219,7 +219,7 @@ void add_scenes(const GpuDevice& device, const Request& request, GpuTables& tabl
       std::printf("\ngpu_scene: %s left out, because %s\n", name.c_str(), uploaded.error().what());
       continue;
     }
-    for (const PathSet set : world_path_sets) {
+    for (const PathSet set : path_sets_of(world)) {
       if (std::find(request.sets.begin(), request.sets.end(), set) == request.sets.end()) continue;
       tables.measure<Scenef>(
           {scene, on_gpu}, {"", name, world.triangle_count(), name_of(set)},

@@ -35,7 +35,7 @@ std::vector<SweepContestant> colliders_of(const World& world, const TriangleMesh
 void add_samples(const World& world, const Request& request, SweepContest& contest) {
   const Boxd box = world.box();
   for (const ShapeKind kind : request.shapes) {
-    for (const PathSet set : world_path_sets) {
+    for (const PathSet set : path_sets_of(world)) {
       if (std::find(request.sets.begin(), request.sets.end(), set) == request.sets.end()) continue;
       const WorldSample paths(set, world, request.paths);
       for (const double percent : scene_sizes_in_percent) {

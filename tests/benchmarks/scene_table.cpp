@@ -87,7 +87,7 @@ class WorldContest {
  public:
   WorldContest(const World& world, const Request& request)
       : world_(world), entrants_(query_entrants(world, request.world_entrants)) {
-    for (const PathSet set : world_path_sets) {
+    for (const PathSet set : path_sets_of(world)) {
       if (std::find(request.sets.begin(), request.sets.end(), set) == request.sets.end()) continue;
       FramedSample sample{WorldSample(set, world, request.paths)};
       if (world.instances.size() == 1) {

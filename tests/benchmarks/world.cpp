@@ -207,6 +207,48 @@ World bricks(float detail) {
   return world;
 }
 
+/// Draws a number from 1 to 10^6, all powers of ten alike. Roots are rounded alike everywhere.
+double draw_size(Random& random) {
+  double size = 1;
+  double factor = 1e6;
+  for (int bit = 0; bit < 24; ++bit) {
+    factor = std::sqrt(factor);
+    if (random.one_in(2)) size *= factor;
+  }
+  return size;
+}
+
+/// 5,000 boxes and balls that overlap in clusters. The largest ones are 10^6 times as large as the smallest ones.
+World sizes(float detail) {
+  constexpr double width = 4e6;
+  World world;
+  world.has_details = true;
+  SolidBuilder box(1);
+  box.add_box({-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f});
+  world.meshes.push_back(box.take());
+  for (const std::uint32_t pieces : {4u, 12u}) world.meshes.push_back(bumpy_ball(0.5, pieces));
+  struct Cluster {
+    Vector3d centre;
+    double reach;
+  };
+  std::vector<Cluster> clusters;
+  Random random(5);
+  const auto count = static_cast<std::size_t>(5000 * detail);
+  while (clusters.size() < std::max<std::size_t>(1, count / 25)) {
+    const Vector3d centre = width * (draw_in_unit_cube(random) - Vector3d::Constant(0.5));
+    clusters.push_back({centre, draw_size(random)});
+  }
+  while (world.instances.size() < count) {
+    const auto& [centre, reach] = clusters[random.below(clusters.size())];
+    const std::size_t mesh = random.below(world.meshes.size());
+    const double size = draw_size(random);
+    const Matrix3d turn = draw_rotation(random);
+    const Vector3d place = centre + (reach + size / 2) * draw_in_unit_ball(random);
+    world.instances.push_back({mesh, rounded(size * turn, place)});
+  }
+  return world;
+}
+
 /// A single ball of 70,000 triangles.
 World one(const Posef& pose, float detail) {
   World world;
@@ -232,6 +274,7 @@ std::vector<WorldKind> all_worlds() {
   return {{"town", town},
           {"forest", forest},
           {"bricks", bricks},
+          {"sizes", sizes},
           {"one", [](float detail) { return one({}, detail); }},
           {"one_moved",
            [](float detail) {

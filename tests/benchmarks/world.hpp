@@ -23,6 +23,7 @@ struct World {
   std::vector<example::Mesh<float>> meshes;
   std::vector<PlacedMesh> instances;
   Vector3d eye = {0, 0, 0};
+  bool has_details = false;  ///< True if paths are drawn about small instances too.
 
   /// Returns the number of placed triangles.
   [[nodiscard]] std::size_t triangle_count() const;

@@ -34,11 +34,15 @@ class PlacedSurfaces {
     }
   }
 
+  /// Draws a point of an instance.
+  [[nodiscard]] Vector3d draw_of(const PlacedMesh& instance, Random& random) const {
+    return placed(instance.pose, surfaces_[instance.mesh].draw(random));
+  }
+
   [[nodiscard]] Vector3d draw(Random& random) const {
     const double area = random.unit<double>() * area_up_to_.back();
     const auto place = std::upper_bound(area_up_to_.begin(), area_up_to_.end(), area);
-    const auto& [mesh, pose] = world_.instances[static_cast<std::size_t>(place - area_up_to_.begin())];
-    return placed(pose, surfaces_[mesh].draw(random));
+    return draw_of(world_.instances[static_cast<std::size_t>(place - area_up_to_.begin())], random);
   }
 
  private:
@@ -50,7 +54,9 @@ class PlacedSurfaces {
 class WorldPathDrawer {
  public:
   WorldPathDrawer(PathSet set, const World& world)
-      : set_(set), eye_(world.eye), box_(world.box()), diagonal_((box_.high - box_.low).norm()), surfaces_(world) {}
+      : set_(set), world_(world), box_(world.box()), diagonal_((box_.high - box_.low).norm()), surfaces_(world) {
+    for (const auto& mesh : world.meshes) mesh_boxes_.push_back(box_of(mesh.view()));
+  }
 
   [[nodiscard]] Segmentf draw(Random& random) const {
     const auto rounded = [](const Vector3d& start, const Vector3d& end) {
@@ -66,12 +72,20 @@ class WorldPathDrawer {
         const Vector3d start = touched + 0.005 * diagonal_ * draw_in_unit_ball(random);
         return rounded(start, start + 0.01 * diagonal_ * draw_direction(random));
       }
+      case PathSet::detail_paths: {
+        const PlacedMesh& instance = world_.instances[random.below(world_.instances.size())];
+        const Boxd box = placed(instance.pose, mesh_boxes_[instance.mesh]);
+        const double length = (box.high - box.low).norm();
+        const Vector3d touched = surfaces_.draw_of(instance, random);
+        const Vector3d start = touched + 0.5 * length * draw_in_unit_ball(random);
+        return rounded(start, start + length * draw_direction(random));
+      }
       case PathSet::long_paths: {
         const Vector3d start = draw_in_box(1.2, random);
         return rounded(start, draw_in_box(1.2, random));
       }
       case PathSet::sight_paths:
-        return rounded(eye_, surfaces_.draw(random) + NamedMesh::target_height * diagonal_ * Vector3d::UnitZ());
+        return rounded(world_.eye, surfaces_.draw(random) + NamedMesh::target_height * diagonal_ * Vector3d::UnitZ());
       default:
         throw std::logic_error("no such paths are drawn in worlds");
     }
@@ -84,13 +98,20 @@ class WorldPathDrawer {
   }
 
   PathSet set_;
-  Vector3d eye_;
+  const World& world_;
   Boxd box_;
   double diagonal_;
+  std::vector<Boxf> mesh_boxes_;
   PlacedSurfaces surfaces_;
 };
 
 }  // namespace
+
+std::vector<PathSet> path_sets_of(const World& world) {
+  std::vector<PathSet> sets = {PathSet::short_paths, PathSet::near_paths, PathSet::long_paths, PathSet::sight_paths};
+  if (world.has_details) sets.insert(sets.begin() + 2, PathSet::detail_paths);
+  return sets;
+}
 
 PathBatch draw_world_paths(PathSet set, const World& world, std::size_t count, std::uint64_t seed) {
   const WorldPathDrawer drawer(set, world);

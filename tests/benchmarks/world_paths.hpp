@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "path_batch.hpp"
 #include "path_set.hpp"
@@ -9,12 +10,12 @@
 
 namespace surehit::benchmark {
 
-/// The sets that are drawn in worlds.
-inline constexpr std::array world_path_sets = {PathSet::short_paths, PathSet::near_paths, PathSet::long_paths,
-                                               PathSet::sight_paths};
+/// Returns the sets that are drawn in a world.
+[[nodiscard]] std::vector<PathSet> path_sets_of(const World& world);
 
 /// Draws paths as `draw_paths` does. The box is that of the world, and surfaces are those of all instances. Paths of
-/// sight end a bit above random points of them.
+/// sight end a bit above random points of them. Paths about details are as long as an instance, and begin within half
+/// of this from its surface. All instances count alike.
 [[nodiscard]] PathBatch draw_world_paths(PathSet set, const World& world, std::size_t count, std::uint64_t seed);
 
 /// Paths to measure with, and others to warm up with.
