@@ -179,16 +179,7 @@ struct TreeOfSizes : testing::Test {
     }
     for (const Segment<float>& path : drawn_paths)
       paths.push_back({path.start.cast<double>(), path.end.cast<double>()});
-    tree = built();
-  }
-
-  /// Returns a new tree of the boxes.
-  [[nodiscard]] InstanceTree built() const {
-    std::vector<std::uint32_t> all(boxes.size());
-    std::iota(all.begin(), all.end(), 0U);
-    InstanceTree fresh;
-    fresh.build(all, boxes);
-    return fresh;
+    tree = tree_around(boxes);
   }
 
   /// Takes the paths in float or in double.
@@ -253,10 +244,10 @@ TEST_F(TreeOfSizes, StaysAsGoodWhileInstancesMove) {
       }
     }
     tree.refit(moved, boxes);
-    if (tree.is_worn()) tree = built();
+    if (tree.is_worn()) tree = tree_around(boxes);
   }
   const std::size_t met = count_met(paths, boxes_of_nodes(tree));
-  const std::size_t met_of_new = count_met(paths, boxes_of_nodes(built()));
+  const std::size_t met_of_new = count_met(paths, boxes_of_nodes(tree_around(boxes)));
   // A tree is built anew at 1.5 times its cost. Its instances are a part of this and do not grow, so nodes may grow
   // more.
   EXPECT_LE(met, 2 * met_of_new);

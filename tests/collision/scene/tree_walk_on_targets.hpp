@@ -2,12 +2,22 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "scene/instance_tree.hpp"
 #include "scene/placed_path.hpp"
 
 namespace surehit::test {
+
+/// Returns a new tree of instances with these boxes.
+[[nodiscard]] inline detail::InstanceTree tree_around(const std::vector<detail::InstanceBox>& boxes) {
+  std::vector<std::uint32_t> all(boxes.size());
+  std::iota(all.begin(), all.end(), 0U);
+  detail::InstanceTree tree;
+  tree.build(all, boxes);
+  return tree;
+}
 
 /// Returns the instances to which `detail::TreeWalk` comes on the instruction set that is chosen at the moment. `sorts`
 /// is as in `TreeWalk::visit`.

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,14 +28,6 @@ using detail::InstanceTree;
 using detail::PathRange;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-InstanceTree tree_around(const std::vector<InstanceBox>& boxes) {
-  std::vector<std::uint32_t> all(boxes.size());
-  std::iota(all.begin(), all.end(), 0U);
-  InstanceTree tree;
-  tree.build(all, boxes);
-  return tree;
-}
 
 /// Some boxes, and a path that touches one of them.
 template <typename Scalar>
