@@ -25,7 +25,7 @@ using PlacedCandidateOf = PlacedShapeCandidate<Shape>;
 template <typename Shape>
 using PlacedNarrowphase = ShapeNarrowphase<Shape, PlacedShapeCandidate<Shape>>;
 
-/// Returns a hit as it is reported.
+/// Returns a hit as it is reported. `KeepFirst` would not find this in a namespace without a name.
 template <typename Shape>
 SceneShapeHit<ScalarOf<Shape>> hit_of(const SceneShapeQuery<ScalarOf<Shape>>& query,
                                       const PlacedNarrowphase<Shape>& narrowphase,

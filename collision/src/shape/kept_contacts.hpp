@@ -22,7 +22,7 @@ double last_t(const Options& options) {
 /// Keeps the first contact.
 template <typename Candidate>
 struct KeepFirst {
-  explicit KeepFirst(double last_t) : limit(last_t) {}
+  explicit KeepFirst(double last) : limit(last) {}
   template <typename Query, typename Narrowphase>
   void take(const Query& query, const Narrowphase& narrowphase, const Candidate& candidate) {
     if (first && !narrowphase.comes_before(candidate, *first)) return;
@@ -72,7 +72,7 @@ struct KeepEverywhere {
 /// Notes whether there is a contact.
 template <typename Candidate>
 struct KeepAny : KeepEverywhere {
-  explicit KeepAny(double last_t) : limit(last_t) {}
+  explicit KeepAny(double last) : limit(last) {}
   template <typename Query, typename Narrowphase>
   void take(const Query& query, const Narrowphase& narrowphase, const Candidate& candidate) {
     is_done = query.filter == nullptr || query.accepts(hit_of(query, narrowphase, candidate));
@@ -84,7 +84,7 @@ struct KeepAny : KeepEverywhere {
 /// Keeps all contacts.
 template <typename Candidate>
 struct KeepAll : KeepEverywhere {
-  explicit KeepAll(double last_t) : limit(last_t) {}
+  explicit KeepAll(double last) : limit(last) {}
   template <typename Query, typename Narrowphase>
   void take(const Query&, const Narrowphase&, const Candidate& candidate) {
     all.push_back(candidate);

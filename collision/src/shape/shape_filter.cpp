@@ -42,10 +42,10 @@ struct LanePrecision<float> {
 ///
 /// Let w be start - a, p = b - a, q = c - a and D the step. Let f = D × p, g = D × q, n = p × q and A = D·n. First come
 /// f, g and f - g, which are across the step and an edge, and n. They leave out nearly all triangles, without quotients
-/// and roots. Of the others, the axes of coordinates are asked, and the outward directions e × n of the edges. There
-/// and on n, the distance of the centre changes at a constant rate. So the shape is near enough during one interval of
-/// t. Where these intervals do not meet, the shape does not touch the triangle. It does not touch it before the latest
-/// of them begins.
+/// and roots. The others are seen from the nearest points (V7). Of those that are left, the axes of coordinates are
+/// asked, and the outward directions e × n of the edges. There and on n, the distance of the centre changes at a
+/// constant rate. So the shape is near enough during one interval of t. Where these intervals do not meet, the shape
+/// does not touch the triangle. It does not touch it before the latest of them begins.
 ///
 /// A = f·q = -g·p. So the corners are at 0, 0 and A along f and along -g, and at 0, A and A along f - g.
 ///
@@ -96,18 +96,18 @@ struct LanePrecision<float> {
 ///     is at most r |n|. Both are finite, so their difference is no NaN: h² is below 2^968 in double and 2^128 in
 ///     float. Underflow changes the root by less than 2^-73 (1 + |n| + r), and 1024 u E² F is above it.
 ///
-/// V7. Let m be any three numbers of a lane, and M the largest of their sizes. m separates until a limit if the height
-/// m·w above the corners, less c(m), less 64 u (F + M) (F + S), and less what the centre comes back along m by then, is
-/// more than r |m|.
+/// V7. Let m be any three numbers of a lane, and M the largest of their sizes. Let the centre come back by x along m
+/// until a limit. Then m separates if the height is more than r |m| + c(m) + x + 64 u (F + M) (F + S).
 /// Proof. m is what is in the lane, so it has no error. w, p, q and D have one rounding for each component, which
 ///     changes their products with m by 3 u M of their sizes. Products and sums of three add 9 u M of them. So m·w is
 ///     off by 12 u M W, the corners are by 12 u M E, and c(m) is by 9 u M H. The way until the limit is off by 18 u M S
 ///     with the rounded limit and its product. Four sums of all of these add 12 u M (F + S). Underflow is below the
-///     bound as in V5. An infinity or a NaN in m makes the left side infinite below, or a NaN.
+///     bound as in V5. If the square of the gap overflows and the other one does not, the gap is larger. A step that
+///     nearly vanishes may make m huge. Where a product of m overflows, so does the bound, and nothing separates. If m
+///     is not finite, m·w less the bound is no number above 0. A maximum may lose a NaN, but neither of these is one.
 ///
-/// The corner a and the point of the core that is nearest to it at the start give such an m, and what is left of it
-/// across the step gives another one. They leave out small triangles beside large shapes, which edges and the normal
-/// hardly tell apart.
+/// One such m is the way from corner a to the nearest point of the core at the start. Another is what is left of it
+/// across the step. They tell small triangles from large shapes, where edges and the normal hardly do.
 ///
 /// On an axis of coordinates, the heights are off by less than 16 u (W + E + S). The reach r + h_i has one rounding,
 /// and counts only if it is less than W + E + S.
@@ -269,12 +269,11 @@ class FilterLanes {
     return test_intervals(shape, corners, count, apart, limit, enters);
   }
 
-  /// Returns the lanes that the tests without quotients leave out, or those that the nearest points leave out too.
+  /// Returns the lanes that the first tests leave out. Quotients are for those that come that far.
   static HWY_INLINE Mask are_apart(const Numbers& shape, const Terms& terms, V limit) {
-    const Mask apart =
-        hn::And(terms.is_usable, hn::Or(are_apart_across(shape, terms), are_apart_until(shape, terms, limit)));
-    if (hn::AllTrue(d, apart)) return apart;
-    return hn::Or(apart, hn::And(terms.is_usable, are_apart_between_points(shape, terms, limit)));
+    Mask apart = hn::Or(are_apart_across(shape, terms), are_apart_until(shape, terms, limit));
+    if (!hn::AllTrue(d, apart)) apart = hn::Or(apart, are_apart_between_points(shape, terms, limit));
+    return hn::And(terms.is_usable, apart);
   }
 
   /// Returns the lanes where f, g or f - g separates (V2).
@@ -320,17 +319,16 @@ class FilterLanes {
   }
   /// Sets `way` to that from corner a to the nearest point of the core, rounded.
   static HWY_INLINE void set_way_to_core(const Numbers& shape, const Point& w, Point& way) {
-    const V zero = hn::Zero(d);
     if constexpr (core == Core::segment) {
       const Point half = {set(shape.half[0]), set(shape.half[1]), set(shape.half[2])};
       const V one = set(1);
       const V place = hn::Max(hn::Min(hn::Div(dot(w, half), dot(half, half)), one), hn::Neg(one));
       for (std::size_t i = 0; i < 3; ++i) way[i] = hn::NegMulAdd(place, half[i], w[i]);
-      return;
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      const V beyond = hn::Max(hn::Sub(hn::Abs(w[i]), set(shape.half[i])), zero);
-      way[i] = hn::CopySign(beyond, w[i]);
+    } else {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const V beyond = hn::Max(hn::Sub(hn::Abs(w[i]), set(shape.half[i])), hn::Zero(d));
+        way[i] = hn::CopySign(beyond, w[i]);
+      }
     }
   }
   /// Returns the lanes where m separates until a limit (V7).
