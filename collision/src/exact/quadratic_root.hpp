@@ -59,6 +59,13 @@ struct QuadraticRoot {
     return value.sign();
   }
 
+  /// Returns the sign of the root less a Scalar in (0, 1].
+  template <typename Scalar>
+  [[nodiscard]] int compare(Scalar x) const {
+    const Decomposed<Scalar> parts(x);
+    return compare<Scalar>(Dyadic{parts.significand, parts.exponent});
+  }
+
   /// Returns the root, which must be in (0, 1], rounded once to nearest. It must have b < 0 < c.
   template <typename Scalar>
   [[nodiscard]] Scalar rounded() const {

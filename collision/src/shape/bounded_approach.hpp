@@ -8,6 +8,7 @@
 #include "exact/scaled_double.hpp"
 #include "shape/bounded_terms.hpp"
 #include "shape/capsule_terms.hpp"
+#include "surehit/shape_hit.hpp"
 #include "surehit/swept_capsule.hpp"
 #include "surehit/triangle.hpp"
 
@@ -118,6 +119,24 @@ template <typename Number>
   const double low = std::max(0.0, x.value + std::min(products[0], products[1]) - error * up);
   const double high = x.value + std::max(products[0], products[1]) + error * up;
   return {low * down / upper(z) * down, high * up / lower(z) * up};
+}
+
+/// Rounds the weights of b and c at a point of an edge, each by itself. `of_begin` and `of_end` return bounds of those
+/// of the corners where the edge begins and where it ends. Returns false if bounds are too wide.
+template <typename Scalar, typename OfBegin, typename OfEnd>
+[[nodiscard]] bool try_round_edge_weights(std::size_t edge, const OfBegin& of_begin, const OfEnd& of_end,
+                                          ShapeHit<Scalar>& hit) {
+  if (edge == 0) return try_round(of_end(), hit.u);
+  if (edge == 1) return try_round(of_begin(), hit.u) && try_round(of_end(), hit.v);
+  return try_round(of_begin(), hit.v);
+}
+
+/// Does the same where the corner at the end has the weight (x + t y) / z. The numbers are those of `weight_of`.
+template <typename Number, typename Scalar>
+[[nodiscard]] bool try_round_edge_weights(std::size_t edge, const Number& x, const Number& y, const DoubleRange& t,
+                                          const Number& z, ShapeHit<Scalar>& hit) {
+  return try_round_edge_weights(
+      edge, [&] { return weight_of(z - x, -y, t, z); }, [&] { return weight_of(x, y, t, z); }, hit);
 }
 
 }  // namespace surehit::detail

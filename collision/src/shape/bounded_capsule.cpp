@@ -78,16 +78,8 @@ bool try_round_weights_of_edge(const TermsOf<Number>& terms, const CapsuleContac
   const Vector<Number>& e = terms.edge[edge];
   const bool is_inside = contact.core == CorePart::inside;
   const Vector<Number> along = is_inside ? cross(terms.half_axis, cross(e, terms.half_axis)) : e;
-  const Number square = dot(along, e);
   const Number at_start = dot(along, from_corner(terms, edge, contact.core));
-  const Number rate = dot(along, terms.step);
-  const auto try_toward_end = [&](Scalar& weight) { return try_round(weight_of(at_start, rate, t, square), weight); };
-  const auto try_toward_start = [&](Scalar& weight) {
-    return try_round(weight_of(square - at_start, -rate, t, square), weight);
-  };
-  if (edge == 0) return try_toward_end(hit.u);
-  if (edge == 1) return try_toward_start(hit.u) && try_toward_end(hit.v);
-  return try_toward_start(hit.v);
+  return try_round_edge_weights(edge, at_start, dot(along, terms.step), t, dot(along, e), hit);
 }
 
 /// Rounds the weights of a contact that is not at a corner.

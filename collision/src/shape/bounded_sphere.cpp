@@ -62,16 +62,7 @@ SUREHIT_NOINLINE bool try_round_weights(const SweptSphere<Scalar>& sphere, const
   }
   const std::size_t edge = index_of(contact.feature);
   const Vector<Number>& e = terms.edge[edge];
-  const Number ee = dot(e, e);
-  const Number at_start = dot(terms.from_corner[edge], e);
-  const Number rate = dot(terms.step, e);
-  const auto try_toward_end = [&](Scalar& weight) { return try_round(weight_of(at_start, rate, t, ee), weight); };
-  const auto try_toward_start = [&](Scalar& weight) {
-    return try_round(weight_of(ee - at_start, -rate, t, ee), weight);
-  };
-  if (edge == 0) return try_toward_end(hit.u);
-  if (edge == 1) return try_toward_start(hit.u) && try_toward_end(hit.v);
-  return try_toward_start(hit.v);
+  return try_round_edge_weights(edge, dot(terms.from_corner[edge], e), dot(terms.step, e), t, dot(e, e), hit);
 }
 
 /// Rounds the weights of a contact inside a triangle or an edge by what knows their bounds at little cost.
@@ -86,9 +77,8 @@ bool try_round_simple_weights(const SweptSphere<float>& sphere, const Triangle<f
   const DoubleRange share = EdgeContact(sphere, triangle, edge).share(t);
   if (share.upper == 0) return false;
   const DoubleRange rest = {1 - share.upper - 0x1p-52, 1 - share.lower + 0x1p-52};
-  if (edge == 0) return try_round(share, hit.u);
-  if (edge == 1) return try_round(rest, hit.u) && try_round(share, hit.v);
-  return try_round(rest, hit.v);
+  return try_round_edge_weights(
+      edge, [&] { return rest; }, [&] { return share; }, hit);
 }
 
 template <typename Number, typename Scalar, typename AnyTriangle>

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
+
 #include "exact/exact_terms.hpp"
 #include "exact/quadratic_root.hpp"
 #include "exact/root_rounding.hpp"
 #include "shape/sphere_terms.hpp"
 #include "support/inlining.hpp"
+#include "surehit/shape_hit.hpp"
 
 namespace surehit::detail {
 
@@ -65,6 +68,23 @@ template <typename Scalar, int B, int V>
   weight.d = root->discriminant();
   weight.r = root->a * z;
   return weight.template rounded<Scalar>();
+}
+
+/// Rounds the weights of b and c at a point of an edge, each by itself. The corner where the edge ends has the weight
+/// (x + t y) / z. The numbers are those of `rounded_weight`.
+template <typename Scalar, int B, int V>
+void round_edge_weights(std::size_t edge, const QuadraticRoot<B>* root, const WideInt<V>& x, const WideInt<V>& y,
+                        const WideInt<V>& z, ShapeHit<Scalar>& hit) {
+  const auto of_end = [&] { return rounded_weight<Scalar>(root, x, y, z); };
+  const auto of_begin = [&] {
+    WideInt<V> rest = z;
+    rest.add(x, true);
+    return rounded_weight<Scalar>(root, rest, negated(y), z);
+  };
+  if (edge == 0) hit.u = of_end();
+  if (edge == 1) hit.u = of_begin();
+  if (edge == 1) hit.v = of_end();
+  if (edge == 2) hit.v = of_begin();
 }
 
 }  // namespace surehit::detail

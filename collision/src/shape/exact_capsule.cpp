@@ -171,19 +171,7 @@ class ExactCapsule {
       rate = dot(e, terms_.step);
       square = dot(e, e);
     }
-    // An edge begins at one corner and ends at the next one. The weights of both are rounded by themselves.
-    const auto toward_end = [&] {
-      return rounded_weight<Scalar, Bits::quadratic, Bits::volume>(t, at_start, rate, square);
-    };
-    const auto toward_start = [&] {
-      Volume from_end = square;
-      from_end.add(at_start, true);
-      return rounded_weight<Scalar, Bits::quadratic, Bits::volume>(t, from_end, negated(rate), square);
-    };
-    if (edge == 0) hit.u = toward_end();
-    if (edge == 1) hit.u = toward_start();
-    if (edge == 1) hit.v = toward_end();
-    if (edge == 2) hit.v = toward_start();
+    round_edge_weights(edge, t, at_start, rate, square, hit);
   }
 
   const SweptCapsule<Scalar>& capsule_;
@@ -219,9 +207,7 @@ int compare_time(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangl
                  Scalar limit) {
   if (contact.at_start) return limit > 0 ? -1 : 0;
   if (!(limit > 0)) return 1;
-  const Decomposed<Scalar> parts(limit);
-  const Root<AnyTriangle> root = ExactCapsule<Scalar, AnyTriangle>(capsule, triangle).root(contact);
-  return root.template compare<Scalar>({parts.significand, parts.exponent});
+  return ExactCapsule<Scalar, AnyTriangle>(capsule, triangle).root(contact).compare(limit);
 }
 
 template <typename Scalar, typename AnyTriangle>

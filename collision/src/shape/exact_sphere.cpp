@@ -78,52 +78,42 @@ class ExactSphere {
     return contact.at_start ? direction_of(across(w, e)) : direction_at(root(part), across(w, e), across(d, e));
   }
 
-  /// Sets the weights of b and c at the touched point (S7).
-  SUREHIT_NOINLINE void round_weights(const SphereContact& contact, Scalar& u, Scalar& v) const {
-    u = v = 0;
-    if (is_corner(contact.feature)) {
-      u = contact.feature == Feature::corner_b ? 1 : 0;
-      v = contact.feature == Feature::corner_c ? 1 : 0;
-      return;
-    }
-    const auto& w = terms_.from_corner[0];
-    const auto& d = terms_.step;
-    if (contact.feature == Feature::face) {
-      const auto n = normal_of(terms_);
-      const Volume nn = dot(n, n);
-      const auto& ab = terms_.edge[0];
-      const auto& ca = terms_.edge[2];
-      // n·(w × (c - a)) is n·(ca × w).
-      u = rounded_weight(contact, dot(n, cross(ca, w)), dot(n, cross(ca, d)), nn);
-      v = rounded_weight(contact, dot(n, cross(ab, w)), dot(n, cross(ab, d)), nn);
-      return;
-    }
-    const std::size_t edge = index_of(contact.feature);
-    const auto& e = terms_.edge[edge];
-    const auto ee = dot(e, e);
-    const auto at_start = dot(terms_.from_corner[edge], e);
-    const Volume rate = dot(d, e);
-    const Volume at_end = ee - at_start;
-    // An edge begins at one corner and ends at the next one. The weights of both are rounded by themselves.
-    const auto toward_end = [&] { return rounded_weight(contact, at_start, rate, ee); };
-    const auto toward_start = [&] { return rounded_weight(contact, at_end, negated(rate), ee); };
-    if (edge == 0) u = toward_end();
-    if (edge == 1) u = toward_start();
-    if (edge == 1) v = toward_end();
-    if (edge == 2) v = toward_start();
+  /// Sets t, u and v of a hit.
+  void round(const SphereContact& contact, ShapeHit<Scalar>& hit) const {
+    hit.t = 0;
+    if (contact.at_start) return round_weights(contact, nullptr, hit);
+    const SphereRoot<AnyTriangle> t = root(contact.timed_by);
+    hit.t = t.template rounded<Scalar>();
+    round_weights(contact, &t, hit);
   }
 
  private:
   using Bits = SphereBits<AnyTriangle>;
-  using Volume = WideInt<Bits::volume + 1>;
+  using Volume = WideInt<Bits::volume>;
 
-  /// Returns (x + t y) / z, rounded once. It is in [0, 1], and z is positive.
-  [[nodiscard]] SUREHIT_NOINLINE Scalar rounded_weight(const SphereContact& contact, const Volume& x, const Volume& y,
-                                                       const Volume& z) const {
-    constexpr int bits = Bits::quadratic;
-    if (contact.at_start) return detail::rounded_weight<Scalar, bits>(nullptr, x, y, z);
-    const SphereRoot<AnyTriangle> t = root(contact.timed_by);
-    return detail::rounded_weight<Scalar>(&t, x, y, z);
+  /// Sets the weights of b and c at the touched point (S7).
+  SUREHIT_NOINLINE void round_weights(const SphereContact& contact, const SphereRoot<AnyTriangle>* t,
+                                      ShapeHit<Scalar>& hit) const {
+    hit.u = contact.feature == Feature::corner_b ? Scalar{1} : Scalar{0};
+    hit.v = contact.feature == Feature::corner_c ? Scalar{1} : Scalar{0};
+    if (is_corner(contact.feature)) return;
+    const auto& d = terms_.step;
+    if (is_edge(contact.feature)) {
+      const std::size_t edge = index_of(contact.feature);
+      const auto& e = terms_.edge[edge];
+      round_edge_weights<Scalar, Bits::quadratic, Bits::volume>(edge, t, dot(terms_.from_corner[edge], e), dot(d, e),
+                                                                dot(e, e), hit);
+      return;
+    }
+    const auto n = normal_of(terms_);
+    const Volume nn = dot(n, n);
+    const auto& w = terms_.from_corner[0];
+    const auto weight = [&](const auto& edge) {
+      return rounded_weight<Scalar, Bits::quadratic, Bits::volume>(t, dot(n, cross(edge, w)), dot(n, cross(edge, d)),
+                                                                   nn);
+    };
+    hit.u = weight(terms_.edge[2]);  // n·(w × (c - a)) is n·(ca × w).
+    hit.v = weight(terms_.edge[0]);
   }
 
   SphereIntTerms<AnyTriangle> terms_;
@@ -152,9 +142,7 @@ int compare_time(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
                  Scalar limit) {
   if (contact.at_start) return limit > 0 ? -1 : 0;
   if (!(limit > 0)) return 1;
-  const Decomposed<Scalar> parts(limit);
-  const SphereRoot<AnyTriangle> root = ExactSphere<Scalar, AnyTriangle>(sphere, triangle).root(contact.timed_by);
-  return root.template compare<Scalar>({parts.significand, parts.exponent});
+  return ExactSphere<Scalar, AnyTriangle>(sphere, triangle).root(contact.timed_by).compare(limit);
 }
 
 template <typename Scalar, typename AnyTriangle>
@@ -165,9 +153,7 @@ int sign_along(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle) {
 template <typename Scalar, typename AnyTriangle>
 void round_exactly(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, const SphereContact& contact,
                    ShapeHit<Scalar>& hit) {
-  const ExactSphere<Scalar, AnyTriangle> exact(sphere, triangle);
-  hit.t = contact.at_start ? Scalar{0} : exact.root(contact.timed_by).template rounded<Scalar>();
-  exact.round_weights(contact, hit.u, hit.v);
+  ExactSphere<Scalar, AnyTriangle>(sphere, triangle).round(contact, hit);
 }
 
 template <typename Scalar, typename AnyTriangle>
