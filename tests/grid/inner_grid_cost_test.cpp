@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +37,8 @@ class InnerGridCost : public testing::Test {
   static Paths draw(const GeneratedMesh<Scalar>& mesh) {
     PathDrawer<Scalar> drawer(mesh.view(), 1);
     Paths paths;
-    for (std::size_t i = case_count(2000); i > 0; --i) {
+    constexpr std::size_t min_paths = 200;  // The costs of fewer are far from those of many.
+    for (std::size_t i = std::max(min_paths, case_count(2000)); i > 0; --i) {
       const Path<Scalar> path = drawer.draw();
       if (path.kind == PathKind::segment) paths.segments.push_back({path.start, path.toward});
       if (path.kind == PathKind::ray) paths.rays.push_back({path.start, path.toward});
@@ -108,7 +110,7 @@ TYPED_TEST(InnerGridCost, of_a_prop_hardly_grows_with_a_level_around_it) {
   for (const double ratio : {6., 10., 100., 1e3, 1e4}) {
     SCOPED_TRACE(ratio);
     // Cells of the level that are not crowded may list several times as many triangles as those of the prop alone.
-    const double factor = ratio < 30 ? 6 : 1.5;
+    const double factor = ratio == 6 ? 5.5 : ratio == 10 ? 2 : 1.5;
     expect_sum(large,
                placed<TypeParam>(small, static_cast<TypeParam>(1 / ratio),
                                  {TypeParam{0.31F}, TypeParam{0.27F}, TypeParam{0.5F}}),
