@@ -35,7 +35,8 @@ std::optional<InvalidFile> find_invalid_head(std::span<const std::byte> bytes, F
   }
   const std::size_t at_version = head.offset();
   const auto version = head.take<std::uint16_t>();
-  if (version == 0 || version > file_version) {
+  if (version == 0) return fault(Reason::not_saved, at_version, "no version of the format has the number 0");
+  if (version > file_version) {
     return fault(Reason::newer_version, at_version,
                  "the format has version " + std::to_string(version) + ", and this library reads version " +
                      std::to_string(file_version));

@@ -93,7 +93,7 @@ TYPED_TEST(InvalidFileOf, head) {
   for (std::size_t i = 0; i < 8; ++i) expect(i, 1, Reason::not_saved);
   expect(8, 1, Reason::wrong_byte_order);
   expect(12, 2, Reason::newer_version);
-  expect(12, 0, Reason::newer_version);
+  expect(12, 0, Reason::not_saved);
   expect(13, 1, Reason::newer_version);
   expect(14, 's', Reason::wrong_kind);
   expect(15, 12 - sizeof(TypeParam), Reason::wrong_scalar);
