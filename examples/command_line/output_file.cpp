@@ -7,6 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "mesh_io/input_error.hpp"
+
 namespace surehit::example {
 
 namespace fs = std::filesystem;
@@ -61,6 +63,19 @@ void write_file(const std::string& path, std::string_view bytes, Durability dura
   OutputFile file(path, durability);
   file.write(bytes);
   file.finish();
+}
+
+void refuse_equal_outputs(std::span<const NamedOutput> outputs) {
+  const auto place_of = [](const std::string& path) { return fs::weakly_canonical(fs::absolute(path)); };
+  for (std::size_t i = 1; i < outputs.size(); ++i) {
+    const std::string& path = outputs[i].path;
+    if (fs::exists(path) && !fs::is_regular_file(path)) continue;
+    for (const NamedOutput& earlier : outputs.first(i)) {
+      if (place_of(path) != place_of(earlier.path)) continue;
+      throw InputError(std::string(earlier.option) + " and " + std::string(outputs[i].option) + " are the same file, " +
+                       path);
+    }
+  }
 }
 
 }  // namespace surehit::example

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdio>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -39,5 +40,13 @@ class OutputFile {
 
 /// Writes a whole file. Throws std::system_error, and leaves nothing behind then.
 void write_file(const std::string& path, std::string_view bytes, Durability durability = Durability::process);
+
+/// An output that the user has asked for.
+struct NamedOutput {
+  std::string_view option;  ///< the option that names it
+  std::string path;
+};
+/// Throws InputError if two outputs are the same file, or both are standard output. Several may go to one device.
+void refuse_equal_outputs(std::span<const NamedOutput> outputs);
 
 }  // namespace surehit::example

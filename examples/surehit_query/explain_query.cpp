@@ -1,8 +1,6 @@
 #include "surehit_query/explain_query.hpp"
 
-#include <filesystem>
 #include <memory>
-#include <set>
 #include <string>
 #include <surehit/explain.hpp>
 #include <vector>
@@ -50,19 +48,6 @@ std::string drawing_text(const std::string& file, const Drawing& drawing, const 
   return encode_png(picture_of(drawing, mesh, path.has_end() ? toward - path.start.template cast<double>() : toward));
 }
 
-/// Fails if two outputs are the same file, as both would be written at once.
-void refuse_equal_outputs(const QueryRequest& request) {
-  std::vector<std::string> outputs = request.drawings;
-  outputs.push_back(request.output_path);
-  std::set<std::filesystem::path> places;
-  for (const std::string& path : outputs) {
-    const bool is_file = path != "-" && (!std::filesystem::exists(path) || std::filesystem::is_regular_file(path));
-    if (is_file && !places.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(path))).second) {
-      throw InputError(path + " is the file of two outputs");
-    }
-  }
-}
-
 template <typename Scalar>
 void explain_in(const QueryRequest& request) {
   const AskedMesh<Scalar> mesh(request);
@@ -85,7 +70,9 @@ void explain_in(const QueryRequest& request) {
 }  // namespace
 
 void explain_query(const QueryRequest& request) {
-  refuse_equal_outputs(request);
+  std::vector<NamedOutput> outputs = {{"-o", request.output_path}};
+  for (const std::string& file : request.drawings) outputs.push_back({"--draw", file});
+  refuse_equal_outputs(outputs);  // All of them are open at once.
   if (request.scalar == ScalarKind::single_precision) {
     explain_in<float>(request);
   } else {

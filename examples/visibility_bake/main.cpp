@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -317,29 +316,12 @@ void work(const Request& request) {
   job.checkpoint->remove();
 }
 
-/// One file would replace the other. Devices take both.
-void refuse_equal_outputs(const Request& request) {
-  const auto place_of = [](const std::string& path) { return std::filesystem::weakly_canonical(path); };
-  const std::array<std::pair<const char*, std::string>, 3> outputs = {
-      {{"-o", request.sets_path}, {"--csv", request.csv_path}, {"--picture", request.picture_path}}};
-  for (std::size_t i = 1; i < outputs.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      const std::string& path = outputs[i].second;
-      const bool is_file = !std::filesystem::exists(path) || std::filesystem::is_regular_file(path);
-      if (!is_file ||
-          place_of(std::filesystem::absolute(path)) != place_of(std::filesystem::absolute(outputs[k].second))) {
-        continue;
-      }
-      throw InputError(std::string(outputs[k].first) + " and " + outputs[i].first + " are the same file, " + path);
-    }
-  }
-}
-
 Work describe_program(CLI::App& app) {
   const auto request = std::make_shared<Request>();
   describe(app, *request);
   return [request] {
-    refuse_equal_outputs(*request);
+    refuse_equal_outputs(std::array<NamedOutput, 3>{
+        {{"-o", request->sets_path}, {"--csv", request->csv_path}, {"--picture", request->picture_path}}});
     work(*request);
     return success;
   };

@@ -160,14 +160,14 @@ TEST_F(SurehitQueryExplain, says_what_is_wrong) {
   expect_bad_input("explain squares.obj paths --index 0 --draw way.stl",
                    "--draw: way.stl ends in none of .ply, .obj and .png (see surehit-query --help)");
   expect_bad_input("explain squares.obj paths --index 0 --draw way.png --draw way.png",
-                   "way.png is the file of two outputs");
+                   "--draw and --draw are the same file, way.png");
   const std::size_t files = folder_.file_count();
   const Outcome outcome = run("explain squares.obj paths --index 0 --draw way.ply --draw nowhere/way.png -o way.txt");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.error.find("nowhere/way.png"), std::string::npos) << outcome.error;
   EXPECT_EQ(folder_.file_count(), files);
   EXPECT_EQ(run("explain squares.obj paths --index 0 --draw way.ply -o ./way.ply").error,
-            "surehit-query: ./way.ply is the file of two outputs\n");
+            "surehit-query: -o and --draw are the same file, way.ply\n");
   EXPECT_EQ(folder_.file_count(), files);
 }
 
