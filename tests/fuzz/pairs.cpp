@@ -17,6 +17,7 @@
 #include "command_line/program.hpp"
 #include "crosscheck/pair_judge.hpp"
 #include "narrowphase.hpp"
+#include "support/case_count.hpp"
 #include "support/integer_oracle.hpp"
 #include "support/neighbour.hpp"
 #include "support/pair_families.hpp"
@@ -172,7 +173,7 @@ example::ExitStatus run(const Request& request) {
 
 example::Work describe(CLI::App& app) {
   const auto request = std::make_shared<Request>();
-  app.add_option("--pairs", request->pairs, "How many")->required();
+  app.add_option("--pairs", request->pairs, "How many; SUREHIT_TEST_PERCENT asks for a share of them")->required();
   app.add_option("--seed", request->seed, "Each draws other pairs")->capture_default_str();
   app.add_option("--threads", request->threads, "Threads that share them; they change nothing that is drawn")
       ->check(CLI::Range(1, 1024))
@@ -180,7 +181,10 @@ example::Work describe(CLI::App& app) {
   app.add_flag("--double", request->in_double, "In double instead of float");
   app.add_flag("--confirm", request->confirm,
                "Ask the rationals and CGAL about every pair as well, and the integers about wrong answers");
-  return [request] { return run(*request); };
+  return [request] {
+    request->pairs = case_count(request->pairs);
+    return run(*request);
+  };
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "crosscheck/cgal_capsule_oracle.hpp"
 #include "crosscheck/cgal_sphere_oracle.hpp"
 #include "support/capsule_oracle.hpp"
+#include "support/case_count.hpp"
 #include "support/shape_families.hpp"
 #include "support/shape_text.hpp"
 #include "support/sphere_oracle.hpp"
@@ -186,7 +187,7 @@ example::ExitStatus run_in(const Request& request) {
 
 example::Work describe(CLI::App& app) {
   const auto request = std::make_shared<Request>();
-  app.add_option("--pairs", request->pairs, "How many")->required();
+  app.add_option("--pairs", request->pairs, "How many; SUREHIT_TEST_PERCENT asks for a share of them")->required();
   app.add_option("--seed", request->seed, "Each draws other pairs")->capture_default_str();
   app.add_option("--threads", request->threads, "Threads that share them; they change nothing that is drawn")
       ->check(CLI::Range(1, 1024))
@@ -199,6 +200,7 @@ example::Work describe(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--family", request->families, "Only these families of the shape");
   return [request] {
+    request->pairs = case_count(request->pairs);
     if (request->shape == "box") return run_in<BoxFamily>(*request);
     if (request->shape == "capsule") return run_in<CapsuleFamily>(*request);
     return run_in<SphereFamily>(*request);
