@@ -8,10 +8,11 @@ usage: $0 [--quick | --full]
 
 Without options: all tests in Release with GCC, with two fifths of the random cases; and a twentieth of them with Clang
 under AddressSanitizer and UndefinedBehaviorSanitizer. Lanes are left out for SSE4, and for AVX-512 on a machine without
-it: two tests of the package compile those.
+it: two tests of the package compile those. Examples and benchmarks are optimized less.
 
   --quick   Release with Clang alone, a tenth of the cases: of the library and the examples alone
-  --full    all random cases in Release with GCC, for all instruction sets, and besides a tenth of the cases in Release with Clang
+  --full    all random cases in Release with GCC, for all instruction sets and with examples and benchmarks optimized in
+            full, and besides a tenth of the cases in Release with Clang
 
 SUREHIT_TEST_PERCENT sets another share for Release with GCC.
 USAGE
@@ -21,10 +22,11 @@ quick=false
 full=false
 percent=40  # The tests kill nearly all mutants with half of that.
 sets_left_out="HWY_SSSE3|HWY_AVX3_DL"
+program_optimization=-O1
 case "${1:-}" in
   "") ;;
   --quick) quick=true ;;
-  --full) full=true && percent=100 ;;
+  --full) full=true && percent=100 && program_optimization= ;;
   -h | --help) usage && exit 0 ;;
   *) usage >&2 && exit 2 ;;
 esac
@@ -78,7 +80,8 @@ build() {
 }
 
 build_with_gcc() {
-  LDFLAGS=-fuse-ld=lld CXX=g++ build release -D "SUREHIT_INSTRUCTION_SETS_LEFT_OUT=$sets_left_out"
+  LDFLAGS=-fuse-ld=lld CXX=g++ build release -D "SUREHIT_INSTRUCTION_SETS_LEFT_OUT=$sets_left_out" \
+    -D "SUREHIT_PROGRAM_OPTIMIZATION=$program_optimization"
 }
 
 run_tests() {
