@@ -94,7 +94,7 @@ set(BUILD_TYPE None)
 set(TEST_FOLDER_OF_LIBRARY "${TEST_FOLDER}")
 set(TEST_FOLDER "${TEST_FOLDER}/user")
 configure_consumer("-DCMAKE_PREFIX_PATH=${root}/usr" "-DCMAKE_LIBRARY_ARCHITECTURE=${multiarch}" -DCMAKE_DISABLE_FIND_PACKAGE_hwy=ON)
-build_and_run_consumer()
+build_and_run_consumer(--few)
 set(TEST_FOLDER "${TEST_FOLDER_OF_LIBRARY}")
 
 # The example of the README, and what it prints.
