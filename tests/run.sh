@@ -7,12 +7,13 @@ usage() {
 usage: $0 [--quick | --full]
 
 Without options: all tests in Release with GCC, with two fifths of the random cases; and a twentieth of them with Clang
-under AddressSanitizer and UndefinedBehaviorSanitizer. Lanes are left out for SSE4, and for AVX-512 on a machine without
-it: two tests of the package compile those. Examples and benchmarks are optimized less.
+under AddressSanitizer and UndefinedBehaviorSanitizer, of the library, surehit-query and the readers of meshes. Lanes are
+left out for SSE4, and for AVX-512 on a machine without it: two tests of the package compile those. Examples and
+benchmarks are optimized less.
 
   --quick   Release with Clang alone, a tenth of the cases: of the library and the examples alone
   --full    all random cases in Release with GCC, for all instruction sets and with examples and benchmarks optimized in
-            full, and besides a tenth of the cases in Release with Clang
+            full, all examples under sanitizers, and besides a tenth of the cases in Release with Clang
 
 SUREHIT_TEST_PERCENT sets another share for Release with GCC.
 USAGE
@@ -143,7 +144,7 @@ stage "GCC, Release: testing"
 SUREHIT_TEST_PERCENT=${SUREHIT_TEST_PERCENT:-$percent} run_tests release
 
 stage "Clang, AddressSanitizer and UndefinedBehaviorSanitizer: building"
-if build asan-ubsan; then
+if build asan-ubsan -D "SUREHIT_ALL_EXAMPLES=$full"; then
   stage "Clang, AddressSanitizer and UndefinedBehaviorSanitizer: testing a twentieth of the cases"
   run_tests asan-ubsan
 fi
