@@ -58,6 +58,7 @@ struct Words {
   std::string instruction_set = all_instruction_sets().front().name;
   std::string csv_path;
   std::string chart_path;
+  std::string machine;
   bool quick = false;
   bool uneven = false;
   Request request;
@@ -126,6 +127,7 @@ void describe(CLI::App& app, Words& words, Request& request) {
   app.add_flag("--quick", words.quick, "Only see that all of it runs: tiny counts, figures without meaning");
   app.add_option("--csv", words.csv_path, "All figures")->type_name("FILE");
   app.add_option("--chart", words.chart_path, "The ratios of table queries as a picture")->type_name("FILE.svg");
+  app.add_option("--machine", words.machine, "What the picture says of this machine")->type_name("TEXT");
 }
 
 bool is_among(const std::string& name, const std::vector<std::string>& names) {
@@ -208,7 +210,7 @@ void measure(const Words& words, const Request& request) {
     table.measure(request, report);
   }
   if (!words.csv_path.empty()) write_file(words.csv_path, report.csv());
-  if (!words.chart_path.empty()) write_file(words.chart_path, ratio_chart(report.records()));
+  if (!words.chart_path.empty()) write_file(words.chart_path, ratio_chart(report.records(), words.machine));
 }
 
 example::Work describe_program(CLI::App& app) {

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Measures everything and writes what is published: README.md between its markers, figures/, and ratios.svg.
+"""Measures everything and writes what is published: README.md between its markers, and figures/.
 
-Each processor has a page in figures/, made from template.md. It ends with all tables of surehit_benchmark.
+Each processor has a page in figures/, made from template.md, and a chart. The page ends with all tables of
+surehit_benchmark.
 
 What it does not know is passed on to surehit_benchmark. So is --quick, which shows in five minutes that all of this
 works, and leaves figures without meaning: put the files back afterwards.
@@ -133,6 +134,15 @@ def machine(figures):
     generation = [f"family {family}" for family in told("cpu family")] + [f"model {model}" for model in told("model")]
     instruction_set = name_of_instruction_set(figures.instruction_sets[0])
     return ", ".join((names or ["unknown processor"]) + generation + [instruction_set])
+
+
+def page_name(figures):
+    """What the files of this processor are named after."""
+    return re.sub(r"\W+", "_", machine(figures)).strip("_").lower()
+
+
+def chart(figures):
+    return f"![How many times as long Embree takes, from the worst mesh to the best]({page_name(figures)}.svg)\n"
 
 
 def run_of(figures):
@@ -557,8 +567,8 @@ def summaries(_):
 
 BLOCKS_OF_README = [wrong, summaries]
 BLOCKS_OF_FIGURES = [
-    machine, run_of, summary, all_batches, all_batches_on_avx2, all_single_calls, all_doubles, all_builds, queries, ranges,
-    instruction_sets, builds, ticks, scenes, commits, scene_shapes, growth, threads, exactness, bounds,
+    machine, run_of, summary, chart, all_batches, all_batches_on_avx2, all_single_calls, all_doubles, all_builds, queries,
+    ranges, instruction_sets, builds, ticks, scenes, commits, scene_shapes, growth, threads, exactness, bounds,
 ]  # fmt: skip
 BLOCKS = {block.__name__: block for block in [*BLOCKS_OF_README, *BLOCKS_OF_FIGURES, pages]}
 
@@ -622,7 +632,7 @@ def main():
     figures = Figures(arguments.rounds)
     sections = []
     with tempfile.TemporaryDirectory() as folder:
-        csv_path, chart_path = Path(folder, "figures.csv"), Path(folder, "ratios.svg")
+        csv_path, chart_path = Path(folder, "figures.csv"), Path(folder, "chart.svg")
 
         def run(kind, *options, rounds=arguments.rounds, files=()):
             options = [*z_up, *options, *passed_on, "--rounds", str(rounds)]
@@ -642,7 +652,7 @@ def main():
         for name in others:
             run(TABLES, *meshes, *sets, "--instruction-set", name, "--table", "queries", "--contender", MEDIUM)
         content = ["--uneven", "--table", "queries", "--contender", MEDIUM, "--contender", IN_DOUBLE, "--paths", "5000"]
-        run(CONTENT, *content, files=["--chart", chart_path])
+        run(CONTENT, *content, files=["--chart", chart_path, "--machine", machine(figures)])
         if "avx2" in others:
             run(CONTENT, *content, "--instruction-set", "avx2")
         run(CONTENT, "--uneven", "--table", "build")
@@ -653,13 +663,13 @@ def main():
         run(TABLES, "--table", "scene_shapes", *worlds, *paths_of_shapes, rounds=math.ceil(arguments.rounds / 3))
 
         check(figures)
-        name = re.sub(r"\W+", "_", machine(figures)).strip("_").lower()
+        name = page_name(figures)
         head = text_of_page.partition(ALL_TABLES)[0]
         shown = "".join(f"\n{section}\n" for section in sections)
         (PAGES / f"{name}.md").write_text(with_blocks(head, figures) + ALL_TABLES + shown, encoding="utf-8")
         full.write_text(with_blocks(text_of_full, figures), encoding="utf-8")
         readme.write_text(with_blocks(text_of_readme, figures), encoding="utf-8")
-        shutil.copyfile(chart_path, HERE / "ratios.svg")
+        shutil.copyfile(chart_path, PAGES / f"{name}.svg")
 
 
 if __name__ == "__main__":

@@ -77,8 +77,9 @@ Range range_of(const std::vector<double>& ratios) {
 /// the worst mesh to the best one, with a tick at the mean.
 class RatioChart {
  public:
-  explicit RatioChart(std::vector<Bar> bars)
+  RatioChart(std::vector<Bar> bars, std::string machine)
       : bars_(std::move(bars)),
+        machine_(std::move(machine)),
         sets_(values_of(bars_, &Place::paths)),
         questions_(values_of(bars_, &Place::question)),
         meshes_(values_of(bars_, &Place::mesh).size()),
@@ -104,7 +105,7 @@ class RatioChart {
 
  private:
   static constexpr double left = 60;
-  static constexpr double top = 120;
+  static constexpr double top = 140;
   static constexpr double gap = 48;
   static constexpr double panel_height = 300;
   static constexpr double bar_width = 28;
@@ -121,8 +122,9 @@ class RatioChart {
                       "How many times as long Embree takes (above 1 surehit is faster), from the worst of " +
                           std::to_string(meshes_) + " meshes to the best, with the mean",
                       16, Anchor::start, ink);
+    drawing_.add_text(left, 46, machine_, 12, Anchor::start, ink);
     for (std::size_t kind = 0; kind < bar_kinds.size(); ++kind) {
-      const double y = 46 + 18 * static_cast<double>(kind);
+      const double y = 66 + 18 * static_cast<double>(kind);
       drawing_.add_rectangle(left, y - 10, 12, 12, bar_kinds[kind].colour);
       drawing_.add_text(left + 20, y, bar_kinds[kind].label, 12, Anchor::start, ink);
     }
@@ -167,6 +169,7 @@ class RatioChart {
   static std::string short_whole(double number) { return std::to_string(static_cast<long>(number)); }
 
   std::vector<Bar> bars_;
+  std::string machine_;
   std::vector<std::string> sets_;
   std::vector<std::string> questions_;
   std::size_t meshes_;
@@ -178,10 +181,10 @@ class RatioChart {
 
 }  // namespace
 
-std::string ratio_chart(std::span<const Record> records) {
+std::string ratio_chart(std::span<const Record> records, const std::string& machine) {
   std::vector<Bar> bars = bars_of(records);
   if (bars.empty()) throw std::runtime_error("the chart shows ratios over Embree in table queries: none was measured");
-  return RatioChart(std::move(bars)).draw();
+  return RatioChart(std::move(bars), machine).draw();
 }
 
 }  // namespace surehit::benchmark
