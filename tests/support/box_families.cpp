@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <limits>
 #include <utility>
+
+#include "support/triangle_draws.hpp"
 
 namespace surehit::test {
 namespace {
@@ -13,12 +13,12 @@ namespace {
 using IntegerVector = Vector3<std::int64_t>;
 
 template <typename Scalar>
-class BoxPairDrawer {
+class BoxPairDrawer : public TriangleDraws<Scalar> {
  public:
-  explicit BoxPairDrawer(Random& random) : random_(random) {}
+  explicit BoxPairDrawer(Random& random) : TriangleDraws<Scalar>(random), random_(random) {}
 
   BoxPair<Scalar> general() {
-    const Triangle<Scalar> triangle = {vector(), vector(), vector()};
+    const Triangle<Scalar> triangle = this->triangle();
     const Vector3<Scalar> largest = extents();
     const Vector3<Scalar> half = largest / static_cast<Scalar>(1 << random_.below(5));
     return aimed(triangle, half, vector() * 2);
@@ -65,10 +65,6 @@ class BoxPairDrawer {
   }
 
   BoxPair<Scalar> beside(BoxPair<Scalar> pair) {
-    const auto nudge = [&](Scalar& x) {
-      x = std::nextafter(
-          x, random_.one_in(2) ? std::numeric_limits<Scalar>::max() : std::numeric_limits<Scalar>::lowest());
-    };
     const auto axis = static_cast<Eigen::Index>(random_.below(3));
     switch (random_.below(6)) {
       case 0:
@@ -125,7 +121,7 @@ class BoxPairDrawer {
   }
 
   BoxPair<Scalar> contains() {
-    const Triangle<Scalar> triangle = {vector(), vector(), vector()};
+    const Triangle<Scalar> triangle = this->triangle();
     const Vector3<Scalar> half = Vector3<Scalar>(3, 3, 3) + extents();
     const Vector3<Scalar> start = vector() * 2;
     return {{start, start + vector() * 9, half}, triangle};
@@ -140,7 +136,7 @@ class BoxPairDrawer {
 
   /// A box right beside the triangle, whose short step leads it on, off or along.
   BoxPair<Scalar> small_steps() {
-    const Triangle<Scalar> triangle = {vector(), vector(), vector()};
+    const Triangle<Scalar> triangle = this->triangle();
     const Vector3<Scalar> half = extents() / 8;
     const Scalar length = 1 / static_cast<Scalar>(1 << (10 + random_.below(12)));
     Vector3<Scalar> start = random_.one_in(2) ? inside(triangle) : on_edge(triangle);
@@ -151,15 +147,14 @@ class BoxPairDrawer {
   }
 
   BoxPair<Scalar> with_size(Scalar size) {
-    const Triangle<Scalar> triangle = {vector(), vector(), vector()};
+    const Triangle<Scalar> triangle = this->triangle();
     const Vector3<Scalar> half = extents() * size;
     return aimed(triangle, half, vector() * std::max<Scalar>(1, size));
   }
 
   BoxPair<Scalar> far_away() {
     BoxPair<Scalar> pair = general();
-    const Vector3<Scalar> way = vector();
-    const Vector3<Scalar> by = way * static_cast<Scalar>(1 << random_.below(20));
+    const Vector3<Scalar> by = this->far();
     for (Vector3<Scalar>* x : {&pair.box.start, &pair.box.end, &pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) {
       *x += by;
     }
@@ -168,22 +163,14 @@ class BoxPairDrawer {
 
   BoxPair<Scalar> sliver() {
     BoxPair<Scalar> pair = general();
-    const Scalar share = random_.unit<Scalar>();
-    pair.triangle.c = pair.triangle.a + share * (pair.triangle.b - pair.triangle.a);
-    const Vector3<Scalar> offset = vector();
-    pair.triangle.c += offset / static_cast<Scalar>(std::int64_t{1} << random_.below(30));
+    this->make_sliver(pair.triangle);
     return aimed(pair.triangle, pair.box.half_extents, vector());
   }
 
   BoxPair<Scalar> degenerate() {
     BoxPair<Scalar> pair = random_.one_in(2) ? grazing() : random_.one_in(2) ? floors() : starts_touching();
-    auto& [a, b, c] = pair.triangle;
-    const std::uint64_t kind = random_.below(4);
-    if (kind == 0) c = a;
-    if (kind == 1) c = b;
-    if (kind == 2) b = c = a;
-    if (kind == 3) c = b + (b - a);
-    if (random_.one_in(2)) std::swap(a, random_.one_in(2) ? b : c);
+    this->make_degenerate(pair.triangle);
+    this->maybe_swap_corners(pair.triangle);
     return pair;
   }
 
@@ -231,24 +218,16 @@ class BoxPairDrawer {
   }
 
  private:
-  Vector3<Scalar> vector() {
-    const Scalar x = random_.symmetric<Scalar>();
-    const Scalar y = random_.symmetric<Scalar>();
-    return {x, y, random_.symmetric<Scalar>()};
-  }
+  using TriangleDraws<Scalar>::inside;
+  using TriangleDraws<Scalar>::nudge;
+  using TriangleDraws<Scalar>::on_edge;
+  using TriangleDraws<Scalar>::vector;
+
   Vector3<Scalar> extents() { return vector().cwiseAbs(); }
   IntegerVector integers(std::int64_t size) {
     const std::int64_t x = random_.between(-size, size);
     const std::int64_t y = random_.between(-size, size);
     return {x, y, random_.between(-size, size)};
-  }
-  Vector3<Scalar> inside(const Triangle<Scalar>& triangle) {
-    const Scalar v = random_.unit<Scalar>();
-    const Scalar u = random_.unit<Scalar>() * (1 - v);
-    return triangle.a + u * (triangle.b - triangle.a) + v * (triangle.c - triangle.a);
-  }
-  Vector3<Scalar> on_edge(const Triangle<Scalar>& triangle) {
-    return triangle.a + random_.unit<Scalar>() * (triangle.b - triangle.a);
   }
   /// A box that passes a point of the triangle at about its half extents, so about half of all boxes touch it.
   BoxPair<Scalar> aimed(const Triangle<Scalar>& triangle, const Vector3<Scalar>& half, const Vector3<Scalar>& step) {
@@ -318,10 +297,6 @@ std::string name_of(BoxFamily family) {
 template <typename Scalar>
 BoxPair<Scalar> draw_box_pair(BoxFamily family, Random& random) {
   BoxPairDrawer<Scalar> draw(random);
-  const auto power = [&](std::int64_t low, std::int64_t high) {
-    const Scalar factor = random.unit<Scalar>();
-    return std::ldexp(factor, static_cast<int>(random.between(low, high)));
-  };
   switch (family) {
     case BoxFamily::general:
       return draw.general();
@@ -340,9 +315,9 @@ BoxPair<Scalar> draw_box_pair(BoxFamily family, Random& random) {
     case BoxFamily::small_steps:
       return draw.small_steps();
     case BoxFamily::small_boxes:
-      return draw.with_size(power(-30, -6));
+      return draw.with_size(draw.size(-30, -6));
     case BoxFamily::huge_boxes:
-      return draw.with_size(power(2, 30));
+      return draw.with_size(draw.size(2, 30));
     case BoxFamily::far_away:
       return draw.far_away();
     case BoxFamily::slivers:

@@ -3,11 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "support/rational_turn.hpp"
+#include "support/triangle_draws.hpp"
 
 namespace surehit::test {
 namespace {
@@ -20,9 +19,9 @@ struct IntegerPair {
 };
 
 template <typename Scalar>
-class CapsulePairDrawer {
+class CapsulePairDrawer : public TriangleDraws<Scalar> {
  public:
-  explicit CapsulePairDrawer(Random& random) : random_(random) {}
+  explicit CapsulePairDrawer(Random& random) : TriangleDraws<Scalar>(random), random_(random) {}
 
   CapsulePair<Scalar> general() {
     const Triangle<Scalar> triangle = this->triangle();
@@ -33,7 +32,7 @@ class CapsulePairDrawer {
 
   /// A wall with an upright edge, in a random upright plane.
   CapsulePair<Scalar> upright_at_walls() {
-    Triangle<Scalar> wall = triangle();
+    Triangle<Scalar> wall = this->triangle();
     wall.c[0] = wall.a[0];
     wall.c[1] = wall.a[1];
     const Vector3<Scalar> axis(0, 0, random_.symmetric<Scalar>());
@@ -44,7 +43,7 @@ class CapsulePairDrawer {
     return random_.one_in(4) ? beside(pair) : pair;
   }
   CapsulePair<Scalar> lying_on_floors() {
-    Triangle<Scalar> floor = triangle();
+    Triangle<Scalar> floor = this->triangle();
     floor.b[2] = floor.c[2] = floor.a[2];
     Vector3<Scalar> axis = vector();
     axis[2] = 0;
@@ -61,10 +60,6 @@ class CapsulePairDrawer {
   CapsulePair<Scalar> tangent() { return turned(tangent_in_integers()); }
 
   CapsulePair<Scalar> beside(CapsulePair<Scalar> pair) {
-    const auto nudge = [&](Scalar& x) {
-      x = std::nextafter(
-          x, random_.one_in(2) ? std::numeric_limits<Scalar>::max() : std::numeric_limits<Scalar>::lowest());
-    };
     const auto axis = static_cast<Eigen::Index>(random_.below(3));
     SweptCapsule<Scalar>& capsule = pair.capsule;
     if (random_.one_in(7)) {
@@ -163,8 +158,7 @@ class CapsulePairDrawer {
   }
   CapsulePair<Scalar> far_away() {
     CapsulePair<Scalar> pair = general();
-    const Vector3<Scalar> way = vector();
-    const Vector3<Scalar> by = way * static_cast<Scalar>(1 << random_.below(20));
+    const Vector3<Scalar> by = this->far();
     for (Vector3<Scalar>* x :
          {&pair.capsule.start, &pair.capsule.end, &pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) {
       *x += by;
@@ -173,22 +167,14 @@ class CapsulePairDrawer {
   }
   CapsulePair<Scalar> sliver() {
     CapsulePair<Scalar> pair = general();
-    const Scalar share = random_.unit<Scalar>();
-    pair.triangle.c = pair.triangle.a + share * (pair.triangle.b - pair.triangle.a);
-    const Vector3<Scalar> offset = vector();
-    pair.triangle.c += offset / static_cast<Scalar>(std::int64_t{1} << random_.below(30));
+    this->make_sliver(pair.triangle);
     return aimed(pair.triangle, pair.capsule.half_axis, pair.capsule.radius, vector());
   }
   CapsulePair<Scalar> degenerate() {
     CapsulePair<Scalar> pair = random_.one_in(2) ? tangent() : in_plane();
-    auto& [a, b, c] = pair.triangle;
-    const std::uint64_t kind = random_.below(4);
-    if (kind == 0) c = a;
-    if (kind == 1) c = b;
-    if (kind == 2) b = c = a;
-    if (kind == 3) c = b + (b - a);
-    if (random_.one_in(4)) pair.capsule.half_axis = b - a;
-    if (random_.one_in(2)) std::swap(a, random_.one_in(2) ? b : c);
+    this->make_degenerate(pair.triangle);
+    if (random_.one_in(4)) pair.capsule.half_axis = pair.triangle.b - pair.triangle.a;
+    this->maybe_swap_corners(pair.triangle);
     return pair;
   }
   CapsulePair<Scalar> at_rest() {
@@ -227,6 +213,11 @@ class CapsulePairDrawer {
   }
 
  private:
+  using TriangleDraws<Scalar>::inside;
+  using TriangleDraws<Scalar>::nudge;
+  using TriangleDraws<Scalar>::on_edge;
+  using TriangleDraws<Scalar>::vector;
+
   /// An end or the centre of the core is often right over a corner or an edge, or in the plane.
   CapsulePair<Scalar> contains_in_integers() {
     IntegerPair pair;
@@ -284,30 +275,12 @@ class CapsulePairDrawer {
     const std::int64_t x = random_.between(-size, size);
     return {x, random_.between(-size, size), height};
   }
-  Vector3<Scalar> vector() {
-    const Scalar x = random_.symmetric<Scalar>();
-    const Scalar y = random_.symmetric<Scalar>();
-    return {x, y, random_.symmetric<Scalar>()};
-  }
-  Triangle<Scalar> triangle() {
-    const Vector3<Scalar> a = vector();
-    const Vector3<Scalar> b = vector();
-    return {a, b, vector()};
-  }
   Scalar radius() {
     const Scalar factor = random_.unit<Scalar>();
     return factor / static_cast<Scalar>(1 << random_.below(6));
   }
   /// A place on the core, often one of its ends.
   Scalar place() { return random_.one_in(2) ? random_.symmetric<Scalar>() : Scalar(random_.one_in(2) ? 1 : -1); }
-  Vector3<Scalar> inside(const Triangle<Scalar>& triangle) {
-    const Scalar v = random_.unit<Scalar>();
-    const Scalar u = random_.unit<Scalar>() * (1 - v);
-    return triangle.a + u * (triangle.b - triangle.a) + v * (triangle.c - triangle.a);
-  }
-  Vector3<Scalar> on_edge(const Triangle<Scalar>& triangle) {
-    return triangle.a + random_.unit<Scalar>() * (triangle.b - triangle.a);
-  }
   /// A capsule that passes a point of the triangle at about its radius, so about half of all capsules touch it.
   CapsulePair<Scalar> aimed(const Triangle<Scalar>& triangle, const Vector3<Scalar>& axis, Scalar radius,
                             const Vector3<Scalar>& step) {
@@ -390,13 +363,9 @@ std::string name_of(CapsuleFamily family) {
 template <typename Scalar>
 CapsulePair<Scalar> draw_capsule_pair(CapsuleFamily family, Random& random) {
   CapsulePairDrawer<Scalar> draw(random);
-  const auto power = [&](std::int64_t low, std::int64_t high) {
-    const Scalar factor = random.unit<Scalar>();
-    return std::ldexp(factor, static_cast<int>(random.between(low, high)));
-  };
   const auto with_length = [&](std::int64_t low, std::int64_t high) {
     const Scalar radius = random.unit<Scalar>() / 4;
-    return draw.with_sizes(radius, power(low, high));
+    return draw.with_sizes(radius, draw.size(low, high));
   };
   const auto draw_exact = [&] { return random.one_in(2) ? draw.tangent() : draw.in_plane(); };
   CapsulePair<Scalar> pair;
@@ -422,9 +391,9 @@ CapsulePair<Scalar> draw_capsule_pair(CapsuleFamily family, Random& random) {
     case CapsuleFamily::small_steps:
       return draw.small_steps();
     case CapsuleFamily::small_radii:
-      return draw.with_sizes(power(-30, -6), 1);
+      return draw.with_sizes(draw.size(-30, -6), 1);
     case CapsuleFamily::huge_radii:
-      return draw.with_sizes(power(2, 30), 1);
+      return draw.with_sizes(draw.size(2, 30), 1);
     case CapsuleFamily::short_axes:
       return with_length(-30, -6);
     case CapsuleFamily::long_axes:

@@ -3,22 +3,21 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "support/rational_turn.hpp"
+#include "support/triangle_draws.hpp"
 
 namespace surehit::test {
 namespace {
 
 template <typename Scalar>
-class SpherePairDrawer {
+class SpherePairDrawer : public TriangleDraws<Scalar> {
  public:
-  explicit SpherePairDrawer(Random& random) : random_(random) {}
+  explicit SpherePairDrawer(Random& random) : TriangleDraws<Scalar>(random), random_(random) {}
 
   SpherePair<Scalar> general() {
-    const Triangle<Scalar> triangle = {vector(), vector(), vector()};
+    const Triangle<Scalar> triangle = this->triangle();
     const Scalar factor = random_.unit<Scalar>();
     const Scalar radius = factor / static_cast<Scalar>(1 << random_.below(6));
     return aimed(triangle, radius, vector() * 2);
@@ -52,10 +51,6 @@ class SpherePairDrawer {
   }
 
   SpherePair<Scalar> beside(SpherePair<Scalar> pair) {
-    const auto nudge = [&](Scalar& x) {
-      x = std::nextafter(
-          x, random_.one_in(2) ? std::numeric_limits<Scalar>::max() : std::numeric_limits<Scalar>::lowest());
-    };
     const auto axis = static_cast<Eigen::Index>(random_.below(3));
     switch (random_.below(6)) {
       case 0:
@@ -119,7 +114,7 @@ class SpherePairDrawer {
 
   /// A ball right beside the triangle, whose short step leads it on, off or along.
   SpherePair<Scalar> small_steps() {
-    const Triangle<Scalar> triangle = {vector(), vector(), vector()};
+    const Triangle<Scalar> triangle = this->triangle();
     const Vector3<Scalar> normal = (triangle.b - triangle.a).cross(triangle.c - triangle.a);
     const Scalar radius = random_.unit<Scalar>() / 8;
     const Scalar length = 1 / static_cast<Scalar>(1 << (10 + random_.below(12)));
@@ -132,14 +127,13 @@ class SpherePairDrawer {
   }
 
   SpherePair<Scalar> with_radius(Scalar radius) {
-    const Triangle<Scalar> triangle = {vector(), vector(), vector()};
+    const Triangle<Scalar> triangle = this->triangle();
     return aimed(triangle, radius, vector() * std::max<Scalar>(1, radius));
   }
 
   SpherePair<Scalar> far_away() {
     SpherePair<Scalar> pair = general();
-    const Vector3<Scalar> way = vector();
-    const Vector3<Scalar> by = way * static_cast<Scalar>(1 << random_.below(20));
+    const Vector3<Scalar> by = this->far();
     for (Vector3<Scalar>* x :
          {&pair.sphere.start, &pair.sphere.end, &pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) {
       *x += by;
@@ -149,22 +143,14 @@ class SpherePairDrawer {
 
   SpherePair<Scalar> sliver() {
     SpherePair<Scalar> pair = general();
-    const Scalar share = random_.unit<Scalar>();
-    pair.triangle.c = pair.triangle.a + share * (pair.triangle.b - pair.triangle.a);
-    const Vector3<Scalar> offset = vector();
-    pair.triangle.c += offset / static_cast<Scalar>(std::int64_t{1} << random_.below(30));
+    this->make_sliver(pair.triangle);
     return aimed(pair.triangle, pair.sphere.radius, vector());
   }
 
   SpherePair<Scalar> degenerate() {
     SpherePair<Scalar> pair = random_.one_in(2) ? tangent() : in_plane();
-    auto& [a, b, c] = pair.triangle;
-    const std::uint64_t kind = random_.below(4);
-    if (kind == 0) c = a;
-    if (kind == 1) c = b;
-    if (kind == 2) b = c = a;
-    if (kind == 3) c = b + (b - a);
-    if (random_.one_in(2)) std::swap(a, random_.one_in(2) ? b : c);
+    this->make_degenerate(pair.triangle);
+    this->maybe_swap_corners(pair.triangle);
     return pair;
   }
 
@@ -191,7 +177,7 @@ class SpherePairDrawer {
   /// is often on the triangle.
   SpherePair<Scalar> contains() {
     if (random_.one_in(3)) return contains_in_integers();
-    const Triangle<Scalar> triangle = {vector(), vector(), vector()};
+    const Triangle<Scalar> triangle = this->triangle();
     Vector3<Scalar> centre = vector();
     if (random_.one_in(3)) centre = random_.one_in(2) ? inside(triangle) : triangle.a;
     // Two points of the cube are less than 3.47 apart.
@@ -204,6 +190,11 @@ class SpherePairDrawer {
   }
 
  private:
+  using TriangleDraws<Scalar>::inside;
+  using TriangleDraws<Scalar>::nudge;
+  using TriangleDraws<Scalar>::on_edge;
+  using TriangleDraws<Scalar>::vector;
+
   /// The centre is often right over a corner or an edge, or in the plane.
   SpherePair<Scalar> contains_in_integers() {
     const auto draw = [&](std::int64_t size) { return random_.between(-size, size); };
@@ -217,19 +208,6 @@ class SpherePairDrawer {
     const IntegerVector other = {draw(200), draw(200), draw(200)};
     // 60² + 60² + 30² is less than 100².
     return random_.one_in(2) ? turned(centre, other, 100, corners) : turned(other, centre, 100, corners);
-  }
-  Vector3<Scalar> vector() {
-    const Scalar x = random_.symmetric<Scalar>();
-    const Scalar y = random_.symmetric<Scalar>();
-    return {x, y, random_.symmetric<Scalar>()};
-  }
-  Vector3<Scalar> inside(const Triangle<Scalar>& triangle) {
-    const Scalar v = random_.unit<Scalar>();
-    const Scalar u = random_.unit<Scalar>() * (1 - v);
-    return triangle.a + u * (triangle.b - triangle.a) + v * (triangle.c - triangle.a);
-  }
-  Vector3<Scalar> on_edge(const Triangle<Scalar>& triangle) {
-    return triangle.a + random_.unit<Scalar>() * (triangle.b - triangle.a);
   }
   /// A ball that passes a point of the triangle at about its radius, so about half of all balls touch it.
   SpherePair<Scalar> aimed(const Triangle<Scalar>& triangle, Scalar radius, const Vector3<Scalar>& step) {
@@ -299,10 +277,6 @@ std::string name_of(SphereFamily family) {
 template <typename Scalar>
 SpherePair<Scalar> draw_sphere_pair(SphereFamily family, Random& random) {
   SpherePairDrawer<Scalar> draw(random);
-  const auto power = [&](std::int64_t low, std::int64_t high) {
-    const Scalar factor = random.unit<Scalar>();
-    return std::ldexp(factor, static_cast<int>(random.between(low, high)));
-  };
   switch (family) {
     case SphereFamily::general:
       return draw.general();
@@ -319,9 +293,9 @@ SpherePair<Scalar> draw_sphere_pair(SphereFamily family, Random& random) {
     case SphereFamily::small_steps:
       return draw.small_steps();
     case SphereFamily::small_radii:
-      return draw.with_radius(power(-30, -6));
+      return draw.with_radius(draw.size(-30, -6));
     case SphereFamily::huge_radii:
-      return draw.with_radius(power(2, 30));
+      return draw.with_radius(draw.size(2, 30));
     case SphereFamily::far_away:
       return draw.far_away();
     case SphereFamily::slivers:
