@@ -6,7 +6,7 @@ usage() {
   cat <<USAGE
 usage: $0 [--quick | --full]
 
-Without options: all tests in Release with GCC, with two fifths of the random cases; and a twentieth of them with Clang
+Without options: all tests in Release with GCC, with a quarter of the random cases; and a twentieth of them with Clang
 under AddressSanitizer and UndefinedBehaviorSanitizer, of the library, surehit-query and the readers of meshes. Lanes are
 left out for SSE4, and for AVX-512 on a machine without it: two tests of the package compile those. Examples and
 benchmarks are optimized less.
@@ -21,7 +21,7 @@ USAGE
 
 quick=false
 full=false
-percent=40  # The tests kill nearly all mutants with half of that.
+percent=25  # The tests kill nearly all mutants with a fifth.
 sets_left_out="HWY_SSSE3|HWY_AVX3_DL"
 program_optimization=-O1
 case "${1:-}" in
@@ -33,7 +33,7 @@ case "${1:-}" in
 esac
 
 # Each instruction set takes minutes to compile. A test of the package has SSE4 alone, and asks the hard questions of it.
-# Another compiles all sets with Clang. What the machine lacks could not run.
+# The Debian package has all sets, by Clang. What the machine lacks could not run.
 if ! $full; then
   sets_left_out+="|HWY_SSE4"
   grep -qs '^flags.* avx512vl ' /proc/cpuinfo || sets_left_out+="|HWY_AVX3"

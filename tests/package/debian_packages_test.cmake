@@ -1,6 +1,7 @@
 # Debian packages are made and installed into a root of their own, where README's example is built against them: by
 # CMake and by pkg-config. Then two versions are installed side by side.
 include("${CMAKE_CURRENT_LIST_DIR}/consumer_project.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/shared_library_checks.cmake")
 
 file(REMOVE_RECURSE "${TEST_FOLDER}")
 copy_library_sources("${TEST_FOLDER}/surehit")
@@ -8,7 +9,7 @@ file(COPY "${SOURCE_FOLDER}/LICENSE" DESTINATION "${TEST_FOLDER}/surehit")
 
 function(configure_library)
   run("${CMAKE_COMMAND}" -S "${TEST_FOLDER}/surehit" -B "${TEST_FOLDER}/build" -G "${GENERATOR}"
-    "-DCMAKE_CXX_COMPILER=${COMPILER}" -DCMAKE_BUILD_TYPE=None "-DCMAKE_CXX_FLAGS=${FLAGS} ${MORE_FLAGS}"
+    "-DCMAKE_CXX_COMPILER=${LIBRARY_COMPILER}" -DCMAKE_BUILD_TYPE=None "-DCMAKE_CXX_FLAGS=${FLAGS} ${MORE_FLAGS}"
     -DBUILD_SHARED_LIBS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_INSTALL_PREFIX=/usr -DSUREHIT_OPTIMIZED=OFF
     -DSUREHIT_WARNINGS_AS_ERRORS=OFF -DSUREHIT_BUILD_TESTS=OFF -DSUREHIT_BUILD_EXAMPLES=OFF -DCMAKE_DISABLE_FIND_PACKAGE_Doxygen=ON ${ARGV})
   run("${CMAKE_COMMAND}" --build "${TEST_FOLDER}/build" --parallel 1)
@@ -87,6 +88,10 @@ if(NOT count EQUAL 4)
 endif()
 output_of(said objdump --private-headers "${root}/usr/lib/${multiarch}/libsurehit.so")
 expect_match("${said}" "SONAME +libsurehit\\.so\\.${interface_version}\n")
+check_exports("${root}/usr/lib/${multiarch}/libsurehit.so")
+if(CSHARP_COMPILER)
+  check_csharp_program("${root}/usr/lib/${multiarch}")
+endif()
 
 # Whoever uses the installed packages gets the published answers.
 set(ENV{LD_LIBRARY_PATH} "${root}/usr/lib/${multiarch}")
