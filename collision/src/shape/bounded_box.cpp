@@ -361,7 +361,7 @@ SUREHIT_NOINLINE bool try_round_point(const SweptBox<Scalar>& box, const AnyTria
 }  // namespace
 
 template <typename Scalar, typename AnyTriangle>
-Verdict bounded_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle, BoxContact& found) {
+Verdict bounded_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle, BoxContact& found, NoFindings) {
   if constexpr (has_short_sums<AnyTriangle>) {
     const Verdict verdict = find_contact<Sized>(box, triangle, found);
     if (verdict != Verdict::undecided) return verdict;
@@ -381,8 +381,8 @@ bool try_round(const SweptBox<Scalar>& box, const AnyTriangle& triangle, const B
   return try_round_point<Bounded>(box, triangle, contact, hit);
 }
 
-#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                              \
-  template Verdict bounded_contact(const SweptBox<Scalar>&, const AnyTriangle&, BoxContact&); \
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                          \
+  template Verdict bounded_contact(const SweptBox<Scalar>&, const AnyTriangle&, BoxContact&, NoFindings); \
   template bool try_round(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, ShapeHit<Scalar>&);
 SUREHIT_INSTANTIATE(float, Triangle<float>)
 SUREHIT_INSTANTIATE(double, Triangle<double>)

@@ -11,7 +11,8 @@ namespace surehit::detail {
 /// Decides a moving box and a triangle in double, first with the sizes of all numbers, then with running error bounds.
 /// If it is a hit, sets `found`. The input must be finite, and half extents must not be negative.
 template <typename Scalar, typename AnyTriangle>
-[[nodiscard]] Verdict bounded_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle, BoxContact& found);
+[[nodiscard]] Verdict bounded_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle, BoxContact& found,
+                                      NoFindings = {});
 
 /// Rounds t, u and v of a contact, and sets the feature. Returns false if its bounds do not decide all of them.
 template <typename Scalar, typename AnyTriangle>

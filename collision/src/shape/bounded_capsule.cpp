@@ -114,20 +114,19 @@ CoreTilt known_tilt(const TermsOf<Sized>& terms, const SweptCapsule<Scalar>& cap
 
 template <typename Number, typename Scalar, typename AnyTriangle>
 SUREHIT_NOINLINE Verdict find_contact(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle,
-                                      std::optional<CoreTilt>& tilt, CapsuleContact& found) {
+                                      CapsuleContact& found, CapsuleFindings& findings) {
   TermsOf<Number> terms;
   set_terms(terms, capsule, triangle);
   if (!has_usual_sizes(terms)) return Verdict::undecided;
   bool has_face = false;
   for (const Number& x : normal_of(terms)) has_face |= x.sign().value_or(0) != 0;
   if (!has_face) return Verdict::undecided;
-  if (!tilt) tilt = known_tilt(terms, capsule, triangle);
+  if (!findings.tilt) findings.tilt = known_tilt(terms, capsule, triangle);
   constexpr Outline outline;
   bool is_alone = true;
   const auto comes_before = [&](const CapsuleContact&, const CapsuleContact&) { return is_alone = false; };
-  CapsuleTouch touch(terms, outline, *tilt);
-  NoGuide guide;
-  const std::optional<CapsuleContact> contact = touch.find(comes_before, guide);
+  CapsuleTouch touch(terms, outline, *findings.tilt);
+  const std::optional<CapsuleContact> contact = touch.find(comes_before, findings);
   if (!touch.is_certain() || !(is_alone || touch.is_final())) return Verdict::undecided;
   if (!contact) return Verdict::miss;
   found = *contact;
@@ -142,13 +141,13 @@ SUREHIT_NOINLINE Verdict find_contact(const SweptCapsule<Scalar>& capsule, const
 }  // namespace
 
 template <typename Scalar, typename AnyTriangle>
-Verdict bounded_contact(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle, CapsuleContact& found) {
-  std::optional<CoreTilt> tilt;
+Verdict bounded_contact(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle, CapsuleContact& found,
+                        CapsuleFindings& findings) {
   if constexpr (has_short_sums<AnyTriangle>) {
-    const Verdict verdict = find_contact<Sized>(capsule, triangle, tilt, found);
+    const Verdict verdict = find_contact<Sized>(capsule, triangle, found, findings);
     if (verdict != Verdict::undecided) return verdict;
   }
-  return find_contact<Bounded>(capsule, triangle, tilt, found);
+  return find_contact<Bounded>(capsule, triangle, found, findings);
 }
 
 template <typename Scalar, typename AnyTriangle>
@@ -165,8 +164,9 @@ bool try_round(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle,
   return try_round_weights<Bounded>(capsule, triangle, contact, hit);
 }
 
-#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                      \
-  template Verdict bounded_contact(const SweptCapsule<Scalar>&, const AnyTriangle&, CapsuleContact&); \
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                     \
+  template Verdict bounded_contact(const SweptCapsule<Scalar>&, const AnyTriangle&, CapsuleContact&, \
+                                   CapsuleFindings&);                                                \
   template bool try_round(const SweptCapsule<Scalar>&, const AnyTriangle&, const CapsuleContact&, ShapeHit<Scalar>&);
 SUREHIT_INSTANTIATE(float, Triangle<float>)
 SUREHIT_INSTANTIATE(double, Triangle<double>)

@@ -8,11 +8,11 @@
 namespace surehit::detail {
 
 /// Decides a moving capsule and a triangle in double, first with the sizes of all numbers, then with running error
-/// bounds. If it is a hit, sets `found`. The input must be finite, and the radius must not be negative. Triangles
-/// without a certain area are undecided.
+/// bounds. If it is a hit, sets `found`. If it is undecided, adds to `findings`. The input must be finite, and the
+/// radius must not be negative. Triangles without a certain area are undecided.
 template <typename Scalar, typename AnyTriangle>
 [[nodiscard]] Verdict bounded_contact(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle,
-                                      CapsuleContact& found);
+                                      CapsuleContact& found, CapsuleFindings& findings);
 
 /// Rounds t, u and v of a contact. Returns false if its bounds do not decide all of them.
 template <typename Scalar, typename AnyTriangle>

@@ -108,7 +108,8 @@ SUREHIT_NOINLINE Verdict find_contact(const SweptSphere<Scalar>& sphere, const A
 }  // namespace
 
 template <typename Scalar, typename AnyTriangle>
-Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, SphereContact& found) {
+Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, SphereContact& found,
+                        NoFindings) {
   if (has_usual_images(triangle)) {
     const Verdict verdict = find_contact<Sized>(sphere, triangle, found);
     if (verdict != Verdict::undecided) return verdict;
@@ -148,8 +149,8 @@ bool try_round(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, c
 
 template Verdict simple_contact(const SweptSphere<float>&, const Triangle<float>&, double, SphereContact&);
 template Verdict simple_contact(const SweptSphere<double>&, const Triangle<double>&, double, SphereContact&);
-#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                    \
-  template Verdict bounded_contact(const SweptSphere<Scalar>&, const AnyTriangle&, SphereContact&); \
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                                \
+  template Verdict bounded_contact(const SweptSphere<Scalar>&, const AnyTriangle&, SphereContact&, NoFindings); \
   template bool try_round(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, ShapeHit<Scalar>&);
 SUREHIT_INSTANTIATE(float, Triangle<float>)
 SUREHIT_INSTANTIATE(double, Triangle<double>)

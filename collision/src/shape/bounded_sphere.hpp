@@ -12,7 +12,7 @@ namespace surehit::detail {
 /// certain area are undecided. `AnyTriangle` is `Triangle` or `PlacedTriangle`, here and below.
 template <typename Scalar, typename AnyTriangle>
 [[nodiscard]] Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
-                                      SphereContact& found);
+                                      SphereContact& found, NoFindings = {});
 
 /// Decides whether a moving ball touches the inside of a triangle or of an edge first, before `limit`, or nothing of
 /// the triangle until then, if this is certain. If it is undecided, it sets `found.t_lower` to a lower bound of any

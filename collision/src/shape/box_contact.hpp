@@ -25,6 +25,7 @@ template <typename AnyScalar>
 struct ShapeTypes<SweptBox<AnyScalar>> {
   using Scalar = AnyScalar;
   using Contact = BoxContact;
+  using Findings = NoFindings;
 };
 
 /// Returns the part of a triangle on which these corners have a weight that is not zero.

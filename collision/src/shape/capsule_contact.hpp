@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
+#include <bitset>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "shape/shape_contact.hpp"
 #include "surehit/shape_hit.hpp"
@@ -28,10 +32,33 @@ struct CapsuleContact {
   bool at_start = false;              ///< True if they touch at t = 0.
 };
 
+/// How a core lies to the parts of a triangle. Which parts can be nearest to each other depends on it (C2).
+struct CoreTilt {
+  bool is_point = false;              ///< True if the core is a point.
+  int of_plane = 0;                   ///< The sign of n·A. It is 0 if the core is parallel to the triangle.
+  std::array<bool, 3> is_along = {};  ///< True for each edge that is parallel to the core.
+};
+
+/// What is certain about the parts of a triangle and of a core, if it does not decide whether they touch. Each stage
+/// adds to it, and asks only about what is left.
+struct CapsuleFindings {
+  /// A bit for each part of the triangle with each part of the core.
+  using Parts = std::bitset<7 * 4>;
+
+  std::optional<CoreTilt> tilt;
+  Parts never_enter;    ///< They do not come within the radius, or are not nearest to each other then.
+  Parts never_nearest;  ///< They are not nearest to each other at the start.
+
+  [[nodiscard]] static std::size_t index_of(const CapsuleContact& parts) {
+    return 4 * static_cast<std::size_t>(parts.feature) + static_cast<std::size_t>(parts.core);
+  }
+};
+
 template <typename AnyScalar>
 struct ShapeTypes<SweptCapsule<AnyScalar>> {
   using Scalar = AnyScalar;
   using Contact = CapsuleContact;
+  using Findings = CapsuleFindings;
 };
 
 /// Returns true if a capsule can touch something: all numbers are finite, and the radius is not negative.

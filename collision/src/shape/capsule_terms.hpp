@@ -33,13 +33,6 @@ template <typename Terms>
   return cross(terms.edge[edge], terms.half_axis);
 }
 
-/// How a core lies to the parts of a triangle. Which parts can be nearest to each other depends on it (C2).
-struct CoreTilt {
-  bool is_point = false;              ///< True if the core is a point.
-  int of_plane = 0;                   ///< The sign of n·A. It is 0 if the core is parallel to the triangle.
-  std::array<bool, 3> is_along = {};  ///< True for each edge that is parallel to the core.
-};
-
 /// Returns true if a vector is zero. It is not if one of its components certainly is not.
 template <typename Number>
 [[nodiscard]] bool is_zero(const Vector<Number>& x, Signs& signs) {
@@ -59,11 +52,5 @@ template <typename Terms>
   for (std::size_t edge = 0; edge < 3; ++edge) tilt.is_along[edge] = is_zero(wall_normal(terms, edge), signs);
   return tilt;
 }
-
-/// Knows nothing about which parts may touch.
-struct NoGuide {
-  [[nodiscard]] static bool may_be_nearest(const CapsuleContact&) { return true; }
-  [[nodiscard]] static bool may_enter(const CapsuleContact&) { return true; }
-};
 
 }  // namespace surehit::detail

@@ -24,15 +24,22 @@ class CapsuleTouch {
   CapsuleTouch(const Terms& terms, const Outline& outline, const CoreTilt& tilt)
       : terms_(terms), outline_(outline), tilt_(tilt), approach_(terms.step, terms.radius) {}
 
-  /// Returns the first contact, or nothing if they do not touch. The bounds of t are not set. Parts are not asked about
-  /// if `guide` knows better.
-  template <typename ComesBefore, typename Guide>
-  [[nodiscard]] std::optional<CapsuleContact> find(const ComesBefore& comes_before, Guide& guide) {
+  /// Returns the first contact, or nothing if they do not touch. The bounds of t are not set. Passes over the parts
+  /// that `findings` rules out, and adds to these.
+  template <typename ComesBefore>
+  std::optional<CapsuleContact> find(const ComesBefore& comes_before, CapsuleFindings& findings) {
+    const auto ask = [&](const CapsuleContact& parts, CapsuleFindings::Parts& ruled_out, const auto& question) {
+      const std::size_t index = CapsuleFindings::index_of(parts);
+      if (ruled_out[index]) return false;
+      if (question()) return true;
+      ruled_out[index] = signs_.is_certain();
+      return false;
+    };
     // If a root is the first contact, then they do not touch at the start.
     std::optional<CapsuleContact> first;
     const auto take_first = [&](const CapsuleContact& parts) {
       begin();
-      if (!guide.may_enter(parts) || !enters(parts)) return false;
+      if (!ask(parts, findings.never_enter, [&] { return enters(parts); })) return false;
       is_final_ = is_strict_ && signs_.is_certain();
       if (is_final_ || !first || !comes_before(*first, parts)) first = parts;
       return is_final_;
@@ -47,7 +54,7 @@ class CapsuleTouch {
     std::optional<CapsuleContact> nearest;
     const auto take_nearest = [&](const CapsuleContact& parts) {
       begin();
-      if (!guide.may_be_nearest(parts) || !is_nearest_at_start(parts)) return false;
+      if (!ask(parts, findings.never_nearest, [&] { return is_nearest_at_start(parts); })) return false;
       nearest = parts;
       return is_strict_ && signs_.is_certain();
     };
@@ -61,17 +68,6 @@ class CapsuleTouch {
     }
     end();
     return first;
-  }
-
-  /// Returns false if two parts are certainly not nearest to each other at the start.
-  [[nodiscard]] bool may_be_nearest(const CapsuleContact& parts) {
-    signs_ = Signs();
-    return is_nearest_at_start(parts) || !signs_.is_certain();
-  }
-  /// Returns false if two parts certainly do not come within the radius, or are not nearest to each other then.
-  [[nodiscard]] bool may_enter(const CapsuleContact& parts) {
-    signs_ = Signs();
-    return enters(parts) || !signs_.is_certain();
   }
 
   /// Returns true if all signs that the answer needs were certain.

@@ -268,7 +268,7 @@ class ExactBox {
 }  // namespace
 
 template <typename Scalar, typename AnyTriangle>
-std::optional<BoxContact> exact_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle) {
+std::optional<BoxContact> exact_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle, NoFindings) {
   return ExactBox<Scalar, AnyTriangle>(box, triangle).find();
 }
 
@@ -303,7 +303,7 @@ Direction exact_direction(const SweptBox<Scalar>& box, const AnyTriangle& triang
 }
 
 #define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                                  \
-  template std::optional<BoxContact> exact_contact(const SweptBox<Scalar>&, const AnyTriangle&);                  \
+  template std::optional<BoxContact> exact_contact(const SweptBox<Scalar>&, const AnyTriangle&, NoFindings);      \
   template int compare_times(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, const AnyTriangle&,  \
                              const BoxContact&);                                                                  \
   template int compare_time(const SweptBox<Scalar>&, const AnyTriangle&, const BoxContact&, Scalar);              \

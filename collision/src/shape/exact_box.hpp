@@ -16,7 +16,8 @@ namespace surehit::detail {
 
 /// Returns the contact of a box with a triangle, or nothing if they do not touch.
 template <typename Scalar, typename AnyTriangle>
-[[nodiscard]] std::optional<BoxContact> exact_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle);
+[[nodiscard]] std::optional<BoxContact> exact_contact(const SweptBox<Scalar>& box, const AnyTriangle& triangle,
+                                                      NoFindings = {});
 
 /// Returns the sign of t of x less t of y.
 template <typename Scalar, typename AnyTriangle>

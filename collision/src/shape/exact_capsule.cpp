@@ -51,14 +51,13 @@ class ExactCapsule {
     return tilt_of(terms_, signs);
   }
 
-  [[nodiscard]] std::optional<CapsuleContact> find() const {
+  [[nodiscard]] std::optional<CapsuleContact> find(CapsuleFindings& findings) const {
+    if (!findings.tilt) {
+      findings.tilt = tilt();
+      rule_out_parts(findings);
+    }
     const auto comes_before = [&](const CapsuleContact& x, const CapsuleContact& y) { return is_before(x, y); };
-    // Doubles with bounds rule out most parts.
-    CapsuleTerms<Bounded, Bounded> bounded;
-    set_terms(bounded, capsule_, triangle_);
-    const CoreTilt tilt = this->tilt();
-    CapsuleTouch guide(bounded, outline_, tilt);
-    std::optional<CapsuleContact> contact = CapsuleTouch(terms_, outline_, tilt).find(comes_before, guide);
+    std::optional<CapsuleContact> contact = CapsuleTouch(terms_, outline_, *findings.tilt).find(comes_before, findings);
     if (contact && !contact->at_start) set_bounds(*contact);
     return contact;
   }
@@ -118,6 +117,14 @@ class ExactCapsule {
   }
 
  private:
+  /// Doubles with bounds rule out most parts.
+  SUREHIT_NOINLINE void rule_out_parts(CapsuleFindings& findings) const {
+    CapsuleTerms<Bounded, Bounded> bounded;
+    set_terms(bounded, capsule_, triangle_);
+    const auto comes_before = [](const CapsuleContact&, const CapsuleContact&) { return false; };
+    CapsuleTouch(bounded, outline_, *findings.tilt).find(comes_before, findings);
+  }
+
   using Bits = CapsuleBits<AnyTriangle>;
   using Volume = WideInt<Bits::volume>;
 
@@ -183,8 +190,9 @@ class ExactCapsule {
 }  // namespace
 
 template <typename Scalar, typename AnyTriangle>
-std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle) {
-  return ExactCapsule<Scalar, AnyTriangle>(capsule, triangle).find();
+std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>& capsule, const AnyTriangle& triangle,
+                                            CapsuleFindings findings) {
+  return ExactCapsule<Scalar, AnyTriangle>(capsule, triangle).find(findings);
 }
 
 template <typename Scalar, typename AnyTriangle>
@@ -228,7 +236,8 @@ Direction exact_direction(const SweptCapsule<Scalar>& capsule, const AnyTriangle
 }
 
 #define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                             \
-  template std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>&, const AnyTriangle&);     \
+  template std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>&, const AnyTriangle&,      \
+                                                       CapsuleFindings);                                     \
   template CoreTilt exact_tilt(const SweptCapsule<Scalar>&, const AnyTriangle&);                             \
   template int compare_times(const SweptCapsule<Scalar>&, const AnyTriangle&, const CapsuleContact&,         \
                              const AnyTriangle&, const CapsuleContact&);                                     \

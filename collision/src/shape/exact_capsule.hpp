@@ -14,10 +14,11 @@ namespace surehit::detail {
 // such input is allowed: triangles without area, capsules that rest or have no length, radius 0, and numbers of all
 // sizes.
 
-/// Returns the contact of a capsule with a triangle, or nothing if they do not touch.
+/// Returns the contact of a capsule with a triangle, or nothing if they do not touch. Does not ask again about what is
+/// in `findings`.
 template <typename Scalar, typename AnyTriangle>
 [[nodiscard]] std::optional<CapsuleContact> exact_contact(const SweptCapsule<Scalar>& capsule,
-                                                          const AnyTriangle& triangle);
+                                                          const AnyTriangle& triangle, CapsuleFindings findings = {});
 
 /// Returns how the core lies to the parts of a triangle.
 template <typename Scalar, typename AnyTriangle>

@@ -123,7 +123,7 @@ class ExactSphere {
 }  // namespace
 
 template <typename Scalar, typename AnyTriangle>
-std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle) {
+std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, NoFindings) {
   return ExactSphere<Scalar, AnyTriangle>(sphere, triangle).find();
 }
 
@@ -163,7 +163,7 @@ Direction exact_direction(const SweptSphere<Scalar>& sphere, const AnyTriangle& 
 }
 
 #define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                                       \
-  template std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>&, const AnyTriangle&);                 \
+  template std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>&, const AnyTriangle&, NoFindings);     \
   template int compare_times(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, const AnyTriangle&, \
                              const SphereContact&);                                                                    \
   template int compare_time(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, Scalar);             \

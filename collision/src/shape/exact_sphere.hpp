@@ -15,8 +15,8 @@ namespace surehit::detail {
 
 /// Returns the contact of a ball with a triangle, or nothing if they do not touch.
 template <typename Scalar, typename AnyTriangle>
-[[nodiscard]] std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>& sphere,
-                                                         const AnyTriangle& triangle);
+[[nodiscard]] std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
+                                                         NoFindings = {});
 
 /// Returns the sign of t of x less t of y.
 template <typename Scalar, typename AnyTriangle>

@@ -8,13 +8,18 @@ namespace surehit::detail {
 
 /// Says which types belong to a moving shape. `Scalar` is that of its numbers. `Contact` holds a contact of the shape
 /// with a triangle, and has at least these members: `t_lower` and `t_upper`, doubles between which the exact t is, and
-/// `at_start`, which is true if they touch at t = 0.
+/// `at_start`, which is true if they touch at t = 0. `Findings` is what doubles find out where they do not decide.
+/// Integers then need not ask about it again.
 template <typename Shape>
 struct ShapeTypes;
 template <typename Shape>
 using ScalarOf = typename ShapeTypes<Shape>::Scalar;
 template <typename Shape>
 using ContactOf = typename ShapeTypes<Shape>::Contact;
+template <typename Shape>
+using FindingsOf = typename ShapeTypes<Shape>::Findings;
+
+struct NoFindings {};
 
 /// True if most contacts of a shape with a triangle can be decided at little cost.
 template <typename Shape>

@@ -50,7 +50,8 @@ bool ShapeNarrowphase<Shape, Candidate>::find_contact(const AnyTriangle& triangl
   if constexpr (has_simple_contacts<Shape> && std::is_same_v<AnyTriangle, Triangle<Scalar>>) {
     verdict = simple_contact(shape_, triangle, limit, found);
   }
-  if (verdict == Verdict::undecided) verdict = bounded_contact(shape_, triangle, found);
+  FindingsOf<Shape> findings;
+  if (verdict == Verdict::undecided) verdict = bounded_contact(shape_, triangle, found, findings);
   switch (verdict) {
     case Verdict::miss:
       return false;
@@ -58,7 +59,7 @@ bool ShapeNarrowphase<Shape, Candidate>::find_contact(const AnyTriangle& triangl
       break;
     case Verdict::undecided:
       ++statistics_.exact_decisions;
-      const std::optional<ContactOf<Shape>> exact = exact_contact(shape_, triangle);
+      const std::optional<ContactOf<Shape>> exact = exact_contact(shape_, triangle, findings);
       if (!exact) return false;
       found = *exact;
   }

@@ -26,6 +26,7 @@ template <typename AnyScalar>
 struct ShapeTypes<SweptSphere<AnyScalar>> {
   using Scalar = AnyScalar;
   using Contact = SphereContact;
+  using Findings = NoFindings;
 };
 
 template <typename Scalar>

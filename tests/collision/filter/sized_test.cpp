@@ -177,9 +177,9 @@ void ask_capsule(const SweptCapsule<double>& capsule, const Triangle<double>& tr
   detail::Signs signs;
   static_cast<void>(tilt_of(terms, signs));
   const detail::CoreTilt tilt = detail::exact_tilt(capsule, triangle);
-  detail::NoGuide guide;
+  detail::CapsuleFindings findings;
   const detail::Outline outline;
-  static_cast<void>(detail::CapsuleTouch(terms, outline, tilt).find([](auto, auto) { return false; }, guide));
+  static_cast<void>(detail::CapsuleTouch(terms, outline, tilt).find([](auto, auto) { return false; }, findings));
   const Vector<Judged>& axis = terms.half_axis;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector<Judged>& w = terms.from_corner[k];
