@@ -13,7 +13,8 @@ benchmarks are optimized less.
 
   --quick   Release with Clang alone, a tenth of the cases: of the library and the examples alone
   --full    all random cases in Release with GCC, for all instruction sets and with examples and benchmarks optimized in
-            full, all examples under sanitizers, and besides a tenth of the cases in Release with Clang
+            full, code for compilers that lack what GCC has, all examples under sanitizers, and besides a tenth of the
+            cases in Release with Clang
 
 SUREHIT_TEST_PERCENT sets another share for Release with GCC.
 USAGE
@@ -82,7 +83,7 @@ build() {
 
 build_with_gcc() {
   LDFLAGS=-fuse-ld=lld CXX=g++ build release -D "SUREHIT_INSTRUCTION_SETS_LEFT_OUT=$sets_left_out" \
-    -D "SUREHIT_PROGRAM_OPTIMIZATION=$program_optimization"
+    -D "SUREHIT_PROGRAM_OPTIMIZATION=$program_optimization" -D "SUREHIT_TEST_PLATFORMS=$full"
 }
 
 run_tests() {

@@ -122,7 +122,7 @@ class RatioChart {
                       "How many times as long Embree takes (above 1 surehit is faster), from the worst of " +
                           std::to_string(meshes_) + " meshes to the best, with the mean",
                       16, Anchor::start, ink);
-    drawing_.add_text(left, 46, machine_, 12, Anchor::start, ink);
+    if (!machine_.empty()) drawing_.add_text(left, 46, machine_, 12, Anchor::start, ink);
     for (std::size_t kind = 0; kind < bar_kinds.size(); ++kind) {
       const double y = 66 + 18 * static_cast<double>(kind);
       drawing_.add_rectangle(left, y - 10, 12, 12, bar_kinds[kind].colour);

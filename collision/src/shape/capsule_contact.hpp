@@ -46,7 +46,7 @@ struct CapsuleFindings {
   using Parts = std::bitset<7 * 4>;
 
   std::optional<CoreTilt> tilt;
-  Parts never_enter;    ///< They do not come within the radius, or are not nearest to each other then.
+  Parts never_enter;    ///< They do not come within the radius later, or are not nearest to each other then.
   Parts never_nearest;  ///< They are not nearest to each other at the start.
 
   [[nodiscard]] static std::size_t index_of(const CapsuleContact& parts) {

@@ -117,6 +117,9 @@ class ExactCapsule {
   }
 
  private:
+  using Bits = CapsuleBits<AnyTriangle>;
+  using Volume = WideInt<Bits::volume>;
+
   /// Doubles with bounds rule out most parts.
   SUREHIT_NOINLINE void rule_out_parts(CapsuleFindings& findings) const {
     CapsuleTerms<Bounded, Bounded> bounded;
@@ -124,9 +127,6 @@ class ExactCapsule {
     const auto comes_before = [](const CapsuleContact&, const CapsuleContact&) { return false; };
     CapsuleTouch(bounded, outline_, *findings.tilt).find(comes_before, findings);
   }
-
-  using Bits = CapsuleBits<AnyTriangle>;
-  using Volume = WideInt<Bits::volume>;
 
   [[nodiscard]] auto from_corner(std::size_t corner, CorePart core) const {
     return moved_to(core, terms_.from_corner[corner], terms_.half_axis);

@@ -19,6 +19,7 @@ using ContactOf = typename ShapeTypes<Shape>::Contact;
 template <typename Shape>
 using FindingsOf = typename ShapeTypes<Shape>::Findings;
 
+/// The findings about a shape of which integers ask everything again.
 struct NoFindings {};
 
 /// True if most contacts of a shape with a triangle can be decided at little cost.
