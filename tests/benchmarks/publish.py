@@ -236,7 +236,8 @@ def wrong(figures):
         else:
             row.append(shown_range(query_ratios(figures, [ANY], contender, OURS[0], PATH_SETS)))
         rows.append(row)
-    return markdown(["", "aimed at vertices and edges", "all others", "time, relative to surehit"], rows)
+    times = f"time, relative to surehit ({machine(figures)})"
+    return markdown(["", "aimed at vertices and edges", "all others", times], rows)
 
 
 def summary(figures):
