@@ -70,7 +70,7 @@ class Approach {
     const auto minus_c = radius_squared() - dot(w, w);
     using D = decltype(b * b + std::declval<A>() * minus_c);
     std::optional<PointTime<A, B, D>> time;
-    if (signs.of(b) >= 0) return time;
+    if (signs.of(b) >= 0 || signs.of(minus_c) >= 0) return time;
     const A a = dot(step_, step_);
     const D discriminant = b * b + a * minus_c;
     if (signs.of(discriminant) < 0) return time;

@@ -83,18 +83,18 @@ bool try_round_simple_weights(const SweptSphere<float>& sphere, const Triangle<f
 
 template <typename Number, typename Scalar, typename AnyTriangle>
 SUREHIT_NOINLINE Verdict find_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
-                                      SphereContact& found) {
+                                      SphereContact& found, SphereFindings& findings) {
   const SphereTermsOf<Number> terms = terms_of<Number>(sphere, triangle);
   if (!has_usual_sizes(terms)) return Verdict::undecided;
-  Signs signs;
   bool has_face = false;
   for (const Number& x : normal_of(terms)) has_face |= x.sign().value_or(0) != 0;
   if (!has_face) return Verdict::undecided;
   constexpr Outline outline;
   bool is_alone = true;
   const auto comes_before = [&](Feature, Feature) { return is_alone = false; };
-  const std::optional<SphereContact> contact = SphereTouch(terms, outline, signs).find(comes_before);
-  if (!signs.is_certain() || !is_alone) return Verdict::undecided;
+  SphereTouch touch(terms, outline);
+  const std::optional<SphereContact> contact = touch.find(comes_before, findings);
+  if (!touch.is_certain() || !(is_alone || touch.is_final())) return Verdict::undecided;
   if (!contact) return Verdict::miss;
   found = *contact;
   if (!found.at_start) {
@@ -109,12 +109,12 @@ SUREHIT_NOINLINE Verdict find_contact(const SweptSphere<Scalar>& sphere, const A
 
 template <typename Scalar, typename AnyTriangle>
 Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, SphereContact& found,
-                        NoFindings) {
+                        SphereFindings& findings) {
   if (has_usual_images(triangle)) {
-    const Verdict verdict = find_contact<Sized>(sphere, triangle, found);
+    const Verdict verdict = find_contact<Sized>(sphere, triangle, found, findings);
     if (verdict != Verdict::undecided) return verdict;
   }
-  return find_contact<Bounded>(sphere, triangle, found);
+  return find_contact<Bounded>(sphere, triangle, found, findings);
 }
 
 template <typename Scalar>
@@ -149,8 +149,8 @@ bool try_round(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, c
 
 template Verdict simple_contact(const SweptSphere<float>&, const Triangle<float>&, double, SphereContact&);
 template Verdict simple_contact(const SweptSphere<double>&, const Triangle<double>&, double, SphereContact&);
-#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                                \
-  template Verdict bounded_contact(const SweptSphere<Scalar>&, const AnyTriangle&, SphereContact&, NoFindings); \
+#define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                                     \
+  template Verdict bounded_contact(const SweptSphere<Scalar>&, const AnyTriangle&, SphereContact&, SphereFindings&); \
   template bool try_round(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, ShapeHit<Scalar>&);
 SUREHIT_INSTANTIATE(float, Triangle<float>)
 SUREHIT_INSTANTIATE(double, Triangle<double>)

@@ -9,10 +9,11 @@ namespace surehit::detail {
 
 /// Decides a moving ball and a triangle in double, first with the sizes of all numbers, then with running error bounds.
 /// If it is a hit, sets `found`. The input must be finite, and the radius must not be negative. Triangles without a
-/// certain area are undecided. `AnyTriangle` is `Triangle` or `PlacedTriangle`, here and below.
+/// certain area are undecided. If it is undecided, adds to `findings`. `AnyTriangle` is `Triangle` or `PlacedTriangle`,
+/// here and below.
 template <typename Scalar, typename AnyTriangle>
 [[nodiscard]] Verdict bounded_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
-                                      SphereContact& found, NoFindings = {});
+                                      SphereContact& found, SphereFindings& findings);
 
 /// Decides whether a moving ball touches the inside of a triangle or of an edge first, before `limit`, or nothing of
 /// the triangle until then, if this is certain. If it is undecided, it sets `found.t_lower` to a lower bound of any

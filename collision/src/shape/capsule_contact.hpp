@@ -22,6 +22,9 @@ enum class CorePart : std::uint8_t {
   centre,    ///< The centre alone. It counts where the core is parallel to the part of the triangle.
 };
 
+/// The number of parts of a core.
+inline constexpr std::size_t core_part_count = 4;
+
 /// A contact of a moving capsule with a triangle. It holds what decides which of two hits is first. If they do not
 /// touch at the start, t is the root of the equation of the two parts.
 struct CapsuleContact {
@@ -43,14 +46,14 @@ struct CoreTilt {
 /// adds to it, and asks only about what is left.
 struct CapsuleFindings {
   /// A bit for each part of the triangle with each part of the core.
-  using Parts = std::bitset<7 * 4>;
+  using Parts = std::bitset<feature_count * core_part_count>;
 
   std::optional<CoreTilt> tilt;
-  Parts never_enter;    ///< They do not come within the radius later, or are not nearest to each other then.
+  Parts never_entered;  ///< They do not come within the radius later, or are not nearest to each other then.
   Parts never_nearest;  ///< They are not nearest to each other at the start.
 
   [[nodiscard]] static std::size_t index_of(const CapsuleContact& parts) {
-    return 4 * static_cast<std::size_t>(parts.feature) + static_cast<std::size_t>(parts.core);
+    return core_part_count * static_cast<std::size_t>(parts.feature) + static_cast<std::size_t>(parts.core);
   }
 };
 

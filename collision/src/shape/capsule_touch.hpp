@@ -39,7 +39,7 @@ class CapsuleTouch {
     std::optional<CapsuleContact> first;
     const auto take_first = [&](const CapsuleContact& parts) {
       begin();
-      if (!ask(parts, findings.never_enter, [&] { return enters(parts); })) return false;
+      if (!ask(parts, findings.never_entered, [&] { return enters(parts); })) return false;
       is_final_ = is_strict_ && signs_.is_certain();
       if (is_final_ || !first || !comes_before(*first, parts)) first = parts;
       return is_final_;
@@ -295,7 +295,6 @@ class CapsuleTouch {
   }
   [[nodiscard]] SUREHIT_NOINLINE bool enters_corner(std::size_t corner, CorePart core) {
     const auto w = from_corner(corner, core);
-    if (signs_.of(dot(w, w) - terms_.radius * terms_.radius) <= 0) return false;
     const auto time = approach_.to_point(w, to_end(corner, core), signs_);
     return time && is_nearest_corner(corner, core, *time);
   }

@@ -41,10 +41,9 @@ class ExactSphere {
     if (is_zero(normal_of(terms_))) outline_ = outline_without_area(local_corners(triangle));
   }
 
-  [[nodiscard]] std::optional<SphereContact> find() const {
-    Signs signs;
+  [[nodiscard]] std::optional<SphereContact> find(SphereFindings& findings) const {
     const auto comes_before = [&](Feature x, Feature y) { return RootOrder(root(x), root(y)).sign() < 0; };
-    std::optional<SphereContact> contact = SphereTouch(terms_, outline_, signs).find(comes_before);
+    std::optional<SphereContact> contact = SphereTouch(terms_, outline_).find(comes_before, findings);
     if (contact && !contact->at_start) {
       const DoubleRange t = root(contact->timed_by).range();
       contact->t_lower = t.lower;
@@ -123,8 +122,9 @@ class ExactSphere {
 }  // namespace
 
 template <typename Scalar, typename AnyTriangle>
-std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle, NoFindings) {
-  return ExactSphere<Scalar, AnyTriangle>(sphere, triangle).find();
+std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
+                                           SphereFindings findings) {
+  return ExactSphere<Scalar, AnyTriangle>(sphere, triangle).find(findings);
 }
 
 template <typename Scalar, typename AnyTriangle>
@@ -163,7 +163,7 @@ Direction exact_direction(const SweptSphere<Scalar>& sphere, const AnyTriangle& 
 }
 
 #define SUREHIT_INSTANTIATE(Scalar, AnyTriangle)                                                                       \
-  template std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>&, const AnyTriangle&, NoFindings);     \
+  template std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>&, const AnyTriangle&, SphereFindings); \
   template int compare_times(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, const AnyTriangle&, \
                              const SphereContact&);                                                                    \
   template int compare_time(const SweptSphere<Scalar>&, const AnyTriangle&, const SphereContact&, Scalar);             \

@@ -13,10 +13,11 @@ namespace surehit::detail {
 // input is allowed: triangles without area, balls that rest, radius 0, and numbers of all sizes. `AnyTriangle` is
 // `Triangle` or `PlacedTriangle`. The ball is then seen from the instance, which may move.
 
-/// Returns the contact of a ball with a triangle, or nothing if they do not touch.
+/// Returns the contact of a ball with a triangle, or nothing if they do not touch. Asks nothing again that `findings`
+/// knows.
 template <typename Scalar, typename AnyTriangle>
 [[nodiscard]] std::optional<SphereContact> exact_contact(const SweptSphere<Scalar>& sphere, const AnyTriangle& triangle,
-                                                         NoFindings = {});
+                                                         SphereFindings findings = {});
 
 /// Returns the sign of t of x less t of y.
 template <typename Scalar, typename AnyTriangle>

@@ -19,6 +19,9 @@ using ContactOf = typename ShapeTypes<Shape>::Contact;
 template <typename Shape>
 using FindingsOf = typename ShapeTypes<Shape>::Findings;
 
+/// The number of parts of a triangle that `Feature` names.
+inline constexpr std::size_t feature_count = static_cast<std::size_t>(Feature::corner_c) + 1;
+
 /// The findings about a shape of which integers ask everything again.
 struct NoFindings {};
 

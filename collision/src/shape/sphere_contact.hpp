@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 
@@ -22,11 +23,21 @@ struct SphereContact {
   bool at_start = false;  ///< True if they touch at t = 0. Then the equation is not used.
 };
 
+/// What is certain about the parts of a triangle, if it does not decide whether a ball touches it. Each stage adds to
+/// it, and asks only about what is left.
+struct SphereFindings {
+  using Parts = std::bitset<feature_count>;  ///< A bit for each `Feature`.
+
+  Parts never_entered;          ///< The ball does not come to them later, or they are not the nearest part then.
+  Parts never_nearest;          ///< They are not the nearest part at the start.
+  bool begins_outside = false;  ///< True if the ball does not touch the triangle at the start.
+};
+
 template <typename AnyScalar>
 struct ShapeTypes<SweptSphere<AnyScalar>> {
   using Scalar = AnyScalar;
   using Contact = SphereContact;
-  using Findings = NoFindings;
+  using Findings = SphereFindings;
 };
 
 template <typename Scalar>

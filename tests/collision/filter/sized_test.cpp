@@ -159,8 +159,9 @@ void ask_ball(const SweptSphere<double>& ball, const AnyTriangle& triangle) {
   set_terms(terms, ball, triangle);
   const Vector<Judged> n = normal_of(terms);
   for (const Judged& x : n) static_cast<void>(x.sign());
-  detail::Signs signs;
-  static_cast<void>(detail::SphereTouch(terms, detail::Outline(), signs).find([](auto, auto) { return false; }));
+  detail::SphereFindings findings;
+  const detail::Outline outline;
+  static_cast<void>(detail::SphereTouch(terms, outline).find([](auto, auto) { return false; }, findings));
   static_cast<void>(time_to_plane(terms.from_corner[0], terms.step, n, terms.radius));
   for (std::size_t k = 0; k < 3; ++k) {
     static_cast<void>(time_to_point(terms.from_corner[k], terms.step, terms.radius));

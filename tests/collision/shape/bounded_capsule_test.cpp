@@ -57,7 +57,7 @@ TYPED_TEST(BoundedCapsule, finds_out_what_is_true) {
         ASSERT_TRUE(is_same(exact, exact_contact(capsule, triangle, findings))) << name_of(family) << ", case " << i;
         if (!findings.tilt) continue;  // The triangle may have no area.
         ++undecided;
-        ruled_out += findings.never_enter.count() + findings.never_nearest.count();
+        ruled_out += findings.never_entered.count() + findings.never_nearest.count();
         continue;
       }
       ASSERT_EQ(verdict == Verdict::hit, exact.has_value()) << name_of(family) << ", case " << i;

@@ -8,7 +8,6 @@
 #include "support/box_families.hpp"
 #include "support/box_oracle.hpp"
 #include "support/case_count.hpp"
-#include "support/pair_families.hpp"
 #include "support/random.hpp"
 #include "surehit/intersect.hpp"
 
@@ -210,25 +209,6 @@ TYPED_TEST(BoxIntersect, TouchesNothingUnlessAllNumbersAreFinite) {
       SweptBox<Scalar> box = good;
       box.half_extents[axis] = x;
       EXPECT_FALSE(intersect(box, floor<Scalar>()));
-    }
-  }
-}
-
-TYPED_TEST(BoxIntersect, WithoutExtentsMeetsWhatASegmentMeets) {
-  using Scalar = TypeParam;
-  for (const PairFamily family : all_pair_families) {
-    Random random(11 + static_cast<std::uint64_t>(family));
-    for (std::size_t i = 0; i < case_count(1000); ++i) {
-      const Pair<Scalar> pair = draw_pair<Scalar>(family, random);
-      const Scalar zero = random.one_in(2) ? Scalar{0} : -Scalar{0};
-      const auto expected = intersect(pair.segment, pair.triangle);
-      const auto hit =
-          intersect(SweptBox<Scalar>{pair.segment.start, pair.segment.end, {zero, zero, zero}}, pair.triangle);
-      ASSERT_EQ(hit.has_value(), expected.has_value()) << name_of(family) << ", case " << i;
-      if (!hit) continue;
-      ASSERT_EQ(hit->t, expected->t) << name_of(family) << ", case " << i;
-      ASSERT_EQ(hit->u, expected->u) << name_of(family) << ", case " << i;
-      ASSERT_EQ(hit->v, expected->v) << name_of(family) << ", case " << i;
     }
   }
 }

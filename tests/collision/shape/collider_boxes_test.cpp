@@ -197,23 +197,6 @@ TYPED_TEST(ColliderBoxes, FindTrianglesThatAreMuchSmallerThanTheBox) {
   }
 }
 
-TYPED_TEST(ColliderBoxes, HitTheSameAsSegmentsWithoutExtents) {
-  using Scalar = TypeParam;
-  Random random(13);
-  const auto mesh = bumpy_octahedron<Scalar>(12, random);
-  const Collider<Scalar> collider(mesh.view());
-  for (const auto& box : this->draw_boxes(collider.box(), case_count(2000), random)) {
-    const auto hit = collider.first_hit(Segment<Scalar>{box.start, box.end});
-    const auto same = collider.first_hit(SweptBox<Scalar>{box.start, box.end, {0, 0, 0}});
-    ASSERT_EQ(hit.has_value(), same.has_value());
-    if (!hit) continue;
-    ASSERT_EQ(hit->t, same->t);
-    ASSERT_EQ(hit->u, same->u);
-    ASSERT_EQ(hit->v, same->v);
-    ASSERT_EQ(hit->triangle, same->triangle);
-  }
-}
-
 TYPED_TEST(ColliderBoxes, LetNothingThroughVerticesAndEdgesOfAClosedMesh) {
   using Scalar = TypeParam;
   Random random(17);

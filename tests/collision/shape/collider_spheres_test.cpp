@@ -228,23 +228,6 @@ TYPED_TEST(ColliderSpheres, FindTrianglesThatAreMuchSmallerThanTheBall) {
   }
 }
 
-TYPED_TEST(ColliderSpheres, HitTheSameAsSegmentsWithoutARadius) {
-  using Scalar = TypeParam;
-  Random random(13);
-  const auto mesh = bumpy_octahedron<Scalar>(12, random);
-  const Collider<Scalar> collider(mesh.view());
-  for (const auto& sphere : this->draw_spheres(collider.box(), case_count(2000), random)) {
-    const auto hit = collider.first_hit(Segment<Scalar>{sphere.start, sphere.end});
-    const auto same = collider.first_hit(SweptSphere<Scalar>{sphere.start, sphere.end, 0});
-    ASSERT_EQ(hit.has_value(), same.has_value());
-    if (!hit) continue;
-    ASSERT_EQ(hit->t, same->t);
-    ASSERT_EQ(hit->u, same->u);
-    ASSERT_EQ(hit->v, same->v);
-    ASSERT_EQ(hit->triangle, same->triangle);
-  }
-}
-
 TYPED_TEST(ColliderSpheres, LetNothingThroughVerticesAndEdgesOfAClosedMesh) {
   using Scalar = TypeParam;
   Random random(17);

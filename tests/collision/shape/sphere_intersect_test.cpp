@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "support/case_count.hpp"
-#include "support/pair_families.hpp"
 #include "support/random.hpp"
 #include "support/sphere_families.hpp"
 #include "support/sphere_oracle.hpp"
@@ -187,24 +186,6 @@ TYPED_TEST(SphereIntersect, TouchesNothingUnlessAllNumbersAreFinite) {
   }
   EXPECT_FALSE(intersect(SweptSphere<Scalar>{{2, 1, 3}, {2, 1, -3}, -1}, floor<Scalar>()));
   EXPECT_FALSE(intersect(SweptSphere<Scalar>{{2, 1, 3}, {2, 1, -3}, -Limits::denorm_min()}, floor<Scalar>()));
-}
-
-TYPED_TEST(SphereIntersect, WithoutARadiusMeetsWhatASegmentMeets) {
-  using Scalar = TypeParam;
-  for (const PairFamily family : all_pair_families) {
-    Random random(11 + static_cast<std::uint64_t>(family));
-    for (std::size_t i = 0; i < case_count(2000); ++i) {
-      const Pair<Scalar> pair = draw_pair<Scalar>(family, random);
-      const Scalar zero = random.one_in(2) ? Scalar{0} : -Scalar{0};
-      const auto expected = intersect(pair.segment, pair.triangle);
-      const auto hit = intersect(SweptSphere<Scalar>{pair.segment.start, pair.segment.end, zero}, pair.triangle);
-      ASSERT_EQ(hit.has_value(), expected.has_value()) << name_of(family) << ", case " << i;
-      if (!hit) continue;
-      ASSERT_EQ(hit->t, expected->t) << name_of(family) << ", case " << i;
-      ASSERT_EQ(hit->u, expected->u) << name_of(family) << ", case " << i;
-      ASSERT_EQ(hit->v, expected->v) << name_of(family) << ", case " << i;
-    }
-  }
 }
 
 // What other engines pass over: Jolt takes an edge for parallel to so short a step, and PhysX gives up a triangle in
