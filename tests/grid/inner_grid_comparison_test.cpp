@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -91,6 +93,19 @@ class InnerGridComparison : public testing::Test {
     }
   }
 
+  static std::span<const GridFrame> inner_frames(const Collider<Scalar>& collider) {
+    return detail::ColliderState<Scalar>::of(collider).grid.inner_frames();
+  }
+  /// Returns in how many of the grids the prop has an inner grid, once it is in the level.
+  static int grids_with_inner_ones(const GeneratedMesh<Scalar>& level, const GeneratedMesh<Scalar>& prop) {
+    const GeneratedMesh<Scalar> mesh = joined(level, prop);
+    int count = 0;
+    for (const GridOptions& grid : grids()) {
+      count += inner_frames(Collider<Scalar>(mesh.view(), BuildOptions{.grid = grid})).empty() ? 0 : 1;
+    }
+    return count;
+  }
+
   /// A single call answers as asking every triangle does.
   static void expect_as_all(const Collider<Scalar>& collider, const GeneratedMesh<Scalar>& mesh,
                             const Path<Scalar>& path) {
@@ -108,14 +123,89 @@ TYPED_TEST(InnerGridComparison, of_props_of_all_sizes) {
   for (const double ratio : {10., 1e3, 1e6}) {
     SCOPED_TRACE(ratio);
     const auto size = static_cast<TypeParam>(ratio);
-    this->compare(this->level(1), this->prop(size, {TypeParam{0.31F}, TypeParam{0.27F}, 0}), 120);
-    this->compare(this->level(size), this->prop(1, {0, 0, 0}), 120);
+    // The bricks of a level are fine enough for a prop of a tenth.
+    const int with_inner_ones = ratio > 10 ? 3 : 0;
+    const Vector3<TypeParam> place(TypeParam{0.31F}, TypeParam{0.27F}, 0);
+    const auto level = this->level(1);
+    const auto prop = this->prop(size, place);
+    EXPECT_EQ(this->grids_with_inner_ones(level, prop), with_inner_ones);
+    this->compare(level, prop, 120);
+    const auto large_level = this->level(size);
+    const auto prop_of_one = this->prop(1, size * place);
+    EXPECT_EQ(this->grids_with_inner_ones(large_level, prop_of_one), with_inner_ones);
+    this->compare(large_level, prop_of_one, 120);
   }
 }
 
 TYPED_TEST(InnerGridComparison, of_a_prop_in_a_level_of_almost_any_size) {
-  this->compare(this->level(TypeParam{1e15F}), this->prop(TypeParam{1e15F}, {0, 0, 0}), 200);
-  this->compare(this->level(TypeParam{1e30F}), this->prop(1, {0, 0, 0}), 200);
+  for (const TypeParam size : {TypeParam{1e15F}, TypeParam{1e30F}}) {
+    SCOPED_TRACE(size);
+    const auto level = this->level(size);
+    const auto prop = this->prop(size == TypeParam{1e15F} ? size : 1, {0, 0, 0});
+    EXPECT_EQ(this->grids_with_inner_ones(level, prop), 2);
+    this->compare(level, prop, 200);
+  }
+}
+
+/// Paths in the outer planes of an inner grid, and one float beside them. These planes are a little outside of the
+/// prop.
+TYPED_TEST(InnerGridComparison, of_paths_in_the_faces_of_an_inner_grid) {
+  const auto prop = this->prop(1e3F, {TypeParam{0.31F}, TypeParam{0.27F}, 0});
+  const auto mesh = joined(this->level(1), prop);
+  const Collider<TypeParam> collider(mesh.view(), BuildOptions{.grid = {.crowded = 30}});
+  ASSERT_FALSE(this->inner_frames(collider).empty());
+  const GridFrame& frame = this->inner_frames(collider).front();
+  PathDrawer<TypeParam> drawer(prop.view(), 1);
+  Random& random = drawer.random();
+  std::vector<Segment<TypeParam>> segments;
+  std::vector<Ray<TypeParam>> rays;
+  for (std::size_t i = 0; i < case_count(2'000); ++i) {
+    Segment<TypeParam> segment{drawer.point_around_mesh(), drawer.point_around_mesh()};
+    const std::size_t axis = random.below(3);
+    const double cells = (random.one_in(2) ? 0 : frame.resolution(axis)) - double{frame.margin[axis]};
+    const auto plane =
+        static_cast<TypeParam>(std::ldexp(frame.origin[axis] + cells / frame.scale[axis], -frame.exponent));
+    const auto beside = [&] {
+      constexpr TypeParam infinity = std::numeric_limits<TypeParam>::infinity();
+      return random.one_in(2) ? plane : std::nextafter(plane, random.one_in(2) ? infinity : -infinity);
+    };
+    segment.start[static_cast<Eigen::Index>(axis)] = beside();
+    if (!random.one_in(4)) segment.end[static_cast<Eigen::Index>(axis)] = beside();
+    segments.push_back(segment);
+    rays.push_back({segment.start, segment.end - segment.start});
+    this->expect_as_all(collider, mesh, Path<TypeParam>(segment));
+    this->expect_as_all(collider, mesh, Path<TypeParam>(rays.back()));
+  }
+  expect_batch<TypeParam, Segment<TypeParam>>(collider, segments);
+  expect_batch<TypeParam, Ray<TypeParam>>(collider, rays);
+}
+
+/// Paths within a hollow prop, whose cells there are empty, meet no triangle at all.
+TYPED_TEST(InnerGridComparison, of_paths_in_a_hollow_prop) {
+  const Vector3<TypeParam> middle(TypeParam{0.31F}, TypeParam{0.27F}, TypeParam{0.8F});
+  constexpr auto radius = TypeParam{0x1p-9F};  // Of the largest octahedron in the prop.
+  const auto prop = placed<TypeParam>(bumpy_octahedron<TypeParam>(8, this->random_), radius / 8000, middle);
+  const auto mesh = joined(this->level(1), prop);
+  const Collider<TypeParam> collider(mesh.view());
+  ASSERT_EQ(this->inner_frames(collider).size(), 1U);
+  std::vector<Segment<TypeParam>> segments;
+  for (std::size_t i = 0; i < case_count(1'000); ++i) {
+    const auto inside = [&]() -> Vector3<TypeParam> {
+      return middle + radius / 8 * Vector3<TypeParam>::NullaryExpr([&] {
+                        return this->random_.template symmetric<TypeParam>();
+                      });
+    };
+    segments.push_back({inside(), inside()});
+    QueryStatistics statistics;
+    EXPECT_FALSE(collider.first_hit(segments.back(), {}, &statistics));
+    EXPECT_GT(statistics.cells, 0U);
+    EXPECT_EQ(statistics.candidates, 0U) << hex_text(Path<TypeParam>(segments.back()));
+    this->expect_as_all(collider, mesh, Path<TypeParam>(segments.back()));
+    // It leaves the prop through a face.
+    segments.push_back({segments.back().start, middle + TypeParam{1} * (segments.back().end - middle).normalized()});
+    EXPECT_TRUE(collider.any_hit(segments.back())) << hex_text(Path<TypeParam>(segments.back()));
+  }
+  expect_batch<TypeParam, Segment<TypeParam>>(collider, segments);
 }
 
 TYPED_TEST(InnerGridComparison, of_a_prop_that_many_cells_share) {
