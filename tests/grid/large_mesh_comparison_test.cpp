@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "grid_comparison.hpp"
+#include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/path_drawer.hpp"
 #include "support/scalars.hpp"
@@ -19,7 +20,7 @@ std::size_t entry_budget(std::size_t triangles) { return 9 * std::max(std::size_
 template <typename Scalar>
 class LargeMeshComparison : public testing::Test {
  protected:
-  static constexpr std::size_t million = 1'000'000;
+  static std::size_t million() { return case_count(1'000'000); }
 
   /// Asking a million triangles takes its time, so paths are few.
   static void compare(const GeneratedMesh<Scalar>& mesh, std::size_t paths,
@@ -41,7 +42,8 @@ class LargeMeshComparison : public testing::Test {
 TYPED_TEST_SUITE(LargeMeshComparison, Scalars, ScalarNames);
 
 TYPED_TEST(LargeMeshComparison, one_huge_triangle_among_a_million) {
-  auto mesh = placed<TypeParam>(scattered_triangles<TypeParam>(this->million, 0.01F, this->random_), 0.001F, {0, 0, 0});
+  auto mesh =
+      placed<TypeParam>(scattered_triangles<TypeParam>(this->million(), 0.01F, this->random_), 0.001F, {0, 0, 0});
   mesh.add({{-1, -1, -1}, {1, -1, 1}, {-1, 1, 1}});
   this->compare(mesh, 4);
   mesh.add({{-1, -1, -1}, {1e30F, -1, 1}, {-1, 1e30F, 1}});
@@ -49,7 +51,8 @@ TYPED_TEST(LargeMeshComparison, one_huge_triangle_among_a_million) {
 }
 
 TYPED_TEST(LargeMeshComparison, a_million_triangles_in_one_cell) {
-  auto mesh = placed<TypeParam>(scattered_triangles<TypeParam>(this->million, 0.001F, this->random_), 1e-4F, {0, 0, 0});
+  auto mesh =
+      placed<TypeParam>(scattered_triangles<TypeParam>(this->million(), 0.001F, this->random_), 1e-4F, {0, 0, 0});
   mesh.add({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}});
   mesh.add({{-1, -1, -1}, {-1, -1, -1}, {-1, -1, -1}});
   this->compare(mesh, 8, {{.resolution = {3, 3, 3}}});
@@ -58,7 +61,7 @@ TYPED_TEST(LargeMeshComparison, a_million_triangles_in_one_cell) {
 /// A grid as fine as is asked for would list each of them in all of its cells.
 TYPED_TEST(LargeMeshComparison, hundred_thousand_triangles_in_every_cell) {
   GeneratedMesh<TypeParam> mesh;
-  for (std::size_t i = 0; i < this->million / 10; ++i) {
+  for (std::size_t i = 0; i < this->million() / 10; ++i) {
     const TypeParam height = this->random_.template symmetric<TypeParam>();
     mesh.add({{-9, -9, height}, {9, -9, -height}, {0, 9, height}});
   }
@@ -67,7 +70,7 @@ TYPED_TEST(LargeMeshComparison, hundred_thousand_triangles_in_every_cell) {
 
 TYPED_TEST(LargeMeshComparison, two_million_triangles) {
   const auto mesh = rough_ground<TypeParam>(1000, 0.01F, this->random_);
-  ASSERT_EQ(mesh.triangles.size(), 2 * this->million);
+  ASSERT_EQ(mesh.triangles.size(), 2'000'000U);
   this->compare(mesh, 10, {{}});
 }
 
