@@ -15,6 +15,7 @@
 #include "gpu/device_answers.hpp"
 #include "gpu/gpu_device_state.hpp"
 #include "gpu_answers.hpp"
+#include "lost_device.hpp"
 #include "small_dispatches.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
@@ -183,6 +184,15 @@ TEST_F(GpuDeviceTest, a_device_that_fails_in_the_middle_leaves_the_rest) {
   EXPECT_EQ(calls_left, 100);
   EXPECT_TRUE(on_gpu.first_hits(paths, hits, {}, {.goes_on_without_device = true}));
   EXPECT_EQ(hits, expected);
+}
+
+/// Whichever call says that the device was lost, the answers of the dispatches before are there, and no others.
+TEST_F(GpuDeviceTest, a_device_that_is_lost_in_the_middle_leaves_the_rest) {
+  const GpuCollider on_gpu(device, collider);
+  for (const LossInBatch& loss : losses_in_batch) {
+    expect_lost_in_batch(device, on_gpu, paths, expected, loss);
+    ASSERT_FALSE(HasFailure());
+  }
 }
 
 /// While two dispatches are under way, an allocation fails. The next batch has other paths, and gets its own answers.

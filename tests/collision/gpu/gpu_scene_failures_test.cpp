@@ -12,6 +12,7 @@
 #include "faulty_vulkan.hpp"
 #include "gpu/device_answers.hpp"
 #include "gpu_answers.hpp"
+#include "lost_device.hpp"
 #include "small_dispatches.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
@@ -145,6 +146,15 @@ TEST_F(GpuSceneFailuresTest, a_device_that_fails_in_the_middle_leaves_the_rest) 
   const GpuResult uploaded = later.try_upload(device, scene.snapshot());
   ASSERT_FALSE(uploaded);
   EXPECT_EQ(uploaded.error().reason, Reason::device_lost);
+}
+
+TEST_F(GpuSceneFailuresTest, a_device_that_is_lost_in_the_middle_leaves_the_rest) {
+  draw_paths(17'500);  // Three dispatches.
+  const GpuScene on_gpu(device, scene.snapshot());
+  for (const LossInBatch& loss : losses_in_batch) {
+    expect_lost_in_batch(device, on_gpu, paths, expected, loss);
+    ASSERT_FALSE(HasFailure());
+  }
 }
 
 /// The host answers the paths whose answers no sound device gives.
