@@ -5,7 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "support/pair_text.hpp"
@@ -14,6 +18,21 @@
 #include "surehit/gpu_scene.hpp"
 
 namespace surehit::test {
+
+/// Returns true if the environment asks for Khronos's layer.
+inline bool wants_validation_layer() {
+  const char* const layers = std::getenv("VK_INSTANCE_LAYERS");
+  return layers != nullptr && std::strstr(layers, "VK_LAYER_KHRONOS_validation") != nullptr;
+}
+
+/// Returns false if that layer is not in this process. A loader of Vulkan says nothing of a layer that it cannot load,
+/// and goes on without it.
+inline bool may_have_validation_layer() {
+  std::ifstream maps("/proc/self/maps");
+  if (!maps) return true;  // Only Linux lists what is loaded.
+  const std::string loaded((std::istreambuf_iterator<char>(maps)), std::istreambuf_iterator<char>());
+  return loaded.find("VkLayer_khronos_validation") != std::string::npos;
+}
 
 /// Opens the best device that there is, software included. Returns a closed one where there is none. The environment's
 /// `SUREHIT_TEST_GPU` is a part of the name that the device must have. Where it is set, no test is skipped.
@@ -24,6 +43,11 @@ inline GpuDevice any_gpu() {
       !opened) {
     EXPECT_EQ(name, nullptr) << opened.error().what();
     EXPECT_NE(opened.error().reason, GpuError::Reason::missing_feature) << opened.error().what();
+    EXPECT_FALSE(wants_validation_layer() && opened.error().reason == GpuError::Reason::failed)
+        << opened.error().what();
+  }
+  if (device.is_open() && wants_validation_layer()) {
+    EXPECT_TRUE(may_have_validation_layer()) << "the validation layer was not loaded";
   }
   return device;
 }

@@ -34,6 +34,7 @@ void expect_nothing_from_validation(const Work& work) {
   }
   setenv("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation", 1);
   setenv("VK_LAYER_ENABLES", "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT", 1);
+  setenv("VK_LAYER_SETTINGS_PATH", SUREHIT_LAYER_SETTINGS, 1);
   testing::internal::CaptureStdout();
   std::string said_of_work;
   bool is_open = false;
@@ -47,6 +48,7 @@ void expect_nothing_from_validation(const Work& work) {
       race(device);
     }
   }
+  unsetenv("VK_LAYER_SETTINGS_PATH");
   unsetenv("VK_LAYER_ENABLES");
   unsetenv("VK_INSTANCE_LAYERS");
   const std::string said_of_race = testing::internal::GetCapturedStdout();
