@@ -32,7 +32,8 @@ stage "Packages"
 stage "Building"
 folder=build/gpu
 tests=(gpu_batches_test gpu_buffer_batch_test gpu_collider_test gpu_device_needs_test gpu_device_test gpu_memory_test
-  gpu_placed_path_test gpu_scene_buffer_test gpu_scene_failures_test gpu_scene_test gpu_shares_test gpu_slots_test)
+  gpu_placed_path_test gpu_scene_buffer_test gpu_scene_failures_test gpu_scene_test gpu_shares_test gpu_slots_test
+  gpu_tree_test)
 mkdir -p build
 # One instruction set is compiled, that of this machine.
 cmake --preset release -B "$folder" -D SUREHIT_GPU=ON -D CMAKE_CXX_FLAGS="-march=native -DHWY_COMPILE_ONLY_STATIC" \

@@ -4,6 +4,7 @@
 const int max_octaves = 21;                                // G23
 const real share_error = 96.0 * max_gap * max_gap;         // G25
 const real no_limit = 1267650600228229401496703205376.0;   // 2^100 stands for infinity in a range.
+const real per_max_t = 1.0 / 79228162514264337593543950336.0;  // 2^-96 (G25)
 
 // The bits of the numbers of a path and of a triangle: start, toward, a, b and c.
 struct PairBits {
@@ -253,6 +254,20 @@ ExactContact exact_contact_of(PairBits of, bool is_segment, real range_first, re
   contact.has_start = is_zero(height);
   contact.has_end = is_zero(to_end);
   return contact;
+}
+
+// Sets numbers between which t is, where it is height / det. Returns false if it may be too large for that (G25).
+bool has_interval(WideInt height, WideInt det, OUT(real) lower, OUT(real) upper) {
+  real num = pair_from(height).high;
+  real den = pair_from(det).high;
+  precise real share = abs(num) * per_max_t;
+  precise real t = num / den;
+  precise real radius = slack_of_t * abs(t) + min_t_of_pairs;
+  precise real below = t - radius;
+  precise real above = t + radius;
+  lower = below;
+  upper = above;
+  return share < den;
 }
 
 // A sum of two products, and how far off it is at most.

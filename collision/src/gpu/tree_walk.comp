@@ -73,7 +73,6 @@ layout(push_constant) uniform Dispatch {
 // A decision in pairs takes about as long as so many steps, and so does an exact one.
 const uint steps_of_pairs = 32;
 const uint steps_of_exact = 64;
-const float per_max_t = 1.0 / 79228162514264337593543950336.0;  // 2^-96 (G25)
 
 // What is no triangle.
 const uint miss = 0xffffffffu;
@@ -209,16 +208,7 @@ void settle(uint triangle, inout Meeting met) {
           met.side = contact.side;
           met.verdict = contact.verdict == is_hit && is_left_out ? is_missed : contact.verdict;
           if (met.verdict == is_hit && wants_first != 0) {
-            float num = pair_from(height).high;
-            float den = pair_from(det).high;
-            precise float share = abs(num) * per_max_t;
-            precise float t = num / den;
-            precise float radius = slack_of_t * abs(t) + min_t_of_pairs;
-            precise float lower = t - radius;
-            precise float upper = t + radius;
-            met.lower = lower;
-            met.upper = upper;
-            if (share >= den) met.verdict = is_open;
+            if (!has_interval(height, det, met.lower, met.upper)) met.verdict = is_open;
           }
         }
       } else if (has_order) {

@@ -271,6 +271,28 @@ TEST_F(GpuColliderTest, walks_with_too_many_decisions_in_pairs_are_left_to_the_h
   }
 }
 
+/// The slivers lie in one plane with the paths, and beside them. Only whole numbers show that they are missed. A walk
+/// takes so many decisions in whole numbers, and no more.
+TEST_F(GpuColliderTest, walks_with_too_many_exact_decisions_are_left_to_the_host) {
+  for (const int slivers : {20, 80}) {
+    GeneratedMesh<float> mesh;
+    for (int i = 1; i <= slivers; ++i) {
+      const float beside = static_cast<float>(i) * 0x1p-10F;
+      mesh.add({{-1, -1 + beside, 0}, {1, 1 + beside, 0}, {1, 1 + 2 * beside, 0}});
+    }
+    mesh.add({{1.5F, -4, -4}, {1.5F, 8, -4}, {1.5F, 0, 8}});
+    const Colliderf collider(mesh.view());
+    std::vector<Segmentf> paths;
+    for (int i = 0; i < 16; ++i) {
+      const float x = -2 - static_cast<float>(i) * 0x1p-10F;
+      paths.push_back({{x, x, 0}, {2, 2, 0}});
+    }
+    GpuStatistics of_slivers;
+    EXPECT_EQ(expect_same_as_host(GpuCollider(device, collider), collider, paths, {}, &of_slivers), paths.size());
+    EXPECT_EQ(of_slivers.undecided, slivers == 20 ? 0U : of_slivers.paths);
+  }
+}
+
 TEST_F(GpuColliderTest, meshes_of_others) {
   const std::filesystem::path folder = SUREHIT_MESH_FOLDER;
   if (!std::filesystem::exists(folder / "dungeon.obj")) GTEST_SKIP() << "no meshes in " << folder;

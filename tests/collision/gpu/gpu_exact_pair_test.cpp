@@ -152,6 +152,28 @@ TEST(GpuExactPair, numbers_of_all_sizes_fit) {
   }
 }
 
+Arithmetic::WideInt draw_number(std::size_t bits, bool may_be_negative, Random& random) {
+  Arithmetic device;
+  std::array<std::uint32_t, 5> words = {};
+  for (std::size_t i = 0; i < bits; ++i) {
+    if (!random.one_in(3)) words[i / 32] |= std::uint32_t{1} << (i % 32);  // Long carries are more likely.
+  }
+  words[0] |= 1;
+  const auto size = device.int_of(words[0], words[1], words[2], words[3], words[4]);
+  return may_be_negative && random.one_in(2) ? device.negated(size) : size;
+}
+
+/// Returns a number times 2^-32, as pairs have it.
+mpq_class value_of(const Arithmetic::WideInt& x) {
+  Arithmetic device;
+  const auto size = device.size_of(x);
+  mpz_class sum = 0;
+  for (const std::uint32_t word : {size.e, size.d, size.c, size.b, size.a}) sum = (sum << 32) + word;
+  mpq_class value(device.is_negative(x) ? mpz_class(-sum) : sum, mpz_class(1) << 32);
+  value.canonicalize();
+  return value;
+}
+
 mpq_class exact(const Arithmetic::FloatPair& x) {
   return mpq_class(double{x.high.value()}) + mpq_class(double{x.low.value()});
 }
@@ -163,36 +185,21 @@ TEST(GpuExactPair, numbers_in_pairs_stay_within_their_bounds) {
   on_every_device([&] {
     Arithmetic device;
     Random random(65);
-    const auto draw = [&](std::size_t bits, bool may_be_negative) {
-      std::array<std::uint32_t, 5> words = {};
-      for (std::size_t i = 0; i < bits; ++i) {
-        if (!random.one_in(3)) words[i / 32] |= std::uint32_t{1} << (i % 32);  // Long carries are more likely.
-      }
-      words[0] |= 1;
-      const auto size = device.int_of(words[0], words[1], words[2], words[3], words[4]);
-      return may_be_negative && random.one_in(2) ? device.negated(size) : size;
-    };
-    const auto value = [&](const Arithmetic::WideInt& x) {
-      const auto size = device.size_of(x);
-      mpz_class sum = 0;
-      for (const std::uint32_t word : {size.e, size.d, size.c, size.b, size.a}) sum = (sum << 32) + word;
-      return mpq_class(device.is_negative(x) ? mpz_class(-sum) : sum, mpz_class(1) << 32);
-    };
     for (std::size_t i = case_count(2'000); i > 0; --i) {
-      const auto x = draw(1 + random.below(142), true);
-      const mpq_class number_error = abs(exact(device.pair_from(x)) - value(x));
+      const auto x = draw_number(1 + random.below(142), true, random);
+      const mpq_class number_error = abs(exact(device.pair_from(x)) - value_of(x));
       worst_number =
           std::max(worst_number,
-                   mpq_class(number_error / (mpq_class(double{device.pair_error.value()}) * abs(value(x)))).get_d());
+                   mpq_class(number_error / (mpq_class(double{device.pair_error.value()}) * abs(value_of(x)))).get_d());
       // Weights in a plane have at most 95 bits.
       const std::size_t bits = 60 + random.below(35);
-      const auto start = draw(bits, true);
-      const auto way = draw(bits, true);
-      const auto num = draw(bits, false);
-      const auto den = draw(bits, false);
+      const auto start = draw_number(bits, true, random);
+      const auto way = draw_number(bits, true, random);
+      const auto num = draw_number(bits, false, random);
+      const auto den = draw_number(bits, false, random);
       const auto of = device.weight_of(start, way, device.pair_from(num), device.pair_from(den));
-      const mpq_class of_start = value(start) * value(den);
-      const mpq_class of_way = value(way) * value(num);
+      const mpq_class of_start = value_of(start) * value_of(den);
+      const mpq_class of_way = value_of(way) * value_of(num);
       const mpq_class weight_error = abs(exact(of.sum) - of_start - of_way);
       worst_weight = std::max(worst_weight, mpq_class(weight_error / mpq_class(double{of.bound.value()})).get_d());
     }
@@ -204,6 +211,41 @@ TEST(GpuExactPair, numbers_in_pairs_stay_within_their_bounds) {
   if (runs_all_cases()) {
     EXPECT_GT(worst_number, 0.05) << "room to waste";
     EXPECT_GT(worst_weight, 0.05) << "room to waste";
+  }
+}
+
+/// The numbers are of all sizes that those of a contact may have. Half of the quotients are near 1.
+TEST(GpuExactPair, intervals_hold_the_exact_t) {
+  double worst = 0;
+  std::size_t open = 0;
+  const mpq_class max_t(mpz_class(1) << 99);
+  on_every_device([&] {
+    Arithmetic device;
+    Random random(66);
+    for (std::size_t i = case_count(2'000); i > 0; --i) {
+      const std::size_t bits = 1 + random.below(142);
+      const auto height = draw_number(bits, true, random);
+      const auto det = draw_number(random.one_in(2) ? bits : 1 + random.below(142), false, random);
+      const mpq_class t = value_of(height) / value_of(det);
+      Arithmetic::real lower;
+      Arithmetic::real upper;
+      if (!device.has_interval(height, det, lower, upper)) {
+        ++open;
+        EXPECT_GT(abs(t), max_t / 16) << t.get_d();
+        continue;
+      }
+      ASSERT_TRUE(std::fabs(lower.value()) < 0x1p99 && std::fabs(upper.value()) < 0x1p99) << t.get_d();
+      const mpq_class low(double{lower.value()});
+      const mpq_class high(double{upper.value()});
+      ASSERT_TRUE(low <= t && t <= high && low < high) << t.get_d();
+      worst = std::max(worst, mpq_class(abs(2 * t - low - high) / (high - low)).get_d());
+    }
+  });
+  testing::Test::RecordProperty("worst", std::to_string(worst));
+  EXPECT_LT(worst, 1);
+  if (runs_all_cases()) {
+    EXPECT_GT(worst, 0.1) << "room to waste";
+    EXPECT_GT(open, 100U);
   }
 }
 
