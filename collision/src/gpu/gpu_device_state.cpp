@@ -4,6 +4,9 @@
 #include <cstring>
 #include <utility>
 
+#include "gpu/device_answers.hpp"
+#include "gpu/path_limits.hpp"
+#include "gpu/walk_check.hpp"
 #include "roundings.spv.hpp"
 #include "scene_walk.spv.hpp"
 #include "tree_walk.spv.hpp"
@@ -13,8 +16,11 @@ namespace {
 
 constexpr const char* while_beginning = "while beginning a batch";
 
+GpuError unusable(const std::string& device_name, const std::string& fault) {
+  return {GpuError::Reason::missing_feature, device_name + " cannot be used: " + fault};
+}
 GpuError lacking(const std::string& device_name, const std::string& missing) {
-  return {GpuError::Reason::missing_feature, device_name + " cannot be used: it lacks " + missing};
+  return unusable(device_name, "it lacks " + missing);
 }
 
 /// Returns the copy of the first bytes of a buffer.
@@ -168,16 +174,45 @@ GpuHandles GpuDeviceState::handles() const {
 std::optional<GpuError> GpuDeviceState::prepare() {
   if (auto error = make_layouts()) return error;
   if (auto error = make_pipeline(GpuTask::roundings, roundings_spirv)) return error;
+  if (auto error = check_roundings()) return error;
+  if (auto error = make_pipeline(GpuTask::any_hits, tree_walk_spirv)) return error;
+  if (auto error = make_pipeline(GpuTask::first_hits, tree_walk_spirv)) return error;
+  return WalkCheck::is_on ? check_walk() : std::nullopt;
+}
+
+std::optional<GpuError> GpuDeviceState::check_roundings() {
   const std::vector<RoundingCase> cases = rounding_cases();
   std::vector<RoundingResult> results(cases.size());
   GpuWork work(*this);
   if (auto error = work.begin(nullptr)) return error;
   if (auto error = round(work.slots()[0], cases, results)) return error;
-  if (const auto fault = rounding_fault(cases, results)) {
-    return GpuError(GpuError::Reason::missing_feature, name + " cannot be used: " + *fault);
+  if (const auto fault = rounding_fault(cases, results)) return unusable(name, *fault);
+  return std::nullopt;
+}
+
+std::optional<GpuError> GpuDeviceState::check_walk() {
+  const WalkCheck check;
+  std::vector<DeviceHit> hits(check.paths.size());
+  std::vector<DeviceAny> blocked(check.paths.size());
+  const auto mesh = std::make_shared<GpuMesh>();
+  GpuWork work(*this);
+  if (auto error = work.begin(mesh)) return error;
+  if (auto error = work.upload(std::as_bytes(std::span(check.tree.nodes)), "the nodes of a check", *mesh->nodes)) {
+    return error;
   }
-  if (auto error = make_pipeline(GpuTask::any_hits, tree_walk_spirv)) return error;
-  return make_pipeline(GpuTask::first_hits, tree_walk_spirv);
+  if (auto error =
+          work.upload(std::as_bytes(std::span(check.tree.triangles)), "the triangles of a check", *mesh->triangles)) {
+    return error;
+  }
+  GpuSlot& slot = work.slots()[0];
+  if (auto error = walk(slot, *mesh, check.paths, GpuTask::first_hits, std::as_writable_bytes(std::span(hits)))) {
+    return error;
+  }
+  if (auto error = walk(slot, *mesh, check.paths, GpuTask::any_hits, std::as_writable_bytes(std::span(blocked)))) {
+    return error;
+  }
+  if (const auto fault = check.fault(hits, blocked)) return unusable(name, *fault);
+  return std::nullopt;
 }
 
 std::optional<GpuError> GpuDeviceState::prepare_scenes() {
@@ -366,6 +401,22 @@ std::optional<GpuError> GpuDeviceState::round(GpuSlot& slot, std::span<const Rou
   if (auto error = submit(slot, {&there, 1}, &dispatch, {&back, 1})) return error;
   if (auto error = wait(slot)) return error;
   std::memcpy(results.data(), slot.host_answers.data(), results.size_bytes());
+  return std::nullopt;
+}
+
+std::optional<GpuError> GpuDeviceState::walk(GpuSlot& slot, const GpuMesh& mesh, std::span<const Segmentf> paths,
+                                             GpuTask task, std::span<std::byte> answers) {
+  const PathLimits limits = path_limits(PathKind::segment, QueryOptionsf());
+  std::memcpy(slot.host_paths.data(), paths.data(), paths.size_bytes());
+  std::memcpy(slot.host_limits.data(), &limits, sizeof limits);
+  bind(slot, mesh.buffers(), {slot.paths.get()}, {slot.answers.get()});
+  const GpuDispatch dispatch = {task, {static_cast<std::uint32_t>(paths.size()), 1, 0, max_path_steps, 0}};
+  const GpuCopy there[] = {copy_of(slot.host_paths, slot.paths, paths.size_bytes()),
+                           copy_of(slot.host_limits, slot.limits, sizeof limits)};
+  const GpuCopy back = copy_of(slot.answers, slot.host_answers, answers.size_bytes());
+  if (auto error = submit(slot, there, &dispatch, {&back, 1})) return error;
+  if (auto error = wait(slot)) return error;
+  std::memcpy(answers.data(), slot.host_answers.data(), answers.size_bytes());
   return std::nullopt;
 }
 

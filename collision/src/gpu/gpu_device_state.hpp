@@ -66,7 +66,7 @@ struct GpuDeviceState {
   [[nodiscard]] DeviceReport report_of(VkPhysicalDevice one) const;
   /// Opens the first of these devices that will do. If none will, it returns the error of the first.
   [[nodiscard]] std::optional<GpuError> open_first(std::span<const FoundDevice> found);
-  /// Opens a device, makes its pipelines, and checks how it rounds.
+  /// Opens a device, makes its pipelines, and checks how it rounds and how it answers.
   [[nodiscard]] std::optional<GpuError> open(VkPhysicalDevice chosen, const DeviceReport& its_report);
   /// Does the same with a device that the caller has opened. It is left open at the end.
   [[nodiscard]] std::optional<GpuError> adopt(const GpuHandles& given);
@@ -137,8 +137,12 @@ struct GpuDeviceState {
   [[nodiscard]] bool has_returned() noexcept;
   /// Leaves all memory to a device that has not returned from its work.
   void forget() noexcept;
-  /// Makes all that batches need on an open device, and checks how it rounds.
+  /// Makes all that batches need on an open device, and checks how it rounds and how it answers.
   [[nodiscard]] std::optional<GpuError> prepare();
+  /// Fails if the device rounds otherwise than it must.
+  [[nodiscard]] std::optional<GpuError> check_roundings();
+  /// Fails if the device answers known paths wrongly.
+  [[nodiscard]] std::optional<GpuError> check_walk();
   /// Returns the number of buffers that the shaders of this device may have.
   [[nodiscard]] std::uint32_t buffer_count() const;
   [[nodiscard]] std::optional<GpuError> make_layouts();
@@ -146,6 +150,9 @@ struct GpuDeviceState {
   /// Computes the cases of `rounding_check.hpp`.
   [[nodiscard]] std::optional<GpuError> round(GpuSlot& slot, std::span<const RoundingCase> cases,
                                               std::span<RoundingResult> results);
+  /// Answers segments with the usual options. The task is that of a mesh.
+  [[nodiscard]] std::optional<GpuError> walk(GpuSlot& slot, const GpuMesh& mesh, std::span<const Segmentf> paths,
+                                             GpuTask task, std::span<std::byte> answers);
   /// Returns the error of a result, and notes that the device was lost.
   [[nodiscard]] std::optional<GpuError> noted(VkResult result, const char* what);
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/walk_check.hpp"
 #include "support/pair_text.hpp"
 #include "support/same_bits.hpp"
 #include "surehit/gpu.hpp"
@@ -36,7 +37,10 @@ inline bool may_have_validation_layer() {
 
 /// Opens the best device that there is, software included. Returns a closed one where there is none. The environment's
 /// `SUREHIT_TEST_GPU` is a part of the name that the device must have. Where it is set, no test is skipped.
-inline GpuDevice any_gpu() {
+/// A device is opened without a check of its answers, unless the test wants it. So tests see by themselves what is
+/// wrong.
+inline GpuDevice any_gpu(bool checks_answers = false) {
+  detail::WalkCheck::is_on = checks_answers;
   GpuDevice device;
   const char* const name = std::getenv("SUREHIT_TEST_GPU");
   if (const GpuResult opened = device.try_open({.name = name == nullptr ? "" : name, .takes_software = true});

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -14,9 +15,11 @@
 #include <vector>
 
 #include "device_arithmetic.hpp"
+#include "gpu/device_answers.hpp"
 #include "gpu/device_needs.hpp"
 #include "gpu/gpu_device_state.hpp"
 #include "gpu/rounding_check.hpp"
+#include "gpu/walk_check.hpp"
 #include "roundings.spv.hpp"
 #include "scene_walk.spv.hpp"
 #include "surehit/gpu.hpp"
@@ -25,10 +28,12 @@
 namespace surehit::test::gpu_device_needs_test {
 namespace {
 
+using detail::DeviceHit;
 using detail::DeviceReport;
 using detail::GpuDeviceState;
 using detail::RoundingCase;
 using detail::RoundingResult;
+using detail::WalkCheck;
 using Reason = GpuError::Reason;
 
 /// A device that has all that is needed.
@@ -148,6 +153,72 @@ TEST(GpuRoundingTest, a_device_that_rounds_otherwise_is_refused) {
             }),
             "");
   EXPECT_NE(detail::rounding_fault(cases, {}).value_or(""), "");
+}
+
+/// What a device answers that decides and rounds all.
+std::vector<DeviceHit> sound_hits(const WalkCheck& check) {
+  std::vector<DeviceHit> hits;
+  for (const Hitf& hit : check.expected) {
+    const bool is_hit = hit.triangle != no_triangle;
+    const std::uint32_t side = hit.side == Side::edge_on ? DeviceHit::edge_on : static_cast<std::uint32_t>(hit.side);
+    hits.push_back({hit.t, hit.u, hit.v, hit.triangle, is_hit ? side : 0});
+  }
+  return hits;
+}
+std::vector<detail::DeviceAny> sound_blocked(const WalkCheck& check) {
+  std::vector<detail::DeviceAny> blocked;
+  for (const Hitf& hit : check.expected) blocked.push_back(hit.triangle != no_triangle ? 1 : 0);
+  return blocked;
+}
+
+TEST(GpuWalkCheck, paths_miss_and_hit_and_lie_in_planes) {
+  const WalkCheck check;
+  EXPECT_EQ(check.fault(sound_hits(check), sound_blocked(check)).value_or(""), "");
+  const auto count = [&](const auto& counts) {
+    return std::count_if(check.expected.begin(), check.expected.end(), counts);
+  };
+  EXPECT_GT(count([](const Hitf& hit) { return hit.triangle == no_triangle; }), 80);
+  EXPECT_GT(count([](const Hitf& hit) { return hit.triangle < 24; }), 40) << "needles";
+  EXPECT_GT(count([](const Hitf& hit) { return hit.triangle != no_triangle && hit.triangle >= 24; }), 80) << "the box";
+  EXPECT_GT(count([](const Hitf& hit) { return hit.triangle != no_triangle && hit.side == Side::edge_on; }), 8);
+  EXPECT_GT(count([](const Hitf& hit) {
+              return hit.triangle != no_triangle && (hit.u == 0 || hit.v == 0 || hit.u + hit.v == 1);
+            }),
+            20);
+}
+
+/// Each field counts. A device may be undecided, or leave the rounding to the host.
+TEST(GpuWalkCheck, a_device_that_answers_wrongly_is_found) {
+  const WalkCheck check;
+  const auto fault_of_hit = [&](const auto& change) {
+    std::vector<DeviceHit> hits = sound_hits(check);
+    const auto hit = std::find_if(hits.rbegin(), hits.rend(), [](const DeviceHit& one) { return one.side == 1; });
+    change(*hit);
+    return check.fault(hits, sound_blocked(check)).value_or("");
+  };
+  constexpr std::uint32_t unrounded = DeviceHit::is_not_rounded;
+  EXPECT_EQ(fault_of_hit([](DeviceHit&) {}), "");
+  EXPECT_EQ(fault_of_hit([](DeviceHit& hit) { hit = {0, 0, 0, no_triangle, DeviceHit::undecided}; }), "");
+  EXPECT_EQ(fault_of_hit([](DeviceHit& hit) { hit = {0, 0, 0, hit.triangle, hit.side + unrounded}; }), "");
+  EXPECT_NE(fault_of_hit([](DeviceHit& hit) { hit.t = std::nextafter(hit.t, 2.0F); }), "");
+  EXPECT_NE(fault_of_hit([](DeviceHit& hit) { hit.u = std::nextafter(hit.u, 2.0F); }), "");
+  EXPECT_NE(fault_of_hit([](DeviceHit& hit) { hit.v = std::nextafter(hit.v, 2.0F); }), "");
+  EXPECT_NE(fault_of_hit([](DeviceHit& hit) { --hit.triangle; }), "");
+  EXPECT_NE(fault_of_hit([](DeviceHit& hit) { hit = {0, 0, 0, hit.triangle - 1, hit.side + unrounded}; }), "");
+  EXPECT_NE(fault_of_hit([](DeviceHit& hit) { hit.side = 3 - hit.side; }), "");
+  EXPECT_NE(fault_of_hit([](DeviceHit& hit) { hit = {0, 0, 0, no_triangle, 0}; }), "");
+  EXPECT_NE(fault_of_hit([](DeviceHit& hit) { hit = {0, 0, 0, 0, 0}; }), "") << "memory that was never written";
+  const auto fault_of_any = [&](bool is_hit, detail::DeviceAny answer) {
+    std::vector<detail::DeviceAny> blocked = sound_blocked(check);
+    *std::find(blocked.begin(), blocked.end(), is_hit ? 1U : 0U) = answer;
+    return check.fault(sound_hits(check), blocked).value_or("");
+  };
+  EXPECT_EQ(fault_of_any(true, 2), "");
+  EXPECT_EQ(fault_of_any(false, 2), "");
+  EXPECT_NE(fault_of_any(true, 0), "");
+  EXPECT_NE(fault_of_any(false, 1), "");
+  EXPECT_NE(fault_of_any(true, 3), "");
+  EXPECT_NE(check.fault({}, {}).value_or(""), "");
 }
 
 /// All sums, differences, products and quotients of floats that may be fused with another one (G1).

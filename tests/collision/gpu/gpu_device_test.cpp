@@ -113,6 +113,50 @@ TEST_F(GpuDeviceTest, devices_that_will_not_do_are_passed_over) {
   EXPECT_EQ(several.name, device.name());
 }
 
+int waits_before_wrong_answers = 0;
+GpuDeviceState* answering = nullptr;
+/// The answers of one dispatch, and of no other, are words that no sound device writes.
+VKAPI_ATTR VkResult VKAPI_CALL wrong_answers(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
+                                             std::uint64_t timeout) {
+  const VkResult result = wait_for(device, count, fences, all, timeout);
+  if (waits_before_wrong_answers-- == 0) {
+    std::memset(answering->pairs.front()->slots[0].host_answers.data(), 0x55, sizeof(detail::DeviceHit));
+  }
+  return result;
+}
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL wrong_function(VkDevice device, const char* name) {
+  const PFN_vkVoidFunction function = get_function(device, name);
+  if (std::string(name) != "vkWaitForFences") return function;
+  wait_for = reinterpret_cast<PFN_vkWaitForFences>(function);
+  return reinterpret_cast<PFN_vkVoidFunction>(wrong_answers);
+}
+
+/// A device is waited for when it has rounded numbers, when it has the nodes and the triangles of a mesh, and when it
+/// has answered with first hits and with any hits.
+TEST_F(GpuDeviceTest, a_device_that_answers_wrongly_is_refused) {
+  std::vector<detail::FoundDevice> found;
+  GpuDeviceState state;
+  ASSERT_FALSE(state.start());
+  ASSERT_FALSE(state.find(found));
+  std::erase_if(found, [&](const auto& one) { return one.second.properties.deviceName != device.name(); });
+  ASSERT_FALSE(found.empty());
+  get_function = std::exchange(state.vulkan.GetDeviceProcAddr, wrong_function);
+  answering = &state;
+  detail::WalkCheck::is_on = true;
+  for (const auto& [waits, fault] :
+       {std::pair(0, "it computes the sum of "), std::pair(3, "it answers path 0 of a check by "),
+        std::pair(4, "it answers 1431655765 whether path 0 of a check ")}) {
+    waits_before_wrong_answers = waits;
+    const auto error = state.open_first(found);
+    ASSERT_TRUE(error) << waits;
+    EXPECT_EQ(error->reason, Reason::missing_feature);
+    EXPECT_EQ(std::string(error->what()).find(device.name() + " cannot be used: " + fault), 0U) << error->what();
+  }
+  waits_before_wrong_answers = 100;
+  EXPECT_FALSE(state.open_first(found));
+  EXPECT_EQ(waits_before_wrong_answers, 95);
+}
+
 TEST_F(GpuDeviceTest, an_upload_without_memory_changes_nothing) {
   GpuCollider on_gpu(device, collider);
   allocate = std::exchange(state().vulkan.AllocateMemory, no_memory);
