@@ -64,7 +64,7 @@ void check(SceneFamily family) {
     paths += questions.size();
   }
   // A family that turned into hits or misses alone would test little.
-  if (paths < 1000) return;
+  if (paths < 80) return;
   EXPECT_GE(hits, paths / 5);
   EXPECT_GE(paths - hits, paths / 20);
 }
