@@ -81,6 +81,13 @@ class InvalidInstanceOf : public testing::Test {
     scene.remove(result.id());
   }
 
+  /// Returns the name that an entry of [linear | translation] has in a message.
+  static std::string name_of(int element) {
+    const std::string row = std::to_string(element / 4);
+    const int column = element % 4;
+    return column < 3 ? "linear(" + row + ", " + std::to_string(column) + ")" : "translation[" + row + "]";
+  }
+
   /// Returns an entry of [linear | translation].
   static Scalar& entry(Pose<Scalar>& pose, int element) {
     const int column = element % 4;
@@ -128,7 +135,7 @@ TYPED_TEST(InvalidInstanceOf, entry_of_a_pose_that_is_not_finite) {
          {TestFixture::Limits::quiet_NaN(), TestFixture::Limits::infinity(), -TestFixture::Limits::infinity()}) {
       Pose<TypeParam> pose;
       this->entry(pose, element) = bad;
-      this->expect_refused(pose, Reason::non_finite_pose, static_cast<std::size_t>(element));
+      this->expect_refused(pose, Reason::non_finite_pose, static_cast<std::size_t>(element), this->name_of(element));
     }
   }
 }
@@ -150,7 +157,8 @@ TYPED_TEST(InvalidInstanceOf, entry_of_a_matrix_that_is_out_of_range) {
       for (const TypeParam bad : {size, -size}) {
         Pose<TypeParam> pose;
         this->entry(pose, element) = bad;
-        this->expect_refused(pose, Reason::pose_out_of_range, static_cast<std::size_t>(element));
+        this->expect_refused(pose, Reason::pose_out_of_range, static_cast<std::size_t>(element),
+                             this->name_of(element));
       }
     }
   }
