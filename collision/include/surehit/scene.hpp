@@ -166,17 +166,19 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   [[nodiscard]] bool contains(InstanceId id) const noexcept;
   /// Returns the ids of all instances, in order. May throw std::bad_alloc.
   [[nodiscard]] std::vector<InstanceId> instances() const;
-  /// Returns the pose that was set last. The id must be that of an instance, here and below, or of one that was removed
+  /// Returns the pose that was set last. The id is that of an instance, here and below, or of one that was removed
   /// since the last commit: a hit may have it. The reference is valid until an instance is added.
-  [[nodiscard]] const Pose<Scalar>& pose(InstanceId id) const noexcept;
+  ///
+  /// Throws an InvalidInstance if the id is stale, here and below. A library without exceptions ends the program.
+  [[nodiscard]] const Pose<Scalar>& pose(InstanceId id) const;
   /// Returns the motion that was set last. It is zero if none was set. The reference is valid as that of the pose.
-  [[nodiscard]] const Vector3<Scalar>& motion(InstanceId id) const noexcept;
+  [[nodiscard]] const Vector3<Scalar>& motion(InstanceId id) const;
   /// Returns the mask that was set last.
-  [[nodiscard]] std::uint32_t mask(InstanceId id) const noexcept;
+  [[nodiscard]] std::uint32_t mask(InstanceId id) const;
   /// Returns `InstanceOptions::user_data`.
-  [[nodiscard]] std::uint64_t user_data(InstanceId id) const noexcept;
+  [[nodiscard]] std::uint64_t user_data(InstanceId id) const;
   /// Returns the number of triangles of the instance's collider.
-  [[nodiscard]] std::size_t triangle_count(InstanceId id) const noexcept;
+  [[nodiscard]] std::size_t triangle_count(InstanceId id) const;
 
   /// Returns the memory that the scene has allocated, without its colliders, in bytes.
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
@@ -184,10 +186,10 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
   /// Returns the corners of a placed triangle at t = 0, as the pose that was set last places it. Each coordinate is the
   /// exact one, rounded once to nearest. `triangle` must be below `triangle_count(id)`. A shape that touches the exact
   /// image may miss the rounded one, so ask the scene for the `contact_point` and the `contact_normal` of a hit.
-  [[nodiscard]] Triangle<Scalar> triangle(InstanceId id, std::uint32_t triangle) const noexcept;
+  [[nodiscard]] Triangle<Scalar> triangle(InstanceId id, std::uint32_t triangle) const;
   /// Returns the unit normal of a placed triangle, as `surehit::normal` returns that of a triangle: within 2 ulp(1).
   /// It is that of the exact image, before any corner is rounded.
-  [[nodiscard]] Vector3<Scalar> normal(InstanceId id, std::uint32_t triangle) const noexcept;
+  [[nodiscard]] Vector3<Scalar> normal(InstanceId id, std::uint32_t triangle) const;
 
  private:
 #if defined(__cpp_exceptions)

@@ -36,21 +36,23 @@ class SUREHIT_API SceneSnapshot : public SceneQueries<Scalar> {
   [[nodiscard]] bool contains(InstanceId id) const noexcept;
   /// Returns the ids of all committed instances, in order. May throw std::bad_alloc.
   [[nodiscard]] std::vector<InstanceId> instances() const;
-  /// Returns the committed pose. The id must be that of a committed instance, here and below. The reference is valid
-  /// until this snapshot is destroyed or assigned.
-  [[nodiscard]] const Pose<Scalar>& pose(InstanceId id) const noexcept SUREHIT_LIFETIMEBOUND;
+  /// Returns the committed pose. The reference is valid until this snapshot is destroyed or assigned.
+  ///
+  /// Throws an InvalidInstance if the id is not that of a committed instance, here and below. A library without
+  /// exceptions ends the program.
+  [[nodiscard]] const Pose<Scalar>& pose(InstanceId id) const SUREHIT_LIFETIMEBOUND;
   /// Returns the committed motion. The reference is valid as long as that of the pose.
-  [[nodiscard]] const Vector3<Scalar>& motion(InstanceId id) const noexcept SUREHIT_LIFETIMEBOUND;
+  [[nodiscard]] const Vector3<Scalar>& motion(InstanceId id) const SUREHIT_LIFETIMEBOUND;
   /// Returns the committed mask.
-  [[nodiscard]] std::uint32_t mask(InstanceId id) const noexcept;
+  [[nodiscard]] std::uint32_t mask(InstanceId id) const;
   /// Returns `InstanceOptions::user_data`.
-  [[nodiscard]] std::uint64_t user_data(InstanceId id) const noexcept;
+  [[nodiscard]] std::uint64_t user_data(InstanceId id) const;
   /// Returns the number of triangles of the instance's collider.
-  [[nodiscard]] std::size_t triangle_count(InstanceId id) const noexcept;
+  [[nodiscard]] std::size_t triangle_count(InstanceId id) const;
   /// Returns the corners of a placed triangle, see `Scene::triangle`. It is placed by the committed pose.
-  [[nodiscard]] Triangle<Scalar> triangle(InstanceId id, std::uint32_t triangle) const noexcept;
+  [[nodiscard]] Triangle<Scalar> triangle(InstanceId id, std::uint32_t triangle) const;
   /// Returns the unit normal of a placed triangle, see `Scene::normal`.
-  [[nodiscard]] Vector3<Scalar> normal(InstanceId id, std::uint32_t triangle) const noexcept;
+  [[nodiscard]] Vector3<Scalar> normal(InstanceId id, std::uint32_t triangle) const;
 
  private:
   friend class Scene<Scalar>;

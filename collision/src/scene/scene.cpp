@@ -1,7 +1,6 @@
 #include "surehit/scene.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "scene/instance_triangle.hpp"
 #include "scene/invalid_pose.hpp"
 #include "scene/scene_state.hpp"
+#include "scene/stale_id.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/in_parts.hpp"
 #include "support/never_destroyed.hpp"
@@ -24,12 +24,6 @@ using SceneStateOf = detail::SceneState<Scalar>;
 
 InvalidInstance no_collider() {
   return {InvalidInstance::Reason::no_collider, 0, "the pointer to the collider is null"};
-}
-
-InvalidInstance stale(InstanceId id) {
-  return {InvalidInstance::Reason::stale_id, id.index,
-          "there is no instance with index " + std::to_string(id.index) + " and generation " +
-              std::to_string(id.generation)};
 }
 
 }  // namespace
@@ -101,7 +95,7 @@ InstanceResult Scene<Scalar>::try_add(FloatColliderPointer collider, const Pose<
 template <FloatOrDouble Scalar>
 InstanceResult Scene<Scalar>::try_remove(InstanceId id) {
   auto* const instance = state_ ? state_->find(id) : nullptr;
-  if (instance == nullptr) return stale(id);
+  if (instance == nullptr) return detail::stale_id(id);
   // The collider stays until the commit, because queries may still use it. So does the index.
   instance->is_there = false;
   ++instance->generation;
@@ -114,7 +108,7 @@ template <FloatOrDouble Scalar>
 InstanceResult Scene<Scalar>::set_either_collider(InstanceId id, ColliderPointer collider,
                                                   std::shared_ptr<const Collider<float>> float_collider) {
   auto* const instance = state_ ? state_->find(id) : nullptr;
-  if (instance == nullptr) return stale(id);
+  if (instance == nullptr) return detail::stale_id(id);
   if (!collider && !float_collider) return no_collider();
   // Queries use the other one until the commit, which has a share of it.
   instance->set_collider(std::move(collider), std::move(float_collider));
@@ -140,7 +134,7 @@ template <FloatOrDouble Scalar>
 InstanceResult Scene<Scalar>::try_set_pose(InstanceId id, const Pose<Scalar>& pose) {
   const FloatingPointEnvironment environment;
   auto* const instance = state_ ? state_->find(id) : nullptr;
-  if (instance == nullptr) return stale(id);
+  if (instance == nullptr) return detail::stale_id(id);
   if (std::optional<InvalidInstance> invalid = detail::find_invalid(pose)) return *std::move(invalid);
   instance->placement.pose = pose;
   state_->note_change(id.index);
@@ -151,7 +145,7 @@ template <FloatOrDouble Scalar>
 InstanceResult Scene<Scalar>::try_set_motion(InstanceId id, const Vector3<Scalar>& motion) {
   const FloatingPointEnvironment environment;
   auto* const instance = state_ ? state_->find(id) : nullptr;
-  if (instance == nullptr) return stale(id);
+  if (instance == nullptr) return detail::stale_id(id);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (std::isfinite(motion[static_cast<Eigen::Index>(axis)])) continue;
     return InvalidInstance(InvalidInstance::Reason::non_finite_motion, axis,
@@ -166,7 +160,7 @@ InstanceResult Scene<Scalar>::try_set_motion(InstanceId id, const Vector3<Scalar
 template <FloatOrDouble Scalar>
 InstanceResult Scene<Scalar>::try_set_mask(InstanceId id, std::uint32_t mask) {
   auto* const instance = state_ ? state_->find(id) : nullptr;
-  if (instance == nullptr) return stale(id);
+  if (instance == nullptr) return detail::stale_id(id);
   instance->options.mask = mask;
   state_->note_change(id.index);
   return id;
@@ -221,33 +215,28 @@ std::vector<InstanceId> Scene<Scalar>::instances() const {
 }
 
 template <FloatOrDouble Scalar>
-const Pose<Scalar>& Scene<Scalar>::pose(InstanceId id) const noexcept {
-  assert(state().find_of_hit(id) != nullptr);
-  return state().find_of_hit(id)->placement.pose;
+const Pose<Scalar>& Scene<Scalar>::pose(InstanceId id) const {
+  return detail::known_instance(state().find_of_hit(id), id).placement.pose;
 }
 
 template <FloatOrDouble Scalar>
-const Vector3<Scalar>& Scene<Scalar>::motion(InstanceId id) const noexcept {
-  assert(state().find_of_hit(id) != nullptr);
-  return state().find_of_hit(id)->placement.motion;
+const Vector3<Scalar>& Scene<Scalar>::motion(InstanceId id) const {
+  return detail::known_instance(state().find_of_hit(id), id).placement.motion;
 }
 
 template <FloatOrDouble Scalar>
-std::uint32_t Scene<Scalar>::mask(InstanceId id) const noexcept {
-  assert(state().find_of_hit(id) != nullptr);
-  return state().find_of_hit(id)->options.mask;
+std::uint32_t Scene<Scalar>::mask(InstanceId id) const {
+  return detail::known_instance(state().find_of_hit(id), id).options.mask;
 }
 
 template <FloatOrDouble Scalar>
-std::uint64_t Scene<Scalar>::user_data(InstanceId id) const noexcept {
-  assert(state().find_of_hit(id) != nullptr);
-  return state().find_of_hit(id)->options.user_data;
+std::uint64_t Scene<Scalar>::user_data(InstanceId id) const {
+  return detail::known_instance(state().find_of_hit(id), id).options.user_data;
 }
 
 template <FloatOrDouble Scalar>
-std::size_t Scene<Scalar>::triangle_count(InstanceId id) const noexcept {
-  assert(state().find_of_hit(id) != nullptr);
-  return detail::triangle_count(state().find_of_hit(id)->mesh());
+std::size_t Scene<Scalar>::triangle_count(InstanceId id) const {
+  return detail::triangle_count(detail::known_instance(state().find_of_hit(id), id).mesh());
 }
 
 template <FloatOrDouble Scalar>
@@ -257,16 +246,14 @@ std::size_t Scene<Scalar>::memory_bytes() const noexcept {
 }
 
 template <FloatOrDouble Scalar>
-Triangle<Scalar> Scene<Scalar>::triangle(InstanceId id, std::uint32_t triangle) const noexcept {
-  assert(state().find_of_hit(id) != nullptr);
-  const detail::PendingInstance<Scalar>& instance = *state().find_of_hit(id);
+Triangle<Scalar> Scene<Scalar>::triangle(InstanceId id, std::uint32_t triangle) const {
+  const detail::PendingInstance<Scalar>& instance = detail::known_instance(state().find_of_hit(id), id);
   return detail::placed_corners(instance.mesh(), instance.placement, triangle);
 }
 
 template <FloatOrDouble Scalar>
-Vector3<Scalar> Scene<Scalar>::normal(InstanceId id, std::uint32_t triangle) const noexcept {
-  assert(state().find_of_hit(id) != nullptr);
-  const detail::PendingInstance<Scalar>& instance = *state().find_of_hit(id);
+Vector3<Scalar> Scene<Scalar>::normal(InstanceId id, std::uint32_t triangle) const {
+  const detail::PendingInstance<Scalar>& instance = detail::known_instance(state().find_of_hit(id), id);
   return detail::placed_normal(instance.mesh(), instance.placement, triangle);
 }
 

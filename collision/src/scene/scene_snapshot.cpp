@@ -1,9 +1,8 @@
 #include "surehit/scene_snapshot.hpp"
 
-#include <cassert>
-
 #include "scene/committed_scene.hpp"
 #include "scene/instance_triangle.hpp"
+#include "scene/stale_id.hpp"
 #include "support/rounding_flags.hpp"
 
 namespace surehit {
@@ -31,46 +30,40 @@ std::vector<InstanceId> SceneSnapshot<Scalar>::instances() const {
 }
 
 template <FloatOrDouble Scalar>
-const Pose<Scalar>& SceneSnapshot<Scalar>::pose(InstanceId id) const noexcept {
-  assert(contains(id));
-  return this->committed().find(id)->placed.placement.pose;
+const Pose<Scalar>& SceneSnapshot<Scalar>::pose(InstanceId id) const {
+  return detail::known_instance(this->committed().find(id), id).placed.placement.pose;
 }
 
 template <FloatOrDouble Scalar>
-const Vector3<Scalar>& SceneSnapshot<Scalar>::motion(InstanceId id) const noexcept {
-  assert(contains(id));
-  return this->committed().find(id)->placed.placement.motion;
+const Vector3<Scalar>& SceneSnapshot<Scalar>::motion(InstanceId id) const {
+  return detail::known_instance(this->committed().find(id), id).placed.placement.motion;
 }
 
 template <FloatOrDouble Scalar>
-std::uint32_t SceneSnapshot<Scalar>::mask(InstanceId id) const noexcept {
-  assert(contains(id));
-  return this->committed().find(id)->mask;
+std::uint32_t SceneSnapshot<Scalar>::mask(InstanceId id) const {
+  return detail::known_instance(this->committed().find(id), id).mask;
 }
 
 template <FloatOrDouble Scalar>
-std::uint64_t SceneSnapshot<Scalar>::user_data(InstanceId id) const noexcept {
-  assert(contains(id));
+std::uint64_t SceneSnapshot<Scalar>::user_data(InstanceId id) const {
+  static_cast<void>(detail::known_instance(this->committed().find(id), id));
   return this->committed().kept[id.index].user_data;
 }
 
 template <FloatOrDouble Scalar>
-std::size_t SceneSnapshot<Scalar>::triangle_count(InstanceId id) const noexcept {
-  assert(contains(id));
-  return detail::triangle_count(this->committed().find(id)->mesh);
+std::size_t SceneSnapshot<Scalar>::triangle_count(InstanceId id) const {
+  return detail::triangle_count(detail::known_instance(this->committed().find(id), id).mesh);
 }
 
 template <FloatOrDouble Scalar>
-Triangle<Scalar> SceneSnapshot<Scalar>::triangle(InstanceId id, std::uint32_t triangle) const noexcept {
-  assert(contains(id));
-  const detail::CommittedInstance<Scalar>& instance = *this->committed().find(id);
+Triangle<Scalar> SceneSnapshot<Scalar>::triangle(InstanceId id, std::uint32_t triangle) const {
+  const detail::CommittedInstance<Scalar>& instance = detail::known_instance(this->committed().find(id), id);
   return detail::placed_corners(instance.mesh, instance.placed.placement, triangle);
 }
 
 template <FloatOrDouble Scalar>
-Vector3<Scalar> SceneSnapshot<Scalar>::normal(InstanceId id, std::uint32_t triangle) const noexcept {
-  assert(contains(id));
-  const detail::CommittedInstance<Scalar>& instance = *this->committed().find(id);
+Vector3<Scalar> SceneSnapshot<Scalar>::normal(InstanceId id, std::uint32_t triangle) const {
+  const detail::CommittedInstance<Scalar>& instance = detail::known_instance(this->committed().find(id), id);
   return detail::placed_normal(instance.mesh, instance.placed.placement, triangle);
 }
 

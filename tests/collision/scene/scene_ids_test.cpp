@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,28 @@ class SceneIds : public testing::Test {
     expect_error(scene.try_set_motion(id, {0, 0, 0}));
     expect_error(scene.try_set_mask(id, 1));
     EXPECT_THROW(scene.remove(id), InvalidInstance);
+  }
+
+  /// No other instance answers for a stale id, and neither does what is left of one.
+  template <typename Subject>
+  static void expect_unknown(const Subject& subject, InstanceId id) {
+    const auto expect_error = [&](const auto& ask) {
+      try {
+        ask();
+        ADD_FAILURE() << "answered";
+      } catch (const InvalidInstance& error) {
+        EXPECT_EQ(error.reason, Reason::stale_id);
+        EXPECT_EQ(error.element, id.index);
+        EXPECT_NE(std::string(error.what()).find(std::to_string(id.index)), std::string::npos) << error.what();
+      }
+    };
+    expect_error([&] { return subject.pose(id).translation[2]; });
+    expect_error([&] { return subject.motion(id)[2]; });
+    expect_error([&] { return subject.mask(id); });
+    expect_error([&] { return subject.user_data(id); });
+    expect_error([&] { return subject.triangle_count(id); });
+    expect_error([&] { return subject.triangle(id, 0); });
+    expect_error([&] { return subject.normal(id, 0); });
   }
 
   std::shared_ptr<Collider<Scalar>> floor = stack_collider<Scalar>(1);
@@ -128,6 +151,44 @@ TYPED_TEST(SceneIds, removed_instance_answers_until_the_commit_by_its_old_id) {
   const auto after = this->scene.first_hit(this->across());
   ASSERT_TRUE(after);
   EXPECT_EQ(after->instance, later);
+}
+
+TYPED_TEST(SceneIds, nothing_is_known_of_a_stale_id) {
+  this->expect_unknown(this->scene, {});
+  this->expect_unknown(this->scene, {0, 0});
+  const auto old = this->add();
+  this->expect_unknown(this->scene, {});
+  this->expect_unknown(this->scene, {1, 0});
+  this->expect_unknown(this->scene, {old.index, old.generation + 1});
+  this->scene.commit();
+  this->scene.remove(old);
+  this->expect_unknown(this->scene, {old.index, old.generation + 1});
+  this->scene.commit();
+  this->expect_unknown(this->scene, old);
+  // The index is in use again.
+  const auto later = this->add(at_height<TypeParam>(1), {.user_data = 7});
+  ASSERT_EQ(later.index, old.index);
+  this->expect_unknown(this->scene, old);
+  EXPECT_EQ(this->scene.user_data(later), 7U);
+}
+
+TYPED_TEST(SceneIds, a_snapshot_knows_nothing_of_a_stale_id) {
+  this->expect_unknown(this->scene.snapshot(), {});
+  const auto old = this->add();
+  this->expect_unknown(this->scene.snapshot(), old);  // It is not committed.
+  this->scene.commit();
+  const auto before = this->scene.snapshot();
+  this->expect_unknown(before, {1, 0});
+  this->scene.remove(old);
+  this->scene.commit();
+  const auto later = this->add(at_height<TypeParam>(1), {.user_data = 7});
+  this->expect_unknown(this->scene.snapshot(), old);
+  this->scene.commit();
+  ASSERT_EQ(later.index, old.index);
+  this->expect_unknown(this->scene.snapshot(), old);
+  this->expect_unknown(before, later);
+  EXPECT_EQ(before.user_data(old), 0U);
+  EXPECT_EQ(this->scene.snapshot().user_data(later), 7U);
 }
 
 TYPED_TEST(SceneIds, instances_are_in_order) {
