@@ -150,10 +150,13 @@ TEST(OneInstance, LeavesOutWhatIsAskedFor) {
     scene.first_hits(placed, own, {.path_options = own_options});
     scene.first_hits(placed, even, {.filter = is_even});
     scene.first_hits(placed, masked, {.options = {.mask = 2}});
+    std::vector<std::uint8_t> blocked(placed.size());
+    scene.any_hits(placed, blocked, {.options = {.mask = 2}});
     for (std::size_t i = 0; i < placed.size(); ++i) {
       EXPECT_TRUE(same_bits(own[i], scene.first_hit(placed[i], own_options[i]).value_or(SceneHitf{}))) << i;
       EXPECT_TRUE(same_bits(even[i], scene.first_hit(placed[i], is_even).value_or(SceneHitf{}))) << i;
       EXPECT_TRUE(same_bits(masked[i], scene.first_hit(placed[i], {.mask = 2}).value_or(SceneHitf{}))) << i;
+      EXPECT_EQ(blocked[i] != 0, scene.any_hit(placed[i], {.mask = 2})) << i;
     }
     const auto is_hit = [](const SceneHitf& hit) { return hit.triangle != SceneHitf{}.triangle; };
     EXPECT_GT(std::count_if(even.begin(), even.end(), is_hit), 20);
