@@ -200,7 +200,7 @@ void add_product(CompactInt<Out>& out, std::int64_t a, std::int64_t b, int expon
   out.add(CompactInt<Out>::of(static_cast<std::int64_t>(static_cast<std::uint64_t>(a * b) << exponent)), subtract);
 }
 
-/// The integers of one number, of the sizes that `add_product` multiplies.
+/// The integers of one number, of the sizes that `add_product` multiplies (I16).
 template <typename Int, typename Scalar>
 struct PlacedFactor;
 template <int B, typename Scalar>
@@ -313,7 +313,7 @@ struct Limit {
 
   template <int B>
   void store(Ratio<WideInt<B>>& out) const {
-    static_assert(B >= 2 * AnySize<Scalar>::coordinate);
+    static_assert(B >= 2 * AnySize<Scalar>::coordinate);  // I16
     out.num = WideInt<B>::shifted(parts.significand, std::max(parts.exponent, 0), parts.negative);
     out.den = WideInt<B>::power_of_two(std::max(-parts.exponent, 0));
   }

@@ -20,13 +20,13 @@ struct AnySize {
 };
 
 /// The integers for any coordinates of placed triangles. These are sums of products with the entries of a pose, and of
-/// a motion with a share of at most 1. The entries are between 2^-64 and 2^64.
+/// a motion with a share of at most 1. The entries are between 2^-64 and 2^64. POSES.md derives the sizes (I16).
 template <typename Scalar>
 struct PlacedSize {
-  static constexpr int max_exponent = std::numeric_limits<Scalar>::max_exponent + 68;
+  static constexpr int max_exponent = std::numeric_limits<Scalar>::max_exponent + 66;
   static constexpr int min_exponent =
       Decomposed<Scalar>::min_exponent +
-      std::min(-64 - std::numeric_limits<Scalar>::digits, Decomposed<Scalar>::min_exponent);
+      std::min(-63 - std::numeric_limits<Scalar>::digits, Decomposed<Scalar>::min_exponent);
   static constexpr int coordinate = max_exponent - min_exponent;
   template <int B>
   using Int = WideInt<B>;
