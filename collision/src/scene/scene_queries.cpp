@@ -7,6 +7,7 @@
 #include "query/answer_batch.hpp"
 #include "query/free_point.hpp"
 #include "scene/committed_scene.hpp"
+#include "scene/instance_in_place.hpp"
 #include "scene/scene_query.hpp"
 #include "support/floating_point_environment.hpp"
 #include "support/never_destroyed.hpp"
@@ -42,7 +43,12 @@ void answer_batch(const detail::CommittedScene<Scalar>& scene, const PathSpan<Sc
                             QueryStatistics& statistics) {
     const FloatingPointEnvironment environment;
     const detail::SceneQuery<Scalar> part{scene.instances, scene.tree, options.options, filter, statistics, first};
-    search(part, paths.subspan(first, last - first), own_options, answers.subspan(first, last - first));
+    const PathSpan<Scalar> some = paths.subspan(first, last - first);
+    if (own_options.empty() && detail::InstanceInPlace<Scalar>::answers(part)) {
+      detail::InstanceInPlace<Scalar>(part).each(some, answers.subspan(first, some.size()));
+    } else {
+      search(part, some, own_options, answers.subspan(first, some.size()));
+    }
   };
   detail::answer_batch(std::min(paths.size(), answers.size()), options, scene_paths_in_a_task, ask_part);
 }
@@ -94,6 +100,8 @@ std::optional<SceneHit<Scalar>> SceneQueries<Scalar>::first_hit(const Path<Scala
                                                                 const SceneQueryOptions<Scalar>& options,
                                                                 QueryStatistics* statistics) const noexcept {
   const SingleSceneQuery<Scalar> query(committed(), options, nullptr, statistics);
+  using InPlace = detail::InstanceInPlace<Scalar>;
+  if (InPlace::answers(query.get())) return InPlace(query.get()).first(path);
   return committed().searches->first(query.get(), path);
 }
 
@@ -109,6 +117,8 @@ template <FloatOrDouble Scalar>
 bool SceneQueries<Scalar>::any_hit(const Path<Scalar>& path, const SceneQueryOptions<Scalar>& options,
                                    QueryStatistics* statistics) const noexcept {
   const SingleSceneQuery<Scalar> query(committed(), options, nullptr, statistics);
+  using InPlace = detail::InstanceInPlace<Scalar>;
+  if (InPlace::answers(query.get())) return InPlace(query.get()).any(path);
   return committed().searches->any(query.get(), path);
 }
 

@@ -10,6 +10,8 @@
 
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
+#include "support/pair_text.hpp"
+#include "support/path_drawer.hpp"
 #include "support/random.hpp"
 #include "support/same_bits.hpp"
 #include "surehit/scene.hpp"
@@ -162,6 +164,89 @@ TEST(OneInstance, LeavesOutWhatIsAskedFor) {
     EXPECT_GT(std::count_if(even.begin(), even.end(), is_hit), 20);
     EXPECT_GT(std::count_if(masked.begin(), masked.end(), is_hit), 20);
   }
+}
+
+/// Compares the queries that the collider of an instance in place may answer with `all_hits`, which asks the instance.
+template <typename Scalar>
+void expect_what_all_hits_finds(const Scene<Scalar>& scene, const std::vector<Path<Scalar>>& paths,
+                                const SceneQueryOptions<Scalar>& options, std::size_t& hit_count) {
+  std::vector<Segment<Scalar>> segments;
+  std::vector<SceneHit<Scalar>> expected;
+  std::vector<SceneHit<Scalar>> expected_even;
+  std::vector<SceneHit<Scalar>> all;
+  const auto is_even = [](const SceneHit<Scalar>& hit) { return hit.triangle % 2 == 0; };
+  for (const Path<Scalar>& path : paths) {
+    scene.all_hits(path, all, options);
+    const SceneHit<Scalar> first = all.empty() ? SceneHit<Scalar>{} : all.front();
+    EXPECT_TRUE(same_bits(scene.first_hit(path, options).value_or(SceneHit<Scalar>{}), first)) << hex_text(path);
+    EXPECT_EQ(scene.any_hit(path, options), !all.empty()) << hex_text(path);
+    if (path.kind != PathKind::segment) continue;
+    hit_count += all.empty() ? 0 : 1;
+    segments.push_back({path.start, path.toward});
+    expected.push_back(first);
+    const auto even = std::find_if(all.begin(), all.end(), is_even);
+    expected_even.push_back(even == all.end() ? SceneHit<Scalar>{} : *even);
+  }
+  std::vector<SceneHit<Scalar>> hits(segments.size(), SceneHit<Scalar>{{.t = 7, .triangle = 3}, {}});
+  std::vector<std::uint8_t> blocked(segments.size(), 7);
+  QueryStatistics statistics;
+  scene.first_hits(segments, hits, {.options = options, .statistics = &statistics});
+  scene.any_hits(segments, blocked, {.options = options, .statistics = &statistics});
+  EXPECT_EQ(statistics.paths, 2 * segments.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    EXPECT_TRUE(same_bits(hits[i], expected[i])) << hex_text(Path<Scalar>(segments[i]));
+    EXPECT_EQ(blocked[i] != 0, expected[i].triangle != no_triangle) << hex_text(Path<Scalar>(segments[i]));
+  }
+  std::vector<SceneHit<Scalar>> even_hits(segments.size());
+  scene.first_hits(segments, even_hits, {.options = options, .filter = is_even});
+  // Where each path has options of its own, the others mean nothing.
+  const std::vector<SceneQueryOptions<Scalar>> own_options(segments.size(), options);
+  scene.first_hits(segments, hits, {.options = {.mask = 0}, .path_options = own_options});
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    EXPECT_TRUE(same_bits(even_hits[i], expected_even[i])) << hex_text(Path<Scalar>(segments[i]));
+    EXPECT_TRUE(same_bits(hits[i], expected[i])) << hex_text(Path<Scalar>(segments[i]));
+  }
+}
+
+template <typename Scalar>
+void ask_instance_in_place(Random& random) {
+  const auto mesh = scattered_triangles<Scalar>(600, Scalar(0.25), random);
+  std::vector<std::uint32_t> masks;
+  while (masks.size() < mesh.triangles.size()) masks.push_back(static_cast<std::uint32_t>(random.below(4)));
+  const auto collider = std::make_shared<Collider<Scalar>>(mesh.view(), BuildOptions{.masks = masks});
+  Scene<Scalar> scene;
+  scene.remove(scene.add(std::make_shared<Collider<Scalar>>(mesh.view())));
+  const InstanceId id = scene.add(collider);
+  PathDrawer<Scalar> drawer(mesh.view(), 4);
+  std::vector<Path<Scalar>> paths;
+  while (paths.size() < 3 * 700) paths.push_back(drawer.draw());
+  // In place, a little beside, mirrored, and in motion.
+  Pose<Scalar> mirrored;
+  mirrored.linear(0, 0) = -1;
+  for (const Pose<Scalar>& pose : {Pose<Scalar>{}, Pose<Scalar>::translated({0, 0, Scalar(0x1p-20)}), mirrored}) {
+    for (const bool moves : {false, true}) {
+      scene.set_pose(id, pose);
+      scene.set_motion(id, {0, moves ? Scalar(0.5) : Scalar{0}, 0});
+      scene.commit();
+      const auto some = std::vector(paths.begin(), paths.begin() + (moves ? 200 : 2100));
+      std::size_t hits = 0;
+      expect_what_all_hits_finds<Scalar>(scene, some, {}, hits);
+      EXPECT_GT(hits, some.size() / 20);
+      expect_what_all_hits_finds<Scalar>(scene, some, {.min_t = Scalar(0.25), .max_t = Scalar(0.5)}, hits);
+      expect_what_all_hits_finds<Scalar>(scene, some, {.culling = Culling::front, .mask = 1}, hits);
+      expect_what_all_hits_finds<Scalar>(scene, some, {.ignored_instance = id, .ignored_triangle = 1}, hits);
+      expect_what_all_hits_finds<Scalar>(scene, some, {.ignored_instance = {7, 1}, .ignored_triangle = 1}, hits);
+      expect_what_all_hits_finds<Scalar>(scene, some, {.ignored_instance = id}, hits);
+      expect_what_all_hits_finds<Scalar>(scene, some, {.instance_mask = 0}, hits);
+      expect_what_all_hits_finds<Scalar>(scene, some, {.ignore_start_contact = true, .ignore_end_contact = true}, hits);
+    }
+  }
+}
+
+TEST(OneInstance, AnswersAsItsColliderWhereThatIs) {
+  Random random(6);
+  ask_instance_in_place<float>(random);
+  ask_instance_in_place<double>(random);
 }
 
 /// An empty collider is in no tree. So the scene has one instance that can be hit.
