@@ -11,11 +11,13 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/pair_families.hpp"
 #include "support/path_drawer.hpp"
+#include "support/random.hpp"
 #include "support/same_bits.hpp"
 #include "support/scalars.hpp"
 #include "support/scene_drawer.hpp"
 #include "support/scene_path_drawer.hpp"
 #include "surehit/collider.hpp"
+#include "surehit/intersect.hpp"
 #include "surehit/scene.hpp"
 
 namespace surehit::test::sizeless_shapes_test {
