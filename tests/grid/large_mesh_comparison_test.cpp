@@ -20,6 +20,7 @@ std::size_t entry_budget(std::size_t triangles) { return 9 * std::max(std::size_
 template <typename Scalar>
 class LargeMeshComparison : public testing::Test {
  protected:
+  /// Returns a million, or the share of it that is asked for.
   static std::size_t million() { return case_count(1'000'000); }
 
   /// Asking a million triangles takes its time, so paths are few.
