@@ -101,10 +101,6 @@ GridFrame GridFrame::around(const Box<Scalar>& box, const std::array<double, 3>&
   return frame;
 }
 
-double GridFrame::to_cells(std::size_t axis, double scaled_coordinate) const noexcept {
-  return (scaled_coordinate - origin[axis]) * scale[axis] + double{margin[axis]};
-}
-
 void GridFrame::begin_at(std::uint32_t top) noexcept {
   first_top = top;
   for (std::uint32_t octant = 0; octant < 8; ++octant) {

@@ -72,7 +72,9 @@ struct GridFrame {
     return padding_share * static_cast<float>(resolution(axis));
   }
   /// Returns X of a scaled coordinate, with three roundings of double.
-  [[nodiscard]] double to_cells(std::size_t axis, double scaled_coordinate) const noexcept;
+  [[nodiscard]] double to_cells(std::size_t axis, double scaled_coordinate) const noexcept {
+    return (scaled_coordinate - origin[axis]) * scale[axis] + double{margin[axis]};
+  }
 };
 
 }  // namespace surehit

@@ -149,14 +149,19 @@ class SweptWalk {
     return true;
   }
 
+  /// Returns the octant of the way. There is no branch for a direction, because a processor cannot predict it.
+  static std::uint32_t octant_of(const std::array<Axis, 3>& axes) {
+    std::uint32_t octant = 0;
+    for (std::size_t i = 0; i < 3; ++i) octant |= std::uint32_t{axes[i].way < 0} << i;
+    return octant;
+  }
+
   /// The axes in the order in which the walk goes through the top cells of a frame. It goes along the way on each axis.
   struct TopOrder {
-    TopOrder(const GridFrame& frame, const std::array<Axis, 3>& axes) : frame(frame), axes(axes) {
+    TopOrder(const GridFrame& frame, const std::array<Axis, 3>& axes)
+        : frame(frame), axes(axes), octant(octant_of(axes)) {
       for (std::size_t i = 1; i < 3; ++i) {
         if (std::fabs(axes[order[i]].way) > std::fabs(axes[order[0]].way)) std::swap(order[0], order[i]);
-      }
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (axes[i].way < 0) octant |= 1U << i;
       }
     }
     [[nodiscard]] const Axis& outer() const { return axes[order[0]]; }   ///< It goes from slab to slab on this axis.
@@ -166,7 +171,7 @@ class SweptWalk {
     const GridFrame& frame;
     const std::array<Axis, 3>& axes;
     std::array<std::size_t, 3> order = {2, 1, 0};
-    std::uint32_t octant = 0;  ///< The octant of the way.
+    std::uint32_t octant;  ///< The octant of the way.
   };
 
   /// A block of top cells.
@@ -190,8 +195,8 @@ class SweptWalk {
   /// Goes through the top cells, slab by slab along the longest way. Leaves out slabs in which all cells that the box
   /// meets are empty (W5).
   void walk_top(const GridFrame& frame, const std::array<Axis, 3>& axes) {
+    if (stays_in_empty_cube(frame, axes)) return;
     const TopOrder top(frame, axes);
-    if (stays_in_empty_cube(top)) return;
     const Axis& outer = top.outer();
     const double size = frame.division;
     const double inverse_size = 1 / size;
@@ -216,18 +221,18 @@ class SweptWalk {
   }
 
   /// Returns true if one cube of empty cells has all top cells that the box meets (W5). Most small steps are such.
-  [[nodiscard]] bool stays_in_empty_cube(const TopOrder& top) {
-    const double inverse_size = 1.0 / top.frame.division;
-    std::size_t first = top.frame.first_top;
+  [[nodiscard]] bool stays_in_empty_cube(const GridFrame& frame, const std::array<Axis, 3>& axes) {
+    const double inverse_size = 1.0 / frame.division;
+    std::size_t first = frame.first_top;
     std::int64_t longest = 0;
-    for (const Axis& axis : top.axes) {
+    for (const Axis& axis : axes) {
       const Range range = axis.range(until_limit(), inverse_size);
       if (range[0] > range[1]) return true;
       first += static_cast<std::size_t>(axis.cell(range, 0)) * axis.pitch;
       longest = std::max(longest, range[1] - range[0] + 1);
     }
     const CellWord word = grid_.all_top()[first];
-    if (!word.is_empty() || word.distance(top.octant) < longest) return false;
+    if (!word.is_empty() || word.distance(octant_of(axes)) < longest) return false;
     visitor_.count_cell();
     return true;
   }
