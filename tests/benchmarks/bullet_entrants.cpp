@@ -36,6 +36,13 @@ class AnyHit : public btTriangleRaycastCallback {
   bool blocked = false;
 };
 
+/// Bullet has no rays. A segment that is three times as long as the way to a ray's target goes past the mesh.
+Segmentf cast_along(const PathBatch& paths, std::size_t index) {
+  Segmentf segment = paths.segments()[index];
+  if (paths.are_rays()) segment.end += 2 * (segment.end - segment.start);
+  return segment;
+}
+
 class BulletContender : public Contender {
  public:
   void build(const TriangleMeshViewf& mesh) override {
@@ -47,7 +54,7 @@ class BulletContender : public Contender {
 
   void first(const PathBatch& paths, std::span<Hitf> hits) const override {
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      FirstHit cast(paths.segments()[i]);
+      FirstHit cast(cast_along(paths, i));
       mesh_->shape().performRaycast(&cast, cast.m_from, cast.m_to);
       hits[i] = cast.hit;
     }
@@ -55,7 +62,7 @@ class BulletContender : public Contender {
 
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      AnyHit cast(paths.segments()[i]);
+      AnyHit cast(cast_along(paths, i));
       mesh_->shape().performRaycast(&cast, cast.m_from, cast.m_to);
       blocked[i] = cast.blocked ? 1 : 0;
     }

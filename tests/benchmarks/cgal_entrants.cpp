@@ -34,29 +34,32 @@ class CgalContender : public Contender {
   /// triangles that a segment meets are found, and ordered by t in double.
   void first(const PathBatch& paths, std::span<Hitf> hits) const override {
     std::vector<CgalPrimitive::Id> met;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      const CgalKernel::Segment_3 segment = to_cgal(paths.segments()[i]);
-      met.clear();
-      tree_.all_intersected_primitives(segment, std::back_inserter(met));
-      hits[i] = first_of(met, segment);
-    }
+    paths.visit([&](const auto& all) {
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const auto path = to_cgal(all[i]);
+        met.clear();
+        tree_.all_intersected_primitives(path, std::back_inserter(met));
+        hits[i] = first_of(met, path);
+      }
+    });
   }
 
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      blocked[i] = tree_.do_intersect(to_cgal(paths.segments()[i])) ? 1 : 0;
-    }
+    paths.visit([&](const auto& all) {
+      for (std::size_t i = 0; i < all.size(); ++i) blocked[i] = tree_.do_intersect(to_cgal(all[i])) ? 1 : 0;
+    });
   }
 
  private:
-  [[nodiscard]] Hitf first_of(const std::vector<CgalPrimitive::Id>& met, const CgalKernel::Segment_3& segment) const {
+  template <typename AnyPath>
+  [[nodiscard]] Hitf first_of(const std::vector<CgalPrimitive::Id>& met, const AnyPath& path) const {
     Hitf first;
     double least = std::numeric_limits<double>::infinity();
     for (const CgalPrimitive::Id& triangle : met) {
       const CgalKernel::Vector_3 normal =
           CGAL::cross_product(triangle->vertex(1) - triangle->vertex(0), triangle->vertex(2) - triangle->vertex(0));
-      const double along = normal * segment.to_vector();
-      const double t = along == 0 ? 0 : normal * (triangle->vertex(0) - segment.source()) / along;
+      const double along = normal * path.to_vector();
+      const double t = along == 0 ? 0 : normal * (triangle->vertex(0) - path.source()) / along;
       if (!(t < least)) continue;
       least = t;
       first.t = static_cast<float>(t);

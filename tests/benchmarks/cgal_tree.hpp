@@ -22,6 +22,11 @@ inline CgalKernel::Point_3 to_cgal(const Vector3f& point) {
 
 inline CgalKernel::Segment_3 to_cgal(const Segmentf& segment) { return {to_cgal(segment.start), to_cgal(segment.end)}; }
 
+/// Expects that origin and direction have a sum that is a double, because the kernel rounds it.
+inline CgalKernel::Ray_3 to_cgal(const Rayf& ray) {
+  return {to_cgal(ray.origin), CgalKernel::Vector_3(CGAL::ORIGIN, to_cgal(ray.direction))};
+}
+
 inline CgalKernel::Triangle_3 to_cgal(const Trianglef& triangle) {
   return {to_cgal(triangle.a), to_cgal(triangle.b), to_cgal(triangle.c)};
 }

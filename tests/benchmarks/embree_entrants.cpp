@@ -30,7 +30,7 @@ class EmbreeSingle : public EmbreeContender {
   }
 };
 
-void set_rays(RTCRay8& rays, const PathOctet& octet) {
+void set_rays(RTCRay8& rays, const PathOctet& octet, float last_t) {
   const auto copy = [](const float(&from)[8], float* to) { std::copy_n(from, 8, to); };
   copy(octet.start[0], rays.org_x);
   copy(octet.start[1], rays.org_y);
@@ -39,7 +39,7 @@ void set_rays(RTCRay8& rays, const PathOctet& octet) {
   copy(octet.direction[1], rays.dir_y);
   copy(octet.direction[2], rays.dir_z);
   std::fill_n(rays.tnear, 8, 0.0f);
-  std::fill_n(rays.tfar, 8, 1.0f);
+  std::fill_n(rays.tfar, 8, last_t);
   std::fill_n(rays.time, 8, 0.0f);
   std::fill_n(rays.mask, 8, ~0u);
   std::fill_n(rays.flags, 8, 0u);
@@ -56,7 +56,7 @@ class EmbreePackets : public EmbreeContender {
     context.flags = coherence_;
     for (std::size_t i = 0; i < paths.octets().size(); ++i) {
       RTCRayHit8 query;
-      set_rays(query.ray, paths.octets()[i]);
+      set_rays(query.ray, paths.octets()[i], paths.last_t());
       std::fill_n(query.hit.primID, 8, RTC_INVALID_GEOMETRY_ID);
       std::fill_n(query.hit.geomID, 8, RTC_INVALID_GEOMETRY_ID);
       rtcIntersect8(all_valid, scene_.handle(), &context, &query);
@@ -74,7 +74,7 @@ class EmbreePackets : public EmbreeContender {
     context.flags = coherence_;
     for (std::size_t i = 0; i < paths.octets().size(); ++i) {
       RTCRay8 rays;
-      set_rays(rays, paths.octets()[i]);
+      set_rays(rays, paths.octets()[i], paths.last_t());
       rtcOccluded8(all_valid, scene_.handle(), &context, &rays);
       for (std::size_t lane = 0; lane < 8; ++lane) blocked[8 * i + lane] = rays.tfar[lane] < 0 ? 1 : 0;
     }

@@ -16,7 +16,7 @@ FlushedDenormals::FlushedDenormals() : control_(_mm_getcsr()) {
 
 FlushedDenormals::~FlushedDenormals() { _mm_setcsr(control_); }
 
-RTCRay ray_along(const Segmentf& segment) {
+RTCRay ray_along(const Segmentf& segment, float last_t) {
   const Vector3f direction = segment.end - segment.start;
   RTCRay ray = {};
   ray.org_x = segment.start.x();
@@ -25,7 +25,7 @@ RTCRay ray_along(const Segmentf& segment) {
   ray.dir_x = direction.x();
   ray.dir_y = direction.y();
   ray.dir_z = direction.z();
-  ray.tfar = 1;
+  ray.tfar = last_t;
   ray.mask = ~0u;
   return ray;
 }
@@ -36,7 +36,7 @@ void first_hits_of_rays(RTCScene scene, const PathBatch& paths, std::span<Hitf> 
   rtcInitIntersectContext(&context);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     RTCRayHit query;
-    query.ray = ray_along(paths.segments()[i]);
+    query.ray = ray_along(paths.segments()[i], paths.last_t());
     query.hit.primID = RTC_INVALID_GEOMETRY_ID;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -51,7 +51,7 @@ void any_hits_of_rays(RTCScene scene, const PathBatch& paths, std::span<std::uin
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    RTCRay ray = ray_along(paths.segments()[i]);
+    RTCRay ray = ray_along(paths.segments()[i], paths.last_t());
     rtcOccluded1(scene, &context, &ray);
     blocked[i] = ray.tfar < 0 ? 1 : 0;
   }

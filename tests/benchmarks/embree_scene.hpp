@@ -26,8 +26,8 @@ class FlushedDenormals {
   unsigned control_;
 };
 
-/// Returns the ray whose t goes from 0 at the start to 1 at the end.
-[[nodiscard]] RTCRay ray_along(const Segmentf& segment);
+/// Returns the ray whose t is 0 at the start and 1 at the end, and goes from 0 to `last_t`.
+[[nodiscard]] RTCRay ray_along(const Segmentf& segment, float last_t);
 
 /// Sets t and the triangle of each hit, a ray at a time. Of an instance, the triangle is that of its mesh.
 void first_hits_of_rays(RTCScene scene, const PathBatch& paths, std::span<Hitf> hits);

@@ -2,11 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
-#include <surehit/path.hpp>
 #include <surehit/triangle_mesh_view.hpp>
 #include <vector>
+
+#include "path_batch.hpp"
 
 namespace surehit::benchmark {
 
@@ -14,6 +14,6 @@ namespace surehit::benchmark {
 [[nodiscard]] std::string exact_judge();
 
 /// Whether each path meets anything, by exact arithmetic; of the first paths only where the judge is slow.
-[[nodiscard]] std::vector<std::uint8_t> exact_answers(const TriangleMeshViewf& mesh, std::span<const Segmentf> paths);
+[[nodiscard]] std::vector<std::uint8_t> exact_answers(const TriangleMeshViewf& mesh, const PathBatch& paths);
 
 }  // namespace surehit::benchmark

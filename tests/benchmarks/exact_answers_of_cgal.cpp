@@ -25,7 +25,8 @@ class ExactMesh {
     tree_.build();
   }
 
-  [[nodiscard]] bool meets(const CgalKernel::Segment_3& path) const {
+  template <typename AnyPath>
+  [[nodiscard]] bool meets(const AnyPath& path) const {
     const auto shape_meets = [&](const auto& shape) {
       return tree_.do_intersect(shape) ||
              std::any_of(slivers_.begin(), slivers_.end(), [&](const CgalKernel::Segment_3& sliver) {
@@ -46,11 +47,13 @@ class ExactMesh {
 
 std::string exact_judge() { return "CGAL's exact predicates"; }
 
-std::vector<std::uint8_t> exact_answers(const TriangleMeshViewf& mesh, std::span<const Segmentf> paths) {
+std::vector<std::uint8_t> exact_answers(const TriangleMeshViewf& mesh, const PathBatch& paths) {
   const ExactMesh exact(mesh);
   std::vector<std::uint8_t> answers(paths.size());
-  std::transform(paths.begin(), paths.end(), answers.begin(),
-                 [&](const Segmentf& path) { return static_cast<std::uint8_t>(exact.meets(to_cgal(path))); });
+  paths.visit([&](const auto& all) {
+    std::transform(all.begin(), all.end(), answers.begin(),
+                   [&](const auto& path) { return static_cast<std::uint8_t>(exact.meets(to_cgal(path))); });
+  });
   return answers;
 }
 

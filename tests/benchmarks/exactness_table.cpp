@@ -61,6 +61,7 @@ void measure_exactness(const Request& request, Report& report) {
   MarkdownTable table(header, 2);
   Request of_more_rounds = request;
   of_more_rounds.rounds *= times_as_many_rounds;
+  of_more_rounds.sets = sets_of_segments(request.sets);
   for (const ContestRow& row : measure_rows("exactness", entrants, of_more_rounds)) add_row(row, table, report);
   report.show("exactness: " + entrants.front().name() +
                   " and the same without its exact stage or its filter, whose any-hit decisions " + exact_judge() +

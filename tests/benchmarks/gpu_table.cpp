@@ -202,7 +202,7 @@ void add_meshes(const GpuDevice& device, const Request& request, GpuTables& tabl
   for (const NamedMesh& named : request.meshes) {
     const Colliderf collider(named.mesh.view());
     const GpuCollider on_gpu(device, collider);
-    for (const PathSet set : request.sets) {
+    for (const PathSet set : sets_of_segments(request.sets)) {
       tables.measure<Colliderf>(
           {collider, on_gpu}, {"", named.name, named.mesh.triangles.size(), name_of(set)},
           [&](std::size_t count, std::uint64_t seed) { return draw_paths(set, named, count, seed); });

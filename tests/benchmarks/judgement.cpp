@@ -13,7 +13,7 @@ std::vector<Judgement> judge(const std::vector<Entrant>& entrants, const Triangl
   std::vector<std::vector<std::uint8_t>> exact;
   std::vector<Judgement> judgements;
   for (const PathSample& sample : samples) {
-    exact.push_back(exact_answers(mesh, sample.paths.segments()));
+    exact.push_back(exact_answers(mesh, sample.paths));
     const std::size_t judged = exact.back().size();
     const auto hits = static_cast<double>(std::count(exact.back().begin(), exact.back().end(), 1));
     judgements.push_back({judged, hits / static_cast<double>(judged), {}});

@@ -150,18 +150,18 @@ Draw cell_draw(const NamedMesh& named) {
   };
 }
 
-Draw far_draw(const NamedMesh& named) {
+/// If `may_go_beyond`, one path in two ends as far beyond its target as it begins before it.
+Draw far_draw(const NamedMesh& named, bool may_go_beyond) {
   const Boxf box = named.box();
   const Vector3d centre = (box.low.cast<double>() + box.high.cast<double>()) / 2;
-  return [points = BoxPoints(box, 1), centre, diagonal = named.diagonal()](Random& random) {
+  return [points = BoxPoints(box, 1), centre, diagonal = named.diagonal(), may_go_beyond](Random& random) {
     const double distance = diagonal * std::pow(10.0, 1 + 2 * random.unit<double>());
     const Vector3d start = centre + distance * draw_direction(random);
     // A path that passes the mesh does so at a distance of a few diagonals.
     const bool is_aimed = random.one_in(2);
     const Vector3d target =
         is_aimed ? points.draw(random) : centre + (2 + 8 * random.unit<double>()) * diagonal * draw_direction(random);
-    // One path in two goes as far beyond, as a ray does.
-    return rounded(start, random.one_in(2) ? target : 2 * target - start);
+    return rounded(start, !may_go_beyond || random.one_in(2) ? target : 2 * target - start);
   };
 }
 
@@ -186,17 +186,24 @@ Draw draw_of(PathSet set, const NamedMesh& named) {
     case PathSet::cell_paths:
       return cell_draw(named);
     case PathSet::far_paths:
+      return far_draw(named, true);
+    case PathSet::far_rays:
       break;
   }
-  return far_draw(named);
+  return far_draw(named, false);
 }
 
 }  // namespace
 
 std::string name_of(PathSet set) {
-  constexpr std::array names = {"long",   "short",    "near",     "sight", "edge",
-                                "detail", "edge_end", "in_plane", "cells", "far"};
+  constexpr std::array names = {"long",     "short",    "near",  "sight", "edge",    "detail",
+                                "edge_end", "in_plane", "cells", "far",   "far_rays"};
   return names[static_cast<std::size_t>(set)];
+}
+
+std::vector<PathSet> sets_of_segments(std::vector<PathSet> sets) {
+  std::erase(sets, PathSet::far_rays);
+  return sets;
 }
 
 PathBatch draw_paths(PathSet set, const NamedMesh& named, std::size_t count, std::uint64_t seed) {
@@ -206,7 +213,7 @@ PathBatch draw_paths(PathSet set, const NamedMesh& named, std::size_t count, std
   do {
     segments.push_back(draw(random));
   } while (segments.size() < count || segments.size() % PathBatch::octet_size != 0);
-  return PathBatch(std::move(segments));
+  return PathBatch(std::move(segments), set == PathSet::far_rays);
 }
 
 }  // namespace surehit::benchmark

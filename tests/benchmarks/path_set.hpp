@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "named_mesh.hpp"
 #include "path_batch.hpp"
@@ -22,13 +23,18 @@ enum class PathSet {
   in_plane_paths,  ///< They lie in a triangle's plane, along an edge, or almost in the plane.
   cell_paths,      ///< They go from centre to centre of cubes, at most 12 cubes apart on each axis.
   far_paths,       ///< They begin 10 to 1,000 diagonals away, and are aimed at the mesh or past it.
+  far_rays,        ///< They are like far paths, but are rays.
 };
 
-inline constexpr std::array all_path_sets = {
-    PathSet::long_paths,   PathSet::short_paths,    PathSet::near_paths,     PathSet::sight_paths, PathSet::edge_paths,
-    PathSet::detail_paths, PathSet::edge_end_paths, PathSet::in_plane_paths, PathSet::cell_paths,  PathSet::far_paths};
+inline constexpr std::array all_path_sets = {PathSet::long_paths,     PathSet::short_paths,    PathSet::near_paths,
+                                             PathSet::sight_paths,    PathSet::edge_paths,     PathSet::detail_paths,
+                                             PathSet::edge_end_paths, PathSet::in_plane_paths, PathSet::cell_paths,
+                                             PathSet::far_paths,      PathSet::far_rays};
 
 [[nodiscard]] std::string name_of(PathSet set);
+
+/// Returns those of the sets that have segments.
+[[nodiscard]] std::vector<PathSet> sets_of_segments(std::vector<PathSet> sets);
 
 /// In random order, the same every time for the same seed; `count` is rounded up to whole octets.
 [[nodiscard]] PathBatch draw_paths(PathSet set, const NamedMesh& named, std::size_t count, std::uint64_t seed = 1);

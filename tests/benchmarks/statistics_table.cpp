@@ -95,7 +95,7 @@ void measure_statistics(const Request& request, Report& report) {
   const UnitTimes unit = unit_times(request.rounds);
   for (const NamedMesh& named : request.meshes) {
     const Colliderf collider(named.mesh.view());
-    for (const PathSet set : request.sets) {
+    for (const PathSet set : sets_of_segments(request.sets)) {
       const PathSample sample(set, named, request.paths);
       const ExactStepTimes times = exact_step_times(collider, sample.paths.segments());
       for (const Question question : all_questions) {

@@ -23,29 +23,31 @@ class SurehitContender : public Contender {
 class SurehitBatch : public SurehitContender {
  public:
   void first(const PathBatch& paths, std::span<Hitf> hits) const override {
-    collider_.first_hits(paths.segments(), hits);
+    paths.visit([&](const auto& all) { collider_.first_hits(all, hits); });
   }
 
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
-    collider_.any_hits(paths.segments(), blocked);
+    paths.visit([&](const auto& all) { collider_.any_hits(all, blocked); });
   }
 
   void first_on_threads(const PathBatch& paths, std::span<const PathBatch>, Executor executor,
                         std::span<Hitf> hits) const override {
-    collider_.first_hits(paths.segments(), hits, {.executor = executor});
+    paths.visit([&](const auto& all) { collider_.first_hits(all, hits, {.executor = executor}); });
   }
 };
 
 class SurehitSingle : public SurehitContender {
  public:
   void first(const PathBatch& paths, std::span<Hitf> hits) const override {
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      hits[i] = collider_.first_hit(paths.segments()[i]).value_or(Hitf{});
-    }
+    paths.visit([&](const auto& all) {
+      for (std::size_t i = 0; i < all.size(); ++i) hits[i] = collider_.first_hit(all[i]).value_or(Hitf{});
+    });
   }
 
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
-    for (std::size_t i = 0; i < paths.size(); ++i) blocked[i] = collider_.any_hit(paths.segments()[i]) ? 1 : 0;
+    paths.visit([&](const auto& all) {
+      for (std::size_t i = 0; i < all.size(); ++i) blocked[i] = collider_.any_hit(all[i]) ? 1 : 0;
+    });
   }
 };
 
@@ -55,14 +57,14 @@ class SurehitSmallBatches : public SurehitContender {
   explicit SurehitSmallBatches(std::size_t size) : size_(size) {}
 
   void first(const PathBatch& paths, std::span<Hitf> hits) const override {
-    for_each_batch(paths, size_, [&](std::span<const Segmentf> segments, std::size_t begin) {
-      collider_.first_hits(segments, hits.subspan(begin, segments.size()));
+    for_each_batch(paths, size_, [&](const auto& some, std::size_t begin) {
+      collider_.first_hits(some, hits.subspan(begin, some.size()));
     });
   }
 
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
-    for_each_batch(paths, size_, [&](std::span<const Segmentf> segments, std::size_t begin) {
-      collider_.any_hits(segments, blocked.subspan(begin, segments.size()));
+    for_each_batch(paths, size_, [&](const auto& some, std::size_t begin) {
+      collider_.any_hits(some, blocked.subspan(begin, some.size()));
     });
   }
 
@@ -87,7 +89,7 @@ class SurehitInDouble : public Contender {
 
   void first(const PathBatch& paths, std::span<Hitf> hits) const override {
     hits_.resize(paths.size());
-    collider_.first_hits(paths.in_double(), hits_);
+    paths.visit_in_double([&](const auto& all) { collider_.first_hits(all, hits_); });
     for (std::size_t i = 0; i < hits.size(); ++i) {
       hits[i].t = static_cast<float>(hits_[i].t);
       hits[i].triangle = hits_[i].triangle;
@@ -95,7 +97,7 @@ class SurehitInDouble : public Contender {
   }
 
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) const override {
-    collider_.any_hits(paths.in_double(), blocked);
+    paths.visit_in_double([&](const auto& all) { collider_.any_hits(all, blocked); });
   }
 
  private:

@@ -64,16 +64,17 @@ class SurehitWorldSmallBatches : public SurehitWorld {
   explicit SurehitWorldSmallBatches(std::size_t size) : size_(size) {}
 
   void first(const PathBatch& paths, std::span<Hitf> hits) override {
-    std::vector<SceneHitf> some(size_);
-    for_each_batch(paths, size_, [&](std::span<const Segmentf> segments, std::size_t begin) {
-      scene_.first_hits(segments, std::span(some).first(segments.size()));
-      std::copy_n(some.begin(), segments.size(), hits.begin() + static_cast<std::ptrdiff_t>(begin));
+    std::vector<SceneHitf> room(size_);
+    for_each_batch(paths, size_, [&](const auto& some, std::size_t begin) {
+      const std::span found = std::span(room).first(some.size());
+      scene_.first_hits(some, found);
+      std::copy(found.begin(), found.end(), hits.begin() + static_cast<std::ptrdiff_t>(begin));
     });
   }
 
   void any(const PathBatch& paths, std::span<std::uint8_t> blocked) override {
-    for_each_batch(paths, size_, [&](std::span<const Segmentf> segments, std::size_t begin) {
-      scene_.any_hits(segments, blocked.subspan(begin, segments.size()));
+    for_each_batch(paths, size_, [&](const auto& some, std::size_t begin) {
+      scene_.any_hits(some, blocked.subspan(begin, some.size()));
     });
   }
 
