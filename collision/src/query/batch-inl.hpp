@@ -190,7 +190,7 @@ class Batch {
     const Path<Scalar> path = paths_[index_[slot]];
     ClippedPath clipped = clipped_to(frame, path, range);
     if (clipped.status == ClippedPath::Status::miss) return walks_on;
-    const bool can_return = !walks_on || ((in_inner_frame_ & bit) == 0 && free_outer_ != 0);
+    const bool can_return = !walks_on || (in_inner_frame_ & bit) == 0;
     if (clipped.status == ClippedPath::Status::too_far || (is_float && !clipped.is_unscaled()) || !can_return) {
       visited_ |= bit;
       const auto& query = queries_.query(index_[slot]);
@@ -211,10 +211,7 @@ class Batch {
     WalkingPaths& lanes = walks_[slot / max_lanes];
     const std::size_t lane = slot % max_lanes;
     if (walks_on) {
-      const int place = std::countr_zero(free_outer_);
-      free_outer_ &= free_outer_ - 1;
-      outer_of_[slot] = static_cast<std::uint8_t>(place);
-      OuterWalk& outer = outer_[static_cast<std::size_t>(place)];
+      OuterWalk& outer = outer_[slot];
       outer.path = WalkingPath(lanes, lane);
       outer.reach = jobs_.path(slot).reach;
       if constexpr (is_float) {
@@ -241,7 +238,7 @@ class Batch {
   HWY_INLINE std::uint64_t leave_inner(std::size_t slot) {
     const std::uint64_t bit = std::uint64_t{1} << slot;
     WalkingPaths& lanes = walks_[slot / max_lanes];
-    const OuterWalk& outer = outer_[outer_of_[slot]];
+    const OuterWalk& outer = outer_[slot];
     LaneWalk::put(slot % max_lanes, frame_, outer.path, lanes);
     LaneWalk::set_stop(slot % max_lanes, frame_, lanes);
     jobs_.path(slot).reach = outer.reach;
@@ -250,7 +247,7 @@ class Batch {
     } else {
       taus_[slot] = outer.parameter;
     }
-    free_outer(bit);
+    has_outer_ &= ~bit;
     in_inner_frame_ &= ~bit;
     if constexpr (Visitor::wants_order) shorten(slot, visitors_[slot].limit());
     return bit;
@@ -328,21 +325,13 @@ class Batch {
       visitors_[slot].reset();
     }
     visited_ &= ~ended;
-    free_outer(ended);
+    has_outer_ &= ~ended;
     for (std::uint64_t inner = ended & in_inner_frame_; inner != 0; inner &= inner - 1) {
       const auto slot = static_cast<std::size_t>(std::countr_zero(inner));
       LaneWalk::set_stop(slot % max_lanes, frame_, walks_[slot / max_lanes]);
     }
     in_inner_frame_ &= ~ended;
     jobs_.forget_moved(ended, queries_);
-  }
-
-  /// Forgets the outer walks of some slots.
-  void free_outer(std::uint64_t of_slots) {
-    for (std::uint64_t freed = has_outer_ & of_slots; freed != 0; freed &= freed - 1) {
-      free_outer_ |= 1U << outer_of_[static_cast<std::size_t>(std::countr_zero(freed))];
-    }
-    has_outer_ &= ~of_slots;
   }
 
   /// A walk through the first grid that goes on when the path has left an inner grid.
@@ -364,14 +353,10 @@ class Batch {
   Finish& finish_;                           ///< Is called when a path ends.
   std::uint64_t walking_ = 0;                ///< The slots that hold a path.
   const bool has_inner_grids_ = !query_.grid.inner_frames().empty();
-  std::uint64_t in_inner_ = 0;        ///< The slots whose cell has an inner grid.
-  std::uint64_t in_inner_frame_ = 0;  ///< The slots that walk through an inner grid.
-  std::uint64_t has_outer_ = 0;       ///< The slots with an outer walk.
-  /// The maximum number of outer walks. A path for which there is no place walks through the inner grid alone.
-  static constexpr std::size_t max_outer = 12;
-  std::array<OuterWalk, max_outer> outer_;            ///< The outer walks.
-  std::array<std::uint8_t, slots> outer_of_;          ///< The index of the outer walk of each slot that has one.
-  std::uint32_t free_outer_ = (1U << max_outer) - 1;  ///< The indices that no slot has.
+  std::uint64_t in_inner_ = 0;          ///< The slots whose cell has an inner grid.
+  std::uint64_t in_inner_frame_ = 0;    ///< The slots that walk through an inner grid.
+  std::uint64_t has_outer_ = 0;         ///< The slots with an outer walk.
+  std::array<OuterWalk, slots> outer_;  ///< The outer walks of the slots that have one.
   /// What `WalkingPaths::enters` leaves out of the t where tau is 0.
   std::array<float, is_float ? slots : 0> enters_rest_;
   std::uint64_t visited_ = 0;                             ///< The slots whose visitor was given a triangle.
