@@ -44,15 +44,6 @@ Draw short_draw(const NamedMesh& named) {
   };
 }
 
-/// Draws one of the triangles at which paths may be drawn, all alike.
-Trianglef draw_triangle(const NamedMesh& named, Random& random) {
-  const TriangleMeshViewf mesh = named.mesh.view();
-  for (;;) {
-    const Trianglef triangle = mesh.triangle(random.below(mesh.triangle_count()));
-    if (named.draws_at(triangle)) return triangle;
-  }
-}
-
 /// Returns a corner of a triangle. Corner 3 is corner 0 again.
 Vector3d corner_of(const Trianglef& triangle, std::size_t corner) {
   return (corner % 3 == 0 ? triangle.a : corner % 3 == 1 ? triangle.b : triangle.c).cast<double>();
@@ -199,6 +190,14 @@ std::string name_of(PathSet set) {
   constexpr std::array names = {"long",     "short",    "near",  "sight", "edge",    "detail",
                                 "edge_end", "in_plane", "cells", "far",   "far_rays"};
   return names[static_cast<std::size_t>(set)];
+}
+
+Trianglef draw_triangle(const NamedMesh& named, Random& random) {
+  const TriangleMeshViewf mesh = named.mesh.view();
+  for (;;) {
+    const Trianglef triangle = mesh.triangle(random.below(mesh.triangle_count()));
+    if (named.draws_at(triangle)) return triangle;
+  }
 }
 
 std::vector<PathSet> sets_of_segments(std::vector<PathSet> sets) {

@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <surehit/triangle.hpp>
 #include <vector>
 
 #include "named_mesh.hpp"
 #include "path_batch.hpp"
+#include "support/random.hpp"
 
 namespace surehit::benchmark {
 
@@ -32,6 +34,9 @@ inline constexpr std::array all_path_sets = {PathSet::long_paths,     PathSet::s
                                              PathSet::far_paths,      PathSet::far_rays};
 
 [[nodiscard]] std::string name_of(PathSet set);
+
+/// Draws one of the triangles at which paths may be drawn, all alike.
+[[nodiscard]] Trianglef draw_triangle(const NamedMesh& named, test::Random& random);
 
 /// Returns those of the sets that have segments.
 [[nodiscard]] std::vector<PathSet> sets_of_segments(std::vector<PathSet> sets);

@@ -8,14 +8,6 @@ namespace {
 
 using test::Random;
 
-Trianglef draw_triangle(const NamedMesh& named, Random& random) {
-  const TriangleMeshViewf mesh = named.mesh.view();
-  for (;;) {
-    const Trianglef triangle = mesh.triangle(random.below(mesh.triangle_count()));
-    if (named.draws_at(triangle)) return triangle;
-  }
-}
-
 /// Draws a triangle that is across an axis, if there are enough of them. Then the height of a shape above its plane is
 /// exact in float.
 Trianglef draw_triangle_across_axis(const NamedMesh& named, Random& random) {

@@ -51,7 +51,7 @@ Matrix3d turn_about_z(double half_tangent) {
   return turn;
 }
 
-Posef rounded(const Matrix3d& linear, const Vector3d& translation) {
+Posef rounded_pose(const Matrix3d& linear, const Vector3d& translation) {
   return {linear.cast<float>(), translation.cast<float>()};
 }
 
@@ -155,7 +155,8 @@ World town(float detail) {
     world.instances.push_back({0, Posef::translated(centre.cast<float>())});
     const auto place = [&](std::size_t mesh, double reach, double size) {
       const Vector3d offset(reach * random.symmetric<double>(), reach * random.symmetric<double>(), 0);
-      world.instances.push_back({mesh, rounded(size * turn_about_z(2 * random.symmetric<double>()), centre + offset)});
+      world.instances.push_back(
+          {mesh, rounded_pose(size * turn_about_z(2 * random.symmetric<double>()), centre + offset)});
     };
     place(1 + random.below(large_town_meshes), 1, 1);
     const std::size_t small = 1 + large_town_meshes;
@@ -182,7 +183,7 @@ World forest(float detail) {
   for (int i = 0; i < trees * trees; ++i) {
     const Vector3d place(apart * (i % trees), apart * (i / trees), 0);
     const Matrix3d turn = draw_rotation(random);
-    world.instances.push_back({0, rounded(turn, place + 1.5 * draw_in_unit_ball(random))});
+    world.instances.push_back({0, rounded_pose(turn, place + 1.5 * draw_in_unit_ball(random))});
   }
   const double middle = apart * (trees / 2) + apart / 2;
   world.eye = {middle, middle, 1};
@@ -201,7 +202,7 @@ World bricks(float detail) {
   for (int i = 0; i < count; ++i) {
     const Vector3d edges(draw_between(0.25, 2, random), draw_between(0.25, 2, random), draw_between(0.25, 2, random));
     const Matrix3d linear = draw_rotation(random) * edges.asDiagonal();
-    world.instances.push_back({0, rounded(linear, size * draw_in_unit_cube(random))});
+    world.instances.push_back({0, rounded_pose(linear, size * draw_in_unit_cube(random))});
   }
   world.eye = Vector3d::Constant(size / 2);
   return world;
@@ -244,7 +245,7 @@ World sizes(float detail) {
     const double size = draw_size(random);
     const Matrix3d turn = draw_rotation(random);
     const Vector3d place = centre + (reach + size / 2) * draw_in_unit_ball(random);
-    world.instances.push_back({mesh, rounded(size * turn, place)});
+    world.instances.push_back({mesh, rounded_pose(size * turn, place)});
   }
   return world;
 }
@@ -262,7 +263,7 @@ World one(const Posef& pose, float detail) {
 Posef turned_pose() {
   Random random(4);
   const Matrix3d turn = draw_rotation(random);
-  return rounded(turn, {10, -20, 30});
+  return rounded_pose(turn, {10, -20, 30});
 }
 
 struct WorldKind {
@@ -341,8 +342,8 @@ std::vector<Posef> moved_poses(const World& world, std::uint64_t seed) {
   std::vector<Posef> poses;
   for (const auto& [mesh, pose] : world.instances) {
     const Matrix3d turn = turn_about_z(0.05 * random.symmetric<double>());
-    poses.push_back(rounded(turn * pose.linear.cast<double>(),
-                            pose.translation.cast<double>() + reach * draw_in_unit_ball(random)));
+    poses.push_back(rounded_pose(turn * pose.linear.cast<double>(),
+                                 pose.translation.cast<double>() + reach * draw_in_unit_ball(random)));
   }
   return poses;
 }
