@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <bitset>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -53,24 +54,33 @@ Pair convert(const SweptBox<Scalar>& box, const Triangle<Scalar>& triangle) {
   return {start, whole(points[1]) - start, whole(points[2]), {whole(points[3]), whole(points[4]), whole(points[5])}};
 }
 
-/// The linear inequality row[0] u + row[1] v + row[2] t + row[3] >= 0.
-using Row = std::array<mpz_class, 4>;
+/// The linear inequality factors[0] u + factors[1] v + factors[2] t + factors[3] >= 0.
+struct Row {
+  std::array<mpz_class, 4> factors;
+  std::bitset<11> sources;  ///< The first inequalities that it is a sum of.
+};
 
 /// What remains of inequalities for the other unknowns: each row that bounds one unknown from below is added to each
 /// row that bounds it from above, so often that the unknown is gone. Unknowns before this one are gone already.
+///
+/// A sum of more than k + 1 first inequalities says nothing new after k unknowns are gone, and is left out (Kohler
+/// 1967).
 std::vector<Row> eliminated(const std::vector<Row>& rows, std::size_t unknown) {
+  const std::size_t max_sources = unknown + 2;
   std::vector<Row> rest;
   rest.reserve(rows.size() * rows.size() / 4 + rows.size());  // Each sum has a row of both kinds.
   for (const Row& low : rows) {
-    const int sign = sgn(low[unknown]);
+    const int sign = sgn(low.factors[unknown]);
     if (sign == 0) rest.push_back(low);
     if (sign <= 0) continue;
     for (const Row& high : rows) {
-      if (sgn(high[unknown]) >= 0) continue;
-      Row sum;
+      if (sgn(high.factors[unknown]) >= 0) continue;
+      Row sum = {{}, low.sources | high.sources};
+      if (sum.sources.count() > max_sources) continue;
       for (std::size_t i = unknown + 1; i < 4; ++i) {
-        sum[i] = high[i] * low[unknown];
-        mpz_submul(sum[i].get_mpz_t(), low[i].get_mpz_t(), high[unknown].get_mpz_t());
+        mpz_class& factor = sum.factors[i];
+        factor = high.factors[i] * low.factors[unknown];
+        mpz_submul(factor.get_mpz_t(), low.factors[i].get_mpz_t(), high.factors[unknown].get_mpz_t());
       }
       rest.push_back(std::move(sum));
     }
@@ -104,23 +114,32 @@ bool are_apart(const Pair& pair) {
 std::optional<mpq_class> first_time(const Pair& pair) {
   if (are_apart(pair)) return std::nullopt;
   const auto& [start, step, extents, corners] = pair;
-  std::vector<Row> rows = {{1, 0, 0, 0}, {0, 1, 0, 0}, {-1, -1, 0, 1}, {0, 0, 1, 0}, {0, 0, -1, 1}};
+  std::vector<Row> rows;
+  const auto add = [&](std::array<mpz_class, 4> factors) {
+    rows.push_back({std::move(factors), std::bitset<11>().set(rows.size())});
+  };
+  add({1, 0, 0, 0});
+  add({0, 1, 0, 0});
+  add({-1, -1, 0, 1});
+  add({0, 0, 1, 0});
+  add({0, 0, -1, 1});
   for (std::size_t i = 0; i < 3; ++i) {
     // The centre less the point.
-    const Row way = {mpz_class(corners[0][i] - corners[1][i]), mpz_class(corners[0][i] - corners[2][i]),
-                     mpz_class(step[i]), mpz_class(start[i] - corners[0][i])};
+    const std::array<mpz_class, 4> way = {mpz_class(corners[0][i] - corners[1][i]),
+                                          mpz_class(corners[0][i] - corners[2][i]), mpz_class(step[i]),
+                                          mpz_class(start[i] - corners[0][i])};
     const mpz_class reach(extents[i]);
-    rows.push_back({way[0], way[1], way[2], way[3] + reach});
-    rows.push_back({-way[0], -way[1], -way[2], reach - way[3]});
+    add({way[0], way[1], way[2], way[3] + reach});
+    add({-way[0], -way[1], -way[2], reach - way[3]});
   }
   rows = eliminated(eliminated(rows, 0), 1);
   Quotient low = {0, 1};
   Quotient high = {1, 1};
-  for (const Row& row : rows) {
-    const int sign = sgn(row[2]);
-    if (sign == 0 && row[3] < 0) return std::nullopt;
+  for (const auto& [factors, sources] : rows) {
+    const int sign = sgn(factors[2]);
+    if (sign == 0 && factors[3] < 0) return std::nullopt;
     if (sign == 0) continue;
-    Quotient bound = sign > 0 ? Quotient{-row[3], row[2]} : Quotient{row[3], -row[2]};
+    Quotient bound = sign > 0 ? Quotient{-factors[3], factors[2]} : Quotient{factors[3], -factors[2]};
     if (sign > 0 && low < bound) low = std::move(bound);
     if (sign < 0 && bound < high) high = std::move(bound);
   }
