@@ -20,8 +20,8 @@
 #include "filter/block_kernel-inl.hpp"
 #include "query/batch_queries-inl.hpp"
 #include "query/far_path.hpp"
+#include "query/hit_visitors-inl.hpp"
 #include "query/octet_boxes-inl.hpp"
-#include "query/query_walk-inl.hpp"
 #include "walk/lane_walk-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -8,122 +8,31 @@
 #endif
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <type_traits>
 #include <vector>
 
-#include "filter/block_kernel-inl.hpp"
 #include "filter/double_hit_rounding-inl.hpp"
 #include "filter/hit_rounding-inl.hpp"
 #include "filter/kernel_path.hpp"
-#include "query/clipped_to-inl.hpp"
-#include "query/hit_visitors-inl.hpp"
-#include "query/octet_boxes-inl.hpp"
-#if HWY_TARGET != HWY_SCALAR  // This target has no lanes.
-#include "walk/lane_walk-inl.hpp"
-#endif
 #include "grid/list_cells.hpp"
 #include "misses_box.hpp"
 #include "narrowphase.hpp"
+#include "query/clipped_to-inl.hpp"
 #include "query/far_path.hpp"
+#include "query/hit_visitors-inl.hpp"
+#include "query/list_visit-inl.hpp"
+#include "query/path_in_lanes-inl.hpp"
 #include "query/query.hpp"
-#include "scene/placed_path.hpp"
 #include "walk/far_clip.hpp"
 #include "walk/grid_traversal.hpp"
 #include "walk/main_grid_path.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surehit::detail::HWY_NAMESPACE {
-
-/// Returns the list of a cell. The cell must have one.
-template <typename Scalar>
-HWY_INLINE TriangleList<Scalar> list_of(const Query<Scalar>& query, CellWord word) {
-  const std::size_t first = query.grid.first_entry(word);
-  const Scalar* block = query.mesh.block(word.list(), first);
-  const std::size_t count = query.grid.entry_count(word);
-  return {MeshBlocks<Scalar>::corners(block), count, first, MeshBlocks<Scalar>::edge_size(block),
-          boxes_of(query.mesh, first, count)};
-}
-
-/// The path and its range, as the kernel needs them.
-template <typename Scalar>
-struct KernelInput {
-  KernelInput(const Path<Scalar>& any_path, const PathRange<Scalar>& range, const GridFrame& frame)
-      : path(any_path, frame), weights(range) {}
-  KernelInput(const KernelPath<Scalar>& any_path, const PathRange<Scalar>& range) : path(any_path), weights(range) {}
-  /// A placed path has the same form in all frames of a mesh, and a range of its own.
-  template <typename SceneScalar>
-  KernelInput(const PlacedPath<SceneScalar>& any_path, const PathRange<Scalar>&, const GridFrame&)
-      : path(any_path.template kernel_path<Scalar>()), weights(any_path.template kernel_weights<Scalar>()) {}
-  KernelInput(const FarPath& any_path, const PathRange<Scalar>&, const GridFrame& frame)
-      : path(any_path.kernel_path(frame)), weights(any_path.kernel_range()) {}
-  KernelPath<Scalar> path;       ///< The path.
-  RangeWeights<Scalar> weights;  ///< The weights of its range.
-};
-
-/// Gives the hits that may be first the parameter of the path. Most paths have the kernel's own.
-template <typename Scalar, typename AnyPath>
-HWY_INLINE void set_parameter(const AnyPath&, FirstLanes<Scalar>&) {}
-/// A path whose start was moved has its own parameter.
-HWY_INLINE void set_parameter(const FarPath& path, FirstLanes<float>& first) { path.set_parameter(first); }
-
-/// Returns the reach (P1) of the path from its own start, which may be farther away than that of the kernel.
-template <typename Scalar, typename AnyPath>
-HWY_INLINE Scalar reach_from_start(const AnyPath&, const KernelPath<Scalar>& kernel_path) {
-  return kernel_path.reach;
-}
-/// A path whose start was moved adds the way to it.
-HWY_INLINE float reach_from_start(const FarPath& far_path, const KernelPath<float>& kernel_path) {
-  return far_path.reach_from_start(kernel_path);
-}
-
-/// Returns the last t of the range that a hit may have and still count.
-template <typename Scalar, typename Visitor>
-HWY_INLINE Scalar last_that_counts(const PathRange<Scalar>& range, const Visitor& visitor) {
-  if constexpr (Visitor::shortens) return std::min(range.last, visitor.t_upper());
-  return range.last;
-}
-
-/// Gives the visitor the triangles of a list that the path may meet. Returns true if the path is shorter now, or if the
-/// visitor is done. Here and below, `AnyPath` is a `Path`, a `FarPath` or a `PlacedPath`.
-template <typename Scalar, typename AnyPath, typename Visitor>
-HWY_INLINE bool visit_list(const Query<Scalar>& query, const PathRange<Scalar>& range, const AnyPath& path,
-                           const KernelInput<Scalar>& input, const TriangleList<Scalar>& list, Visitor& visitor) {
-  using Kernel = typename Visitor::Kernel;
-  const std::size_t lanes = hn::Lanes(hn::ScalableTag<Scalar>());
-  query.statistics.candidates += list.count;
-  bool shorter = false;
-  const auto bounds = Kernel::bounds(input.path, input.weights, list);
-  [[maybe_unused]] std::uint64_t octets = ~std::uint64_t{0};
-  for (std::size_t from = 0; from < list.count; from += lanes) {
-    // A path that was moved or placed is not exactly the kernel's.
-    if constexpr (std::is_same_v<AnyPath, Path<float>> && requires { Visitor::passes_over_octets; }) {
-      constexpr std::size_t octet = MeshBlocks<float>::octet;
-      const std::size_t place = from % (octet * max_octets);
-      if (place == 0 && list.boxes != nullptr) {
-        octets = octets_met(input.path, list, from, range.first, last_that_counts(range, visitor));
-      }
-      if ((octets >> place / octet & octets_of_lanes(lanes)) == 0) continue;
-    }
-    FirstLanes<Scalar> first = {};
-    Verdicts verdicts;
-    if constexpr (Visitor::wants_order) {
-      const Scalar limit = kernel_limit(path, visitor.t_upper());
-      verdicts = classify<Kernel>(input.path, input.weights, list, bounds, from, limit, first);
-      if (verdicts.certain != 0) set_parameter(path, first);
-    } else {
-      verdicts = classify<Kernel>(input.path, input.weights, list, bounds, from);
-    }
-    if (verdicts.possible == 0) continue;
-    query.statistics.undecided += static_cast<std::uint64_t>(std::popcount(verdicts.possible & ~verdicts.certain));
-    const Scalar reach = reach_from_start(path, input.path);
-    shorter |= visit(CandidateBlock<Scalar, AnyPath>{query, range, path, list, reach, from, verdicts, first}, visitor);
-    if (visitor.is_done()) return true;
-  }
-  return shorter;
-}
 
 /// Makes the input of the kernel at once. A long path of floats does this while it waits for the first cells.
 template <typename Scalar>
@@ -157,109 +66,6 @@ class OnDemand {
  private:
   std::optional<KernelInput<Scalar>> input_;
 };
-
-/// Returns true if the path is at least `min_cells` top cells long from tau `enters` on. The lengths on all axes are
-/// added.
-HWY_INLINE bool is_long(float min_cells, const Grid& grid, const ClippedPath& clipped, float enters) {
-  const float rate = clipped.rate[0] + clipped.rate[1] + clipped.rate[2];
-  const float way = (std::min(clipped.end, clipped.exit) - enters) * rate;
-  return way >= min_cells * static_cast<float>(grid.frame().division) && way < 0x1p20F;
-}
-
-template <typename Scalar, typename AnyPath, typename Visitor>
-void walk_inner(const Query<Scalar>& query, const AnyPath& path, const PathRange<Scalar>& range,
-                const KernelInput<Scalar>& input, CellWord word, Visitor& visitor);
-
-/// Gives the visitor the triangles that the path may meet in a cell with a list. Returns true if the path is shorter
-/// now, or if the visitor is done.
-template <typename Scalar, typename AnyPath, typename Visitor>
-HWY_INLINE bool visit_cell(const Query<Scalar>& query, const PathRange<Scalar>& range, const AnyPath& path,
-                           const KernelInput<Scalar>& input, CellWord word, Visitor& visitor) {
-  const bool shorter = visit_list(query, range, path, input, list_of(query, word), visitor);
-  if (!word.has_inner_grid() || visitor.is_done()) return shorter;
-  walk_inner(query, path, range, input, word, visitor);
-  return true;
-}
-
-#if HWY_TARGET != HWY_SCALAR
-// The next functions walk one path in many lanes, for a visitor that is done with any hit. All lanes load their cells
-// at the same time, so the path waits less. For a first hit, most of what the later lanes find would not be needed.
-
-/// Gives the visitor the triangles that the path may meet in the cells of these lanes, until the visitor is done.
-template <typename AnyPath, typename Visitor>
-HWY_INLINE void visit_cells(const Query<float>& query, const PathRange<float>& range, const AnyPath& path,
-                            const KernelInput<float>& input, const LaneWalk& walk, const LaneWalk::Cells& cells,
-                            std::uint32_t walking, const WalkingPaths& lanes, Visitor& visitor) {
-  query.statistics.cells += static_cast<std::uint64_t>(std::popcount(walking));
-  std::uint32_t arriving = LaneWalk::in_lists(cells, walking);
-  if (arriving != 0) arriving = walk.meet_lists(cells, arriving, lanes);
-  if (arriving == 0) return;
-  alignas(max_lanes * sizeof(float)) std::array<std::uint32_t, max_lanes> words;
-  hn::Store(cells.word, BitsTag(), words.data());
-  for (; arriving != 0 && !visitor.is_done(); arriving &= arriving - 1) {
-    const CellWord word(words[static_cast<std::size_t>(std::countr_zero(arriving))]);
-    visit_cell(query, range, path, input, word, visitor);
-  }
-}
-
-/// Cuts a path into pieces, and walks one piece in each lane. It begins at tau `enters`. The grid must have no levels.
-template <typename AnyPath, typename Visitor>
-HWY_NOINLINE void walk_in_pieces(float enters, const Query<float>& query, const AnyPath& path,
-                                 const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
-  const LaneWalk walk(query.grid, query.mesh.slabs());
-  WalkingPaths pieces;
-  walk.cut(clipped, enters, pieces);
-  const KernelInput<float> input(path, range, query.grid.frame());
-  auto walking = static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(BitsTag())) - 1);
-  while (walking != 0) {
-    const LaneWalk::Cells cells = walk.look_in<false>(pieces, walking);
-    visit_cells(query, range, path, input, walk, cells, walking, pieces, visitor);
-    if (visitor.is_done()) return;
-    walking = walk.advance(cells, walking, pieces);
-  }
-}
-
-/// Visits all cells of a path from tau `enters` on, one cell in each lane. The grid must have no levels. No cell waits
-/// for another one, but the walk cannot leap.
-template <typename AnyPath, typename Visitor>
-HWY_NOINLINE void walk_all_cells(float enters, const Query<float>& query, const AnyPath& path,
-                                 const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
-  const LaneWalk walk(query.grid, query.mesh.slabs());
-  const LaneWalk::Crossings crossings(clipped, enters);
-  WalkingPaths lanes;
-  walk.begin_crossings(clipped, lanes);
-  const KernelInput<float> input(path, range, query.grid.frame());
-  float from = 0;
-  do {
-    const std::uint32_t walking = walk.enter_crossings(crossings, from, lanes);
-    const LaneWalk::Cells cells = walk.look_in<false>(lanes, walking);
-    visit_cells(query, range, path, input, walk, cells, walking, lanes, visitor);
-    from += static_cast<float>(hn::Lanes(FloatTag()));
-  } while (from <= crossings.last && !visitor.is_done());
-}
-
-/// Walks the path in lanes if it is long enough for this to be faster. Returns true if it walked. If many cells have
-/// lists, it is faster to visit all cells. If few cells have lists, it is faster to leap over the others. If nearly all
-/// lists are in inner grids, a single walk is faster, because lanes would wait for the one that enters an inner grid.
-/// Measurements chose a single walk for grids with levels too.
-template <typename AnyPath, typename Visitor>
-HWY_INLINE bool walk_in_lanes(float enters, const Query<float>& query, const AnyPath& path,
-                              const PathRange<float>& range, const ClippedPath& clipped, Visitor& visitor) {
-  constexpr float min_cells_in_pieces = 12;
-  constexpr float min_cells_at_once = 4;
-  constexpr std::size_t full_share = 4;  // More than one top cell in this many must have a list.
-  const Grid& grid = query.grid;
-  if (grid.is_mostly_inner() || grid.levels() > 0) return false;
-  const bool takes_all = LaneWalk::can_enter_crossings && grid.lists().size() * full_share > grid.top().size();
-  if (!is_long(takes_all ? min_cells_at_once : min_cells_in_pieces, grid, clipped, enters)) return false;
-  if (takes_all) {
-    walk_all_cells(enters, query, path, range, clipped, visitor);
-  } else {
-    walk_in_pieces(enters, query, path, range, clipped, visitor);
-  }
-  return true;
-}
-#endif
 
 /// Gives the visitor all triangles of the mesh, until the visitor is done.
 template <typename Scalar, typename AnyPath, typename Visitor>
