@@ -35,8 +35,9 @@ class GpuScene {
   GpuScene() noexcept = default;
 
   /// Uploads a scene to an open device. Fails as `GpuCollider::try_upload` does. Fails too if the device has fewer than
-  /// eight buffers for a shader, or if a collider was rebuilt since the scene was committed. This is then as before.
-  /// May throw std::bad_alloc.
+  /// eight buffers for a shader, or if a collider was rebuilt since the scene was committed. Before the first scene,
+  /// the device answers known paths through a small one. A wrong answer is `missing_feature`, so it gets no scene.
+  /// After a failure, this is as before. May throw std::bad_alloc.
   GpuResult try_upload(const GpuDevice& device, const SceneSnapshotf& scene);
   /// Uploads another snapshot to the same device, usually after a commit. Fails as `try_upload` does.
   ///

@@ -6,6 +6,7 @@
 
 #include "gpu/device_answers.hpp"
 #include "gpu/path_limits.hpp"
+#include "gpu/scene_check.hpp"
 #include "gpu/walk_check.hpp"
 #include "roundings.spv.hpp"
 #include "scene_walk.spv.hpp"
@@ -48,6 +49,7 @@ bool GpuDeviceState::close() noexcept {
   vulkan.DestroyDescriptorSetLayout(device, std::exchange(set_layout_, VkDescriptorSetLayout{VK_NULL_HANDLE}), nullptr);
   if (!is_adopted) vulkan.DestroyDevice(device, nullptr);
   device = VK_NULL_HANDLE;
+  takes_scenes_ = false;
   is_lost = false;
   return true;
 }
@@ -192,8 +194,6 @@ std::optional<GpuError> GpuDeviceState::check_roundings() {
 
 std::optional<GpuError> GpuDeviceState::check_walk() {
   const WalkCheck check;
-  std::vector<DeviceHit> hits(check.paths.size());
-  std::vector<DeviceAny> blocked(check.paths.size());
   const auto mesh = std::make_shared<GpuMesh>();
   GpuWork work(*this);
   if (auto error = work.begin(mesh)) return error;
@@ -204,13 +204,35 @@ std::optional<GpuError> GpuDeviceState::check_walk() {
           work.upload(std::as_bytes(std::span(check.tree.triangles)), "the triangles of a check", *mesh->triangles)) {
     return error;
   }
-  GpuSlot& slot = work.slots()[0];
-  if (auto error = walk(slot, *mesh, check.paths, GpuTask::first_hits, std::as_writable_bytes(std::span(hits)))) {
-    return error;
-  }
-  if (auto error = walk(slot, *mesh, check.paths, GpuTask::any_hits, std::as_writable_bytes(std::span(blocked)))) {
-    return error;
-  }
+  return check_answers(check, *mesh, work.slots()[0], GpuTask::first_hits, GpuTask::any_hits);
+}
+
+std::optional<GpuError> GpuDeviceState::check_scenes() {
+  const SceneCheck check;
+  const auto mesh = std::make_shared<GpuMesh>();
+  GpuWork work(*this);
+  if (auto error = work.begin(mesh)) return error;
+  const auto upload = [&](const auto& all, const char* what, GpuBuffer& buffer) {
+    return work.upload(std::as_bytes(std::span(all)), what, buffer);
+  };
+  if (auto error = upload(check.mesh.tree.nodes, "the nodes of a check", *mesh->nodes)) return error;
+  if (auto error = upload(check.mesh.tree.triangles, "the triangles of a check", *mesh->triangles)) return error;
+  if (auto error = upload(check.tree.nodes, "the nodes of a scene of a check", mesh->scene_nodes)) return error;
+  if (auto error = upload(check.tree.instances, "the instances of a check", mesh->instances)) return error;
+  return check_answers(check, *mesh, work.slots()[0], GpuTask::scene_first_hits, GpuTask::scene_any_hits);
+}
+
+template <typename Check>
+std::optional<GpuError> GpuDeviceState::check_answers(const Check& check, const GpuMesh& mesh, GpuSlot& slot,
+                                                      GpuTask first_hits, GpuTask any_hits) {
+  std::vector<typename Check::DeviceFirst> hits(check.paths.size());
+  std::vector<DeviceAny> blocked(check.paths.size());
+  const PathLimits limits = check.limits();
+  const auto ask = [&](GpuTask task, auto& answers) {
+    return walk(slot, mesh, check.paths, limits, task, std::as_writable_bytes(std::span(answers)));
+  };
+  if (auto error = ask(first_hits, hits)) return error;
+  if (auto error = ask(any_hits, blocked)) return error;
   if (const auto fault = check.fault(hits, blocked)) return unusable(name, *fault);
   return std::nullopt;
 }
@@ -220,10 +242,15 @@ std::optional<GpuError> GpuDeviceState::prepare_scenes() {
     return GpuError(GpuError::Reason::missing_feature, name + " takes no scenes: it lacks eight buffers for a shader");
   }
   const std::lock_guard lock(scenes_mutex_);
+  if (takes_scenes_) return std::nullopt;
   for (const GpuTask task : {GpuTask::scene_any_hits, GpuTask::scene_first_hits}) {
     if (pipelines_[static_cast<std::size_t>(task)] != VK_NULL_HANDLE) continue;
     if (auto error = make_pipeline(task, scene_walk_spirv)) return error;
   }
+  if (WalkCheck::is_on) {
+    if (auto error = check_scenes()) return error;
+  }
+  takes_scenes_ = true;
   return std::nullopt;
 }
 
@@ -405,8 +432,7 @@ std::optional<GpuError> GpuDeviceState::round(GpuSlot& slot, std::span<const Rou
 }
 
 std::optional<GpuError> GpuDeviceState::walk(GpuSlot& slot, const GpuMesh& mesh, std::span<const Segmentf> paths,
-                                             GpuTask task, std::span<std::byte> answers) {
-  const PathLimits limits = path_limits(PathKind::segment, QueryOptionsf());
+                                             const PathLimits& limits, GpuTask task, std::span<std::byte> answers) {
   std::memcpy(slot.host_paths.data(), paths.data(), paths.size_bytes());
   std::memcpy(slot.host_limits.data(), &limits, sizeof limits);
   bind(slot, mesh.buffers(), {slot.paths.get()}, {slot.answers.get()});

@@ -15,6 +15,7 @@
 
 #include "gpu/device_needs.hpp"
 #include "gpu/gpu_slots.hpp"
+#include "gpu/path_limits.hpp"
 #include "gpu/rounding_check.hpp"
 #include "gpu/vulkan_functions.hpp"
 #include "surehit/gpu.hpp"
@@ -73,7 +74,8 @@ struct GpuDeviceState {
   /// Returns the handles of the device.
   [[nodiscard]] GpuHandles handles() const;
 
-  /// Makes what batches of scenes need, unless it is there. Fails if the device has too few buffers for them.
+  /// Makes what batches of scenes need, unless it is there, and then checks how the device answers in a scene. Fails if
+  /// it answers wrongly, or has too few buffers for scenes.
   [[nodiscard]] std::optional<GpuError> prepare_scenes();
   /// Sets `pair` to slots that no one else has. If all are taken, it makes more, since the one that has them may wait
   /// for this one. Fails if the device was lost, or has too little memory.
@@ -143,6 +145,12 @@ struct GpuDeviceState {
   [[nodiscard]] std::optional<GpuError> check_roundings();
   /// Fails if the device answers known paths wrongly.
   [[nodiscard]] std::optional<GpuError> check_walk();
+  /// Fails if the device answers known paths through a scene wrongly.
+  [[nodiscard]] std::optional<GpuError> check_scenes();
+  /// Asks the device about the paths of a check, which are in a mesh or in a scene.
+  template <typename Check>
+  [[nodiscard]] std::optional<GpuError> check_answers(const Check& check, const GpuMesh& mesh, GpuSlot& slot,
+                                                      GpuTask first_hits, GpuTask any_hits);
   /// Returns the number of buffers that the shaders of this device may have.
   [[nodiscard]] std::uint32_t buffer_count() const;
   [[nodiscard]] std::optional<GpuError> make_layouts();
@@ -150,9 +158,9 @@ struct GpuDeviceState {
   /// Computes the cases of `rounding_check.hpp`.
   [[nodiscard]] std::optional<GpuError> round(GpuSlot& slot, std::span<const RoundingCase> cases,
                                               std::span<RoundingResult> results);
-  /// Answers segments with the usual options. The task is that of a mesh.
+  /// Answers segments that all have the same options.
   [[nodiscard]] std::optional<GpuError> walk(GpuSlot& slot, const GpuMesh& mesh, std::span<const Segmentf> paths,
-                                             GpuTask task, std::span<std::byte> answers);
+                                             const PathLimits& limits, GpuTask task, std::span<std::byte> answers);
   /// Returns the error of a result, and notes that the device was lost.
   [[nodiscard]] std::optional<GpuError> noted(VkResult result, const char* what);
 
@@ -162,7 +170,8 @@ struct GpuDeviceState {
   std::atomic<std::uint64_t> ended_ = 0;  ///< The number of times that work was seen to end.
   std::mutex queue_mutex_;                ///< Held while work is given to the queue.
   std::mutex pairs_mutex_;                ///< Held while slots are taken or given back.
-  std::mutex scenes_mutex_;               ///< Held while what scenes need is made.
+  std::mutex scenes_mutex_;               ///< Held while what scenes need is made and checked.
+  bool takes_scenes_ = false;             ///< True once it is made and checked.
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::array<VkPipeline, gpu_task_count> pipelines_ = {};

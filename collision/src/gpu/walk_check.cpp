@@ -41,7 +41,8 @@ bool is_same(const Hitf& x, const Hitf& y) {
   return bits(x) == bits(y);
 }
 
-/// Returns true if a device may answer so about a path that has this first hit.
+}  // namespace
+
 bool is_right(const DeviceHit& hit, const Hitf& expected, std::size_t triangle_count) {
   switch (leftover_of(hit, triangle_count)) {
     case Leftover::nothing_of_miss:
@@ -60,8 +61,6 @@ bool is_right(DeviceAny blocked, bool expected) {
   constexpr DeviceAny undecided = 2;
   return blocked == undecided || blocked == (expected ? 1U : 0U);
 }
-
-}  // namespace
 
 WalkCheck::WalkCheck() {
   constexpr std::size_t needles = 24;

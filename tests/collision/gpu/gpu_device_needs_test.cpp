@@ -19,6 +19,7 @@
 #include "gpu/device_needs.hpp"
 #include "gpu/gpu_device_state.hpp"
 #include "gpu/rounding_check.hpp"
+#include "gpu/scene_check.hpp"
 #include "gpu/walk_check.hpp"
 #include "roundings.spv.hpp"
 #include "scene_walk.spv.hpp"
@@ -30,9 +31,11 @@ namespace {
 
 using detail::DeviceHit;
 using detail::DeviceReport;
+using detail::DeviceSceneHit;
 using detail::GpuDeviceState;
 using detail::RoundingCase;
 using detail::RoundingResult;
+using detail::SceneCheck;
 using detail::WalkCheck;
 using Reason = GpuError::Reason;
 
@@ -218,6 +221,64 @@ TEST(GpuWalkCheck, a_device_that_answers_wrongly_is_found) {
   EXPECT_NE(fault_of_any(true, 0), "");
   EXPECT_NE(fault_of_any(false, 1), "");
   EXPECT_NE(fault_of_any(true, 3), "");
+  EXPECT_NE(check.fault({}, {}).value_or(""), "");
+}
+
+/// What a device answers that decides and rounds all, in a scene.
+std::vector<DeviceSceneHit> sound_hits(const SceneCheck& check) {
+  std::vector<DeviceSceneHit> hits;
+  for (const SceneHitf& hit : check.expected) {
+    const bool is_hit = hit.triangle != no_triangle;
+    const std::uint32_t side = hit.side == Side::edge_on ? DeviceHit::edge_on : static_cast<std::uint32_t>(hit.side);
+    hits.push_back({{hit.t, hit.u, hit.v, hit.triangle, is_hit ? side : 0}, hit.instance.index});
+  }
+  return hits;
+}
+std::vector<detail::DeviceAny> sound_blocked(const SceneCheck& check) {
+  std::vector<detail::DeviceAny> blocked;
+  for (const SceneHitf& hit : check.expected) blocked.push_back(hit.triangle != no_triangle ? 1 : 0);
+  return blocked;
+}
+
+TEST(GpuSceneCheck, paths_miss_and_hit_each_instance) {
+  const SceneCheck check;
+  EXPECT_EQ(check.fault(sound_hits(check), sound_blocked(check)).value_or(""), "");
+  EXPECT_EQ(check.tree.instances.size(), 4U);
+  for (const detail::DeviceInstance& instance : check.tree.instances) {
+    EXPECT_EQ(instance.flags & detail::DeviceInstance::is_left_to_host, 0U);
+  }
+  const auto count = [&](const auto& counts) {
+    return std::count_if(check.expected.begin(), check.expected.end(), counts);
+  };
+  EXPECT_GT(count([](const SceneHitf& hit) { return hit.triangle == no_triangle; }), 60);
+  for (std::uint32_t index = 0; index < 4; ++index) {
+    const auto is_of_it = [&](const SceneHitf& hit) {
+      return hit.triangle != no_triangle && hit.instance.index == index;
+    };
+    EXPECT_GT(count(is_of_it), 20) << index;
+  }
+}
+
+/// The instance counts too.
+TEST(GpuSceneCheck, a_device_that_answers_wrongly_is_found) {
+  const SceneCheck check;
+  const auto fault_of_hit = [&](const auto& change) {
+    std::vector<DeviceSceneHit> hits = sound_hits(check);
+    const auto hit = std::find_if(hits.rbegin(), hits.rend(), [](const auto& one) { return one.hit.side == 1; });
+    change(*hit);
+    return check.fault(hits, sound_blocked(check)).value_or("");
+  };
+  EXPECT_EQ(fault_of_hit([](DeviceSceneHit&) {}), "");
+  EXPECT_EQ(fault_of_hit([](DeviceSceneHit& one) { one = {{0, 0, 0, no_triangle, DeviceHit::undecided}, 9}; }), "");
+  EXPECT_EQ(fault_of_hit([](DeviceSceneHit& one) { one.hit.side += DeviceHit::is_not_rounded; }), "");
+  EXPECT_NE(fault_of_hit([](DeviceSceneHit& one) { one.hit.t = std::nextafter(one.hit.t, 2.0F); }), "");
+  EXPECT_NE(fault_of_hit([](DeviceSceneHit& one) { one.instance ^= 1; }), "");
+  EXPECT_NE(fault_of_hit([](DeviceSceneHit& one) { one.hit.side += DeviceHit::is_not_rounded, one.instance ^= 1; }),
+            "");
+  EXPECT_NE(fault_of_hit([](DeviceSceneHit& one) { one = {{0, 0, 0, no_triangle, 0}, 0}; }), "");
+  std::vector<detail::DeviceAny> blocked = sound_blocked(check);
+  blocked.back() ^= 1;
+  EXPECT_NE(check.fault(sound_hits(check), blocked).value_or(""), "");
   EXPECT_NE(check.fault({}, {}).value_or(""), "");
 }
 

@@ -157,6 +157,35 @@ TEST_F(GpuDeviceTest, a_device_that_answers_wrongly_is_refused) {
   EXPECT_EQ(waits_before_wrong_answers, 95);
 }
 
+/// A device is waited for when it has the four buffers of a scene, and when it has answered with first hits and with
+/// any hits.
+TEST_F(GpuDeviceTest, a_device_that_answers_wrongly_in_a_scene_takes_none) {
+  std::vector<detail::FoundDevice> found;
+  GpuDeviceState state;
+  ASSERT_FALSE(state.start());
+  ASSERT_FALSE(state.find(found));
+  std::erase_if(found, [&](const auto& one) { return one.second.properties.deviceName != device.name(); });
+  ASSERT_FALSE(found.empty());
+  get_function = std::exchange(state.vulkan.GetDeviceProcAddr, wrong_function);
+  answering = &state;
+  detail::WalkCheck::is_on = true;
+  waits_before_wrong_answers = 100;
+  ASSERT_FALSE(state.open_first(found));
+  for (const auto& [waits, fault] : {std::pair(4, "it answers path 0 of a check of scenes by "),
+                                     std::pair(5, "it answers 1431655765 whether path 0 of a check of scenes ")}) {
+    waits_before_wrong_answers = waits;
+    const auto error = state.prepare_scenes();
+    ASSERT_TRUE(error) << waits;
+    EXPECT_EQ(error->reason, Reason::missing_feature);
+    EXPECT_EQ(std::string(error->what()).find(device.name() + " cannot be used: " + fault), 0U) << error->what();
+  }
+  waits_before_wrong_answers = 100;
+  EXPECT_FALSE(state.prepare_scenes());
+  EXPECT_EQ(waits_before_wrong_answers, 94);
+  EXPECT_FALSE(state.prepare_scenes()) << "it is asked once";
+  EXPECT_EQ(waits_before_wrong_answers, 94);
+}
+
 TEST_F(GpuDeviceTest, an_upload_without_memory_changes_nothing) {
   GpuCollider on_gpu(device, collider);
   allocate = std::exchange(state().vulkan.AllocateMemory, no_memory);
