@@ -40,8 +40,8 @@ struct LanePrecision<float> {
 /// Tests triangles in lanes of floats or doubles.
 ///
 /// An axis m separates the shape from the triangle if all corners have a lower product with m than every centre of the
-/// way has, by more than the reach r |m| + c(m). Here c(m) is how far the core comes along m: 0 for a point, the sum of
-/// all |m_i| h_i for a box with half extents h, and |m·h| for a segment from -h to h.
+/// way. The difference must be more than the reach r |m| + c(m). Here c(m) is how far the core comes along m: 0 for a
+/// point, the sum of all |m_i| h_i for a box with half extents h, and |m·h| for a segment from -h to h.
 ///
 /// Let w be start - a, p = b - a, q = c - a and D the step. Let f = D × p, g = D × q, n = p × q and A = D·n. First come
 /// f, g and f - g, which are across the step and an edge, and n. They leave out nearly all triangles, without quotients
