@@ -159,18 +159,25 @@ TEST(GpuRoundingTest, a_device_that_rounds_otherwise_is_refused) {
 }
 
 /// What a device answers that decides and rounds all.
+DeviceHit sound_hit(const Hitf& hit) {
+  if (hit.triangle == no_triangle) return {hit.t, hit.u, hit.v, hit.triangle, 0};
+  const std::uint32_t side = hit.side == Side::edge_on ? DeviceHit::edge_on : static_cast<std::uint32_t>(hit.side);
+  return {hit.t, hit.u, hit.v, hit.triangle, side};
+}
 std::vector<DeviceHit> sound_hits(const WalkCheck& check) {
   std::vector<DeviceHit> hits;
-  for (const Hitf& hit : check.expected) {
-    const bool is_hit = hit.triangle != no_triangle;
-    const std::uint32_t side = hit.side == Side::edge_on ? DeviceHit::edge_on : static_cast<std::uint32_t>(hit.side);
-    hits.push_back({hit.t, hit.u, hit.v, hit.triangle, is_hit ? side : 0});
-  }
+  for (const Hitf& hit : check.expected) hits.push_back(sound_hit(hit));
   return hits;
 }
-std::vector<detail::DeviceAny> sound_blocked(const WalkCheck& check) {
+std::vector<DeviceSceneHit> sound_hits(const SceneCheck& check) {
+  std::vector<DeviceSceneHit> hits;
+  for (const SceneHitf& hit : check.expected) hits.push_back({sound_hit(hit), hit.instance.index});
+  return hits;
+}
+template <typename Check>
+std::vector<detail::DeviceAny> sound_blocked(const Check& check) {
   std::vector<detail::DeviceAny> blocked;
-  for (const Hitf& hit : check.expected) blocked.push_back(hit.triangle != no_triangle ? 1 : 0);
+  for (const auto& hit : check.expected) blocked.push_back(hit.triangle != no_triangle ? 1 : 0);
   return blocked;
 }
 
@@ -222,22 +229,6 @@ TEST(GpuWalkCheck, a_device_that_answers_wrongly_is_found) {
   EXPECT_NE(fault_of_any(false, 1), "");
   EXPECT_NE(fault_of_any(true, 3), "");
   EXPECT_NE(check.fault({}, {}).value_or(""), "");
-}
-
-/// What a device answers that decides and rounds all, in a scene.
-std::vector<DeviceSceneHit> sound_hits(const SceneCheck& check) {
-  std::vector<DeviceSceneHit> hits;
-  for (const SceneHitf& hit : check.expected) {
-    const bool is_hit = hit.triangle != no_triangle;
-    const std::uint32_t side = hit.side == Side::edge_on ? DeviceHit::edge_on : static_cast<std::uint32_t>(hit.side);
-    hits.push_back({{hit.t, hit.u, hit.v, hit.triangle, is_hit ? side : 0}, hit.instance.index});
-  }
-  return hits;
-}
-std::vector<detail::DeviceAny> sound_blocked(const SceneCheck& check) {
-  std::vector<detail::DeviceAny> blocked;
-  for (const SceneHitf& hit : check.expected) blocked.push_back(hit.triangle != no_triangle ? 1 : 0);
-  return blocked;
 }
 
 TEST(GpuSceneCheck, paths_miss_and_hit_each_instance) {

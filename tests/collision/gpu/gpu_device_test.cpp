@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <thread>
@@ -131,59 +132,60 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL wrong_function(VkDevice device, const c
   return reinterpret_cast<PFN_vkVoidFunction>(wrong_answers);
 }
 
-/// A device is waited for when it has rounded numbers, when it has the nodes and the triangles of a mesh, and when it
-/// has answered with first hits and with any hits.
-TEST_F(GpuDeviceTest, a_device_that_answers_wrongly_is_refused) {
-  std::vector<detail::FoundDevice> found;
-  GpuDeviceState state;
-  ASSERT_FALSE(state.start());
-  ASSERT_FALSE(state.find(found));
-  std::erase_if(found, [&](const auto& one) { return one.second.properties.deviceName != device.name(); });
-  ASSERT_FALSE(found.empty());
-  get_function = std::exchange(state.vulkan.GetDeviceProcAddr, wrong_function);
-  answering = &state;
-  detail::WalkCheck::is_on = true;
-  for (const auto& [waits, fault] :
-       {std::pair(0, "it computes the sum of "), std::pair(3, "it answers path 0 of a check by "),
-        std::pair(4, "it answers 1431655765 whether path 0 of a check ")}) {
+/// Devices that are asked for known answers, and give wrong ones after some waits.
+class GpuDeviceTestOfAnswers : public GpuDeviceTest {
+ protected:
+  void SetUp() override {
+    GpuDeviceTest::SetUp();
+    if (IsSkipped()) return;
+    ASSERT_FALSE(asked_.start());
+    ASSERT_FALSE(asked_.find(found_));
+    std::erase_if(found_, [&](const auto& one) { return one.second.properties.deviceName != device.name(); });
+    ASSERT_FALSE(found_.empty());
+    get_function = std::exchange(asked_.vulkan.GetDeviceProcAddr, wrong_function);
+    answering = &asked_;
+    detail::WalkCheck::is_on = true;
+    waits_before_wrong_answers = many_waits;
+  }
+
+  /// Calls `ask`, whose answers are wrong after so many waits, and expects this fault.
+  template <typename Ask>
+  void expect_fault(int waits, const std::string& fault, const Ask& ask) {
     waits_before_wrong_answers = waits;
-    const auto error = state.open_first(found);
+    const std::optional<GpuError> error = ask();
     ASSERT_TRUE(error) << waits;
     EXPECT_EQ(error->reason, Reason::missing_feature);
     EXPECT_EQ(std::string(error->what()).find(device.name() + " cannot be used: " + fault), 0U) << error->what();
+    waits_before_wrong_answers = many_waits;
   }
-  waits_before_wrong_answers = 100;
-  EXPECT_FALSE(state.open_first(found));
-  EXPECT_EQ(waits_before_wrong_answers, 95);
+
+  static constexpr int many_waits = 100;
+  GpuDeviceState asked_;
+  std::vector<detail::FoundDevice> found_;
+};
+
+/// A device is waited for when it has rounded numbers, when it has the nodes and the triangles of a mesh, and when it
+/// has answered with first hits and with any hits.
+TEST_F(GpuDeviceTestOfAnswers, a_device_that_answers_wrongly_is_refused) {
+  const auto open = [&] { return asked_.open_first(found_); };
+  expect_fault(0, "it computes the sum of ", open);
+  expect_fault(3, "it answers path 0 of a check by ", open);
+  expect_fault(4, "it answers 1431655765 whether path 0 of a check ", open);
+  EXPECT_FALSE(open());
+  EXPECT_EQ(waits_before_wrong_answers, many_waits - 5);
 }
 
 /// A device is waited for when it has the four buffers of a scene, and when it has answered with first hits and with
 /// any hits.
-TEST_F(GpuDeviceTest, a_device_that_answers_wrongly_in_a_scene_takes_none) {
-  std::vector<detail::FoundDevice> found;
-  GpuDeviceState state;
-  ASSERT_FALSE(state.start());
-  ASSERT_FALSE(state.find(found));
-  std::erase_if(found, [&](const auto& one) { return one.second.properties.deviceName != device.name(); });
-  ASSERT_FALSE(found.empty());
-  get_function = std::exchange(state.vulkan.GetDeviceProcAddr, wrong_function);
-  answering = &state;
-  detail::WalkCheck::is_on = true;
-  waits_before_wrong_answers = 100;
-  ASSERT_FALSE(state.open_first(found));
-  for (const auto& [waits, fault] : {std::pair(4, "it answers path 0 of a check of scenes by "),
-                                     std::pair(5, "it answers 1431655765 whether path 0 of a check of scenes ")}) {
-    waits_before_wrong_answers = waits;
-    const auto error = state.prepare_scenes();
-    ASSERT_TRUE(error) << waits;
-    EXPECT_EQ(error->reason, Reason::missing_feature);
-    EXPECT_EQ(std::string(error->what()).find(device.name() + " cannot be used: " + fault), 0U) << error->what();
-  }
-  waits_before_wrong_answers = 100;
-  EXPECT_FALSE(state.prepare_scenes());
-  EXPECT_EQ(waits_before_wrong_answers, 94);
-  EXPECT_FALSE(state.prepare_scenes()) << "it is asked once";
-  EXPECT_EQ(waits_before_wrong_answers, 94);
+TEST_F(GpuDeviceTestOfAnswers, a_device_that_answers_wrongly_in_a_scene_takes_none) {
+  ASSERT_FALSE(asked_.open_first(found_));
+  const auto prepare = [&] { return asked_.prepare_scenes(); };
+  expect_fault(4, "it answers path 0 of a check of scenes by ", prepare);
+  expect_fault(5, "it answers 1431655765 whether path 0 of a check of scenes ", prepare);
+  EXPECT_FALSE(prepare());
+  EXPECT_EQ(waits_before_wrong_answers, many_waits - 6);
+  EXPECT_FALSE(prepare()) << "it is asked once";
+  EXPECT_EQ(waits_before_wrong_answers, many_waits - 6);
 }
 
 TEST_F(GpuDeviceTest, an_upload_without_memory_changes_nothing) {
