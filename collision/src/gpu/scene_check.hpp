@@ -14,7 +14,7 @@
 namespace surehit::detail {
 
 /// A small scene and paths through it, about which a device is asked before it gets its first scene. They are always
-/// the same. The mesh of `WalkCheck` is moved, moves, is turned, and is mirrored. Most paths are those of that mesh,
+/// the same. The mesh of `WalkCheck` is moved, moves, is turned, and is mirrored. The paths are those of that mesh,
 /// placed likewise and rounded.
 struct SceneCheck {
   using DeviceFirst = DeviceSceneHit;
