@@ -31,29 +31,39 @@ DispatchTimer::DispatchTimer(const GpuDevice& device, std::size_t max_dispatches
   if (auto error = detail::error_of(made, "for timestamps", pool_)) throw GpuError(*error);
   current = this;
   dispatch_ = std::exchange(state_.vulkan.CmdDispatch, timed_dispatch);
+  indirect_dispatch_ = std::exchange(state_.vulkan.CmdDispatchIndirect, timed_indirect_dispatch);
 }
 
 DispatchTimer::~DispatchTimer() {
   if (valid_bits_ == 0) return;
   state_.vulkan.CmdDispatch = dispatch_;
+  state_.vulkan.CmdDispatchIndirect = indirect_dispatch_;
   current = nullptr;
   functions_.DestroyQueryPool(state_.device, pool_, nullptr);
 }
 
 void DispatchTimer::timed_dispatch(VkCommandBuffer commands, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  DispatchTimer& timer = *current;
-  const std::uint32_t index = timer.dispatches_++;
-  if (index >= timer.max_dispatches_) {
-    timer.dispatch_(commands, x, y, z);
+  current->time(commands, [&] { current->dispatch_(commands, x, y, z); });
+}
+
+void DispatchTimer::timed_indirect_dispatch(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset) {
+  current->time(commands, [&] { current->indirect_dispatch_(commands, buffer, offset); });
+}
+
+template <typename Dispatch>
+void DispatchTimer::time(VkCommandBuffer commands, const Dispatch& dispatch) {
+  const std::uint32_t index = dispatches_++;
+  if (index >= max_dispatches_) {
+    dispatch();
     return;
   }
-  // Each timestamp is taken when all commands before it have ended. A dispatch waits for the copies of that before it,
-  // so no two of them share the time between.
+  // Each timestamp is taken when all commands before it have ended. A dispatch waits for what is before it, so no two
+  // of them share the time between.
   constexpr auto end = VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT;
-  timer.functions_.CmdResetQueryPool(commands, timer.pool_, 2 * index, 2);
-  timer.functions_.CmdWriteTimestamp(commands, end, timer.pool_, 2 * index);
-  timer.dispatch_(commands, x, y, z);
-  timer.functions_.CmdWriteTimestamp(commands, end, timer.pool_, 2 * index + 1);
+  functions_.CmdResetQueryPool(commands, pool_, 2 * index, 2);
+  functions_.CmdWriteTimestamp(commands, end, pool_, 2 * index);
+  dispatch();
+  functions_.CmdWriteTimestamp(commands, end, pool_, 2 * index + 1);
 }
 
 std::optional<double> DispatchTimer::nanoseconds() const {

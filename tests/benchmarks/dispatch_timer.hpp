@@ -32,9 +32,14 @@ class DispatchTimer {
     PFN_vkGetQueryPoolResults GetQueryPoolResults;
   };
 
-  /// What the library calls in place of the device's own function.
+  /// What the library calls in place of the device's own functions.
   static VKAPI_ATTR void VKAPI_CALL timed_dispatch(VkCommandBuffer commands, std::uint32_t x, std::uint32_t y,
                                                    std::uint32_t z);
+  static VKAPI_ATTR void VKAPI_CALL timed_indirect_dispatch(VkCommandBuffer commands, VkBuffer buffer,
+                                                            VkDeviceSize offset);
+  /// Gives timestamps before and after a dispatch, if there is room for them.
+  template <typename Dispatch>
+  void time(VkCommandBuffer commands, const Dispatch& dispatch);
 
   static DispatchTimer* current;
 
@@ -43,7 +48,8 @@ class DispatchTimer {
   std::uint32_t valid_bits_;  ///< Those of a timestamp, or 0 where there are none.
   Functions functions_ = {};
   VkQueryPool pool_ = VK_NULL_HANDLE;
-  PFN_vkCmdDispatch dispatch_ = nullptr;  ///< The device's own function.
+  PFN_vkCmdDispatch dispatch_ = nullptr;  ///< The device's own functions.
+  PFN_vkCmdDispatchIndirect indirect_dispatch_ = nullptr;
   std::uint32_t dispatches_ = 0;
 };
 

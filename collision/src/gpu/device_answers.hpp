@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "gpu/vulkan_functions.hpp"
 #include "surehit/hit.hpp"
 
 namespace surehit::detail {
@@ -37,13 +38,18 @@ struct ListedPath {
   std::uint32_t path;            ///< The number of the path in its dispatch.
   std::uint32_t triangle;        ///< The triangle that is hit and not rounded, or `no_triangle` if none is known.
   std::array<float, 6> numbers;  ///< The numbers of the path.
+  std::uint32_t again;           ///< Apart from the others: a path that the second dispatch looks at.
 };
-static_assert(sizeof(ListedPath) == 32);
+static_assert(sizeof(ListedPath) == 36);
 
 /// What stands before the list.
 struct ListedCounts {
-  std::uint32_t leftovers, misses, unused_1, unused_2;
+  std::uint32_t leftovers = 0, misses = 0;
+  std::uint32_t again = 0;                       ///< The paths that the second dispatch looks at.
+  VkDispatchIndirectCommand groups = {0, 1, 1};  ///< Its size.
+  std::uint32_t unused_1 = 0, unused_2 = 0;
 };
+static_assert(sizeof(ListedCounts) == 32);
 
 /// What is left to the host of a path.
 enum class Leftover : std::uint8_t {

@@ -68,8 +68,10 @@ class GpuBatch {
       for (std::size_t i = 0; i < count; ++i) paths_.copy(first + i, numbers + 6 * i);
     }
     const std::size_t limits = write_limits(state_, slot, paths_.kind(), options_, first, count);
+    slot.clear_list();
     const GpuCopy there[] = {copy_of(slot.host_paths, slot.paths, count * sizeof(float[6])),
-                             copy_of(slot.host_limits, slot.limits, limits * sizeof(PathLimits))};
+                             copy_of(slot.host_limits, slot.limits, limits * sizeof(PathLimits)),
+                             copy_of(slot.host_list, slot.list, sizeof(ListedCounts))};
     const GpuDispatch dispatch = {wants_first ? State::first_task : State::any_task,
                                   pushed_words(paths_.kind(), !options_.path_options.empty(), count, false)};
     const GpuCopy back = copy_of(slot.answers, slot.host_answers, count * sizeof(DeviceAnswer));

@@ -98,7 +98,7 @@ class GpuBufferBatch {
       return device_.submit(slot, {&back, 1}, nullptr, {}, waits_for_all);
     }
     const std::size_t limits = write_limits(state_, slot, paths_.kind, options_, first, count);
-    std::memset(slot.host_list.data(), 0, sizeof(ListedCounts));
+    slot.clear_list();
     const GpuCopy there[] = {copy_of(slot.host_limits, slot.limits, limits * sizeof(PathLimits)),
                              copy_of(slot.host_list, slot.list, sizeof(ListedCounts))};
     const GpuDispatch dispatch = {wants_first ? State::first_task : State::any_task,

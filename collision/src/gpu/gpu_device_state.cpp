@@ -43,8 +43,11 @@ bool GpuDeviceState::close() noexcept {
     return false;
   }
   pairs.clear();
-  for (VkPipeline& pipeline : pipelines_)
-    vulkan.DestroyPipeline(device, std::exchange(pipeline, VkPipeline{VK_NULL_HANDLE}), nullptr);
+  for (auto* const all : {&quick_pipelines_, &pipelines_}) {
+    for (VkPipeline& pipeline : *all) {
+      vulkan.DestroyPipeline(device, std::exchange(pipeline, VkPipeline{VK_NULL_HANDLE}), nullptr);
+    }
+  }
   vulkan.DestroyPipelineLayout(device, std::exchange(layout_, VkPipelineLayout{VK_NULL_HANDLE}), nullptr);
   vulkan.DestroyDescriptorSetLayout(device, std::exchange(set_layout_, VkDescriptorSetLayout{VK_NULL_HANDLE}), nullptr);
   if (!is_adopted) vulkan.DestroyDevice(device, nullptr);
@@ -175,10 +178,11 @@ GpuHandles GpuDeviceState::handles() const {
 
 std::optional<GpuError> GpuDeviceState::prepare() {
   if (auto error = make_layouts()) return error;
-  if (auto error = make_pipeline(GpuTask::roundings, roundings_spirv)) return error;
+  VkPipeline& roundings = pipelines_[static_cast<std::size_t>(GpuTask::roundings)];
+  if (auto error = make_pipeline(GpuTask::roundings, roundings_spirv, false, roundings)) return error;
   if (auto error = check_roundings()) return error;
-  if (auto error = make_pipeline(GpuTask::any_hits, tree_walk_spirv)) return error;
-  if (auto error = make_pipeline(GpuTask::first_hits, tree_walk_spirv)) return error;
+  if (auto error = make_pipelines(GpuTask::any_hits, tree_walk_spirv)) return error;
+  if (auto error = make_pipelines(GpuTask::first_hits, tree_walk_spirv)) return error;
   return WalkCheck::is_on ? check_walk() : std::nullopt;
 }
 
@@ -244,8 +248,7 @@ std::optional<GpuError> GpuDeviceState::prepare_scenes() {
   const std::lock_guard lock(scenes_mutex_);
   if (takes_scenes_) return std::nullopt;
   for (const GpuTask task : {GpuTask::scene_any_hits, GpuTask::scene_first_hits}) {
-    if (pipelines_[static_cast<std::size_t>(task)] != VK_NULL_HANDLE) continue;
-    if (auto error = make_pipeline(task, scene_walk_spirv)) return error;
+    if (auto error = make_pipelines(task, scene_walk_spirv)) return error;
   }
   if (WalkCheck::is_on) {
     if (auto error = check_scenes()) return error;
@@ -277,16 +280,26 @@ std::optional<GpuError> GpuDeviceState::make_layouts() {
   return error_of(vulkan.CreatePipelineLayout(device, &info, nullptr, &layout_), "while opening " + name, layout_);
 }
 
-std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<const std::uint32_t> shader) {
+std::optional<GpuError> GpuDeviceState::make_pipelines(GpuTask task, std::span<const std::uint32_t> shader) {
+  const auto place = static_cast<std::size_t>(task);
+  if (quick_pipelines_[place] == VK_NULL_HANDLE) {
+    if (auto error = make_pipeline(task, shader, true, quick_pipelines_[place])) return error;
+  }
+  return pipelines_[place] == VK_NULL_HANDLE ? make_pipeline(task, shader, false, pipelines_[place]) : std::nullopt;
+}
+
+std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<const std::uint32_t> shader,
+                                                      bool is_quick, VkPipeline& pipeline) {
   auto source = of_type<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
   source.codeSize = shader.size_bytes();
   source.pCode = shader.data();
   VkShaderModule compiled = VK_NULL_HANDLE;
   const std::string what = "while compiling a shader for " + name;
   if (auto error = error_of(vulkan.CreateShaderModule(device, &source, nullptr, &compiled), what)) return error;
-  const std::uint32_t wants_first = task == GpuTask::first_hits || task == GpuTask::scene_first_hits ? 1 : 0;
-  const VkSpecializationMapEntry entry = {0, 0, sizeof wants_first};
-  const VkSpecializationInfo constants = {1, &entry, sizeof wants_first, &wants_first};
+  const std::uint32_t values[] = {task == GpuTask::first_hits || task == GpuTask::scene_first_hits ? 1U : 0U,
+                                  is_quick ? 1U : 0U};
+  const VkSpecializationMapEntry entries[] = {{0, 0, sizeof values[0]}, {1, sizeof values[0], sizeof values[1]}};
+  const VkSpecializationInfo constants = {2, entries, sizeof values, values};
   auto info = of_type<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
   info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
@@ -294,7 +307,6 @@ std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<co
   info.stage.pName = "main";
   info.stage.pSpecializationInfo = task == GpuTask::roundings ? nullptr : &constants;
   info.layout = layout_;
-  VkPipeline& pipeline = pipelines_[static_cast<std::size_t>(task)];
   const VkResult made = vulkan.CreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
   vulkan.DestroyShaderModule(device, compiled, nullptr);
   return error_of(made, what, pipeline);
@@ -363,11 +375,19 @@ std::optional<GpuError> GpuDeviceState::submit(GpuSlot& slot, std::span<const Gp
   if (dispatch != nullptr) {
     const auto task = static_cast<std::size_t>(dispatch->task);
     const PushedWords& words = dispatch->words;
-    vulkan.CmdBindPipeline(slot.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[task]);
+    const bool is_in_two = quick_pipelines_[task] != VK_NULL_HANDLE;
+    vulkan.CmdBindPipeline(slot.commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                           is_in_two ? quick_pipelines_[task] : pipelines_[task]);
     vulkan.CmdBindDescriptorSets(slot.commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &slot.buffers, 0,
                                  nullptr);
     vulkan.CmdPushConstants(slot.commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof words, &words);
     vulkan.CmdDispatch(slot.commands, (words.path_count + threads_in_group - 1) / threads_in_group, 1, 1);
+    if (is_in_two) {
+      wait_for(compute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | compute,
+               VK_ACCESS_INDIRECT_COMMAND_READ_BIT | by_shader);
+      vulkan.CmdBindPipeline(slot.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[task]);
+      vulkan.CmdDispatchIndirect(slot.commands, slot.list.get(), offsetof(ListedCounts, groups));
+    }
     wait_for(compute, VK_ACCESS_SHADER_WRITE_BIT, transfer, by_transfer);
   }
   copy_all(after);
@@ -435,10 +455,12 @@ std::optional<GpuError> GpuDeviceState::walk(GpuSlot& slot, const GpuMesh& mesh,
                                              const PathLimits& limits, GpuTask task, std::span<std::byte> answers) {
   std::memcpy(slot.host_paths.data(), paths.data(), paths.size_bytes());
   std::memcpy(slot.host_limits.data(), &limits, sizeof limits);
+  slot.clear_list();
   bind(slot, mesh.buffers(), {slot.paths.get()}, {slot.answers.get()});
   const GpuDispatch dispatch = {task, {static_cast<std::uint32_t>(paths.size()), 1, 0, max_path_steps, 0}};
   const GpuCopy there[] = {copy_of(slot.host_paths, slot.paths, paths.size_bytes()),
-                           copy_of(slot.host_limits, slot.limits, sizeof limits)};
+                           copy_of(slot.host_limits, slot.limits, sizeof limits),
+                           copy_of(slot.host_list, slot.list, sizeof(ListedCounts))};
   const GpuCopy back = copy_of(slot.answers, slot.host_answers, answers.size_bytes());
   if (auto error = submit(slot, there, &dispatch, {&back, 1})) return error;
   if (auto error = wait(slot)) return error;

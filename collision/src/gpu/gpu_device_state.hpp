@@ -154,7 +154,10 @@ struct GpuDeviceState {
   /// Returns the number of buffers that the shaders of this device may have.
   [[nodiscard]] std::uint32_t buffer_count() const;
   [[nodiscard]] std::optional<GpuError> make_layouts();
-  [[nodiscard]] std::optional<GpuError> make_pipeline(GpuTask task, std::span<const std::uint32_t> shader);
+  /// Makes the pipelines of a task, unless they are there.
+  [[nodiscard]] std::optional<GpuError> make_pipelines(GpuTask task, std::span<const std::uint32_t> shader);
+  [[nodiscard]] std::optional<GpuError> make_pipeline(GpuTask task, std::span<const std::uint32_t> shader,
+                                                      bool is_quick, VkPipeline& pipeline);
   /// Computes the cases of `rounding_check.hpp`.
   [[nodiscard]] std::optional<GpuError> round(GpuSlot& slot, std::span<const RoundingCase> cases,
                                               std::span<RoundingResult> results);
@@ -175,6 +178,8 @@ struct GpuDeviceState {
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::array<VkPipeline, gpu_task_count> pipelines_ = {};
+  /// Those of the first dispatch of a task that has two.
+  std::array<VkPipeline, gpu_task_count> quick_pipelines_ = {};
 };
 
 /// A batch or an upload on a device. In the end it waits until the device has nothing to do for it. So neither an error

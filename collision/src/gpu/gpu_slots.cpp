@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "gpu/device_answers.hpp"
@@ -16,6 +17,11 @@ constexpr std::uint64_t two_minutes = 120 * one_second;
 constexpr const char* for_a_batch = "for a batch";
 
 }  // namespace
+
+void GpuSlot::clear_list() const {
+  const ListedCounts none;
+  std::memcpy(host_list.data(), &none, sizeof none);
+}
 
 GpuSlotPair::~GpuSlotPair() {
   if (device == nullptr) return;

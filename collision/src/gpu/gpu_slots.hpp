@@ -13,6 +13,9 @@ struct GpuDeviceState;
 
 /// The work on one dispatch: its buffers on both sides, its commands, and a fence.
 struct GpuSlot {
+  /// Sets what stands before the list on the host to what a device begins with.
+  void clear_list() const;
+
   GpuBuffer host_paths, host_limits, host_answers, host_list;  ///< Where the host writes and reads.
   GpuBuffer paths, limits, answers, list;                      ///< Where the device does.
   VkCommandBuffer commands = VK_NULL_HANDLE;

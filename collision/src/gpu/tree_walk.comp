@@ -17,21 +17,20 @@
 #include "exact_pair.glsl"
 #endif
 
-layout(local_size_x = 64) in;
+const uint threads_in_group = 64;
+layout(local_size_x = threads_in_group) in;
 layout(constant_id = 0) const uint wants_first = 1;
+layout(constant_id = 1) const uint is_quick = 0;  // 1 in the first dispatch of a task, which decides in floats alone.
 
+// Memory is read in whole vectors, because devices load them at once.
 struct TreeNode {
-  float low_x, low_y, low_z;
-  uint first;  // The first of its triangles or instances, or the first of its two children.
-  float high_x, high_y, high_z;
-  uint count;  // The number of its triangles or instances. A node with children has 0.
+  uvec4 low;   // The bits of three floats, and the first of its triangles or instances, or of its two children.
+  uvec4 high;  // The bits of three floats, and the number of its triangles or instances, or 0 if it has children.
 };
 
 struct TreeTriangle {
-  uint corners[9];  // The bits of floats.
-  uint id;
-  uint mask;
-  uint plane;  // The same for triangles of a mesh that lie in one plane across an axis, or 0.
+  uvec4 corners_1, corners_2;  // The bits of eight floats of the corners.
+  uvec4 rest;                  // The bits of the last float, the id, the mask, and the plane.
 };
 
 #include "path_kernel.glsl"
@@ -47,12 +46,16 @@ struct Leftover {
   uint path;
   uint triangle;  // The triangle that is hit and not rounded, or `miss` if the path is undecided.
   uint words[6];  // The path.
+  uint again;     // Apart from the others: the path that a thread of the second dispatch looks at.
 };
 
-// The numbers are counted from 0 in each dispatch.
+// The numbers are counted from 0 for each task. The first dispatch counts what the second one has to do.
 layout(std430, binding = 5) buffer Leftovers {
   uint leftover_count;
   uint miss_count;
+  uint again_count;
+  uint again_groups;  // This and the next two are the size of the second dispatch.
+  uint one_1, one_2;
   uint unused_1, unused_2;
   Leftover leftovers[];
 };
@@ -106,8 +109,11 @@ TreeNode node_at(uint number) {
   return nodes[number];
 }
 
+uint first_of(TreeNode node) { return node.low.w; }
+uint count_of(TreeNode node) { return node.high.w; }
+
 bool misses_node(TreeNode node, out float enters) {
-  return misses_box(vec3(node.low_x, node.low_y, node.low_z), vec3(node.high_x, node.high_y, node.high_z), enters);
+  return misses_box(uintBitsToFloat(node.low.xyz), uintBitsToFloat(node.high.xyz), enters);
 }
 
 uint asked;  // The path.
@@ -135,6 +141,8 @@ uint best_side;
 bool has_open;       // True if something is undecided.
 uint steps;          // What the walk has taken so far.
 
+bool may_go_on() { return steps < max_steps; }
+
 // Notes that something is undecided. Its hits have their t at `enters` or later. Returns true if no first hit can be
 // certain any more, because no certain hit is before all others (G8).
 bool leave_open(float enters) {
@@ -144,11 +152,17 @@ bool leave_open(float enters) {
 }
 
 uvec3 bits_of(TreeTriangle triangle, uint corner) {
-  uint at = 3 * corner;
-  return uvec3(triangle.corners[at], triangle.corners[at + 1], triangle.corners[at + 2]);
+  if (corner == 0) return triangle.corners_1.xyz;
+  if (corner == 1) return uvec3(triangle.corners_1.w, triangle.corners_2.xy);
+  return uvec3(triangle.corners_2.zw, triangle.rest.x);
 }
 
 vec3 corner_of(TreeTriangle triangle, uint corner) { return uintBitsToFloat(bits_of(triangle, corner)); }
+
+uint id_at(uint triangle) { return triangles[triangle].rest.y; }
+
+// Returns the same for triangles of a mesh that lie in one plane across an axis, and 0 for others.
+uint plane_at(uint triangle) { return triangles[triangle].rest.w; }
 
 // What is known of a triangle before it counts.
 struct Meeting {
@@ -174,8 +188,8 @@ ExactContact exact_contact_with(TreeTriangle triangle) {
 // Hits of triangles in one plane are told apart without that (G22).
 bool overlaps_best(uint triangle, Meeting met) {
   if (best == miss) return false;
-  uint plane = triangles[best].plane;
-  bool is_told = met.side != edge_on && plane != 0 && plane == triangles[triangle].plane;
+  uint plane = plane_at(best);
+  bool is_told = met.side != edge_on && plane != 0 && plane == plane_at(triangle);
   return !is_told && wants_first != 0 && met.lower <= best_upper && met.upper >= best_lower;
 }
 
@@ -213,7 +227,7 @@ void settle(uint triangle, inout Meeting met) {
         }
       } else if (has_order) {
         met.order = order_of_products(height, contact.det, contact.height, det);
-        if (met.order == 0) met.order = triangles[triangle].id < triangles[best].id ? -1 : 1;
+        if (met.order == 0) met.order = id_at(triangle) < id_at(best) ? -1 : 1;
       }
     }
   }
@@ -225,12 +239,12 @@ void take_hit(uint triangle, uint instance, Meeting met) {
   float lower = met.lower;
   float upper = met.upper;
   limit = min(limit, upper);
-  if (best != miss && best_instance == instance && triangles[best].plane != 0 && met.side != edge_on &&
-      triangles[best].plane == triangles[triangle].plane) {
+  if (best != miss && best_instance == instance && plane_at(best) != 0 && met.side != edge_on &&
+      plane_at(best) == plane_at(triangle)) {
     // Both have the same t, and the lower id comes first (G22).
     best_lower = max(best_lower, lower);
     best_upper = min(best_upper, upper);
-    if (triangles[triangle].id < triangles[best].id) best = triangle;
+    if (id_at(triangle) < id_at(best)) best = triangle;
     return;
   }
   if (met.order > 0) return;
@@ -272,6 +286,7 @@ bool misses_triangle(TreeTriangle triangle, uint instance, bool is_turned, inout
   met.verdict = classify(a, b, c, met.lower, met.upper, is_front);
   if (met.verdict == is_open) {
     if (misses_box(min(min(a, b), c), max(max(a, b), c), enters)) return true;
+    if (is_quick != 0) return false;
     PairVerdict decided = decide_in_pairs(a, b, c, instance);
     met.verdict = decided.verdict;
     met.lower = decided.lower;
@@ -286,18 +301,20 @@ bool misses_triangle(TreeTriangle triangle, uint instance, bool is_turned, inout
 
 // Gives the triangles of a leaf to the kernel. Returns true if the walk may end.
 bool meet_leaf(TreeNode leaf, uint ignored, uint instance, bool is_turned) {
-  for (uint i = leaf.first; i < leaf.first + leaf.count; ++i) {
+  for (uint i = first_of(leaf); i < first_of(leaf) + count_of(leaf); ++i) {
     TreeTriangle triangle = triangles[i];
-    if ((triangle.mask & range.mask) == 0 || triangle.id == ignored) continue;
+    if ((triangle.rest.z & range.mask) == 0 || triangle.rest.y == ignored) continue;
     Meeting met;
     met.verdict = is_open;
     met.order = 0;
     float enters;
     if (!rounds_best && misses_triangle(triangle, instance, is_turned, met, enters)) continue;
 #ifndef SCENE
-    settle(i, met);
-    if (rounds_best) return true;
-    if (met.verdict == is_missed) continue;
+    if (is_quick == 0) {
+      settle(i, met);
+      if (rounds_best) return true;
+      if (met.verdict == is_missed) continue;
+    }
 #endif
     if (met.verdict == is_open) {
       if (leave_open(enters)) return true;
@@ -325,6 +342,64 @@ void round_best() {
   best_side = best_hit.is_front ? front : back;
 }
 
+// The walk through the tree.
+TreeNode node;  // Where it is.
+uint at;        // The number of this node.
+uint waiting[max_depth];  // The numbers of nodes that wait,
+float waiting_enters[max_depth];  // and the t at which the path enters them, or an earlier one.
+uint depth;     // How many of them there are.
+#ifdef SCENE
+bool is_in_frame;  // True if the path is in the frame of an instance.
+#endif
+
+// Goes on to the next node that waits, unless all that it has comes later than a certain hit (G7). Returns false if
+// none is left.
+bool go_to_next() {
+  bool has_next = false;
+  while (depth > 0 && !has_next) {
+    --depth;
+    has_next = waiting_enters[depth] <= limit;
+  }
+  if (has_next) {
+    at = waiting[depth];
+    node = node_at(at);
+#ifdef SCENE
+    if (is_in_frame && (at & in_scene) != 0) {
+      read_path(asked);
+      is_in_frame = false;
+    }
+#endif
+  }
+  return has_next;
+}
+
+// Goes on to the child that the path enters first. If it meets both, the other one waits. Returns false if no node is
+// left. Sets `is_full` if there is no room for one that waits.
+bool go_down(inout bool is_full) {
+  uint first = first_of(node);
+  TreeNode left = node_at(first);
+  TreeNode right = node_at(first + 1);
+  float left_enters;
+  float right_enters;
+  bool skips_left = misses_node(left, left_enters);
+  bool skips_right = misses_node(right, right_enters);
+  skips_left = skips_left || left_enters > limit;  // G7
+  skips_right = skips_right || right_enters > limit;
+  if (skips_left && skips_right) return go_to_next();
+  bool goes_left = !skips_left && (skips_right || left_enters <= right_enters);
+  if (!skips_left && !skips_right) {
+    is_full = depth == max_depth;
+    if (is_full) return false;
+    waiting[depth] = goes_left ? first + 1 : first;
+    waiting_enters[depth] = goes_left ? right_enters : left_enters;
+    ++depth;
+  }
+  at = goes_left ? first : first + 1;
+  if (goes_left) node = left;
+  if (!goes_left) node = right;
+  return true;
+}
+
 // Returns the place of a triangle among all, or `miss`, or `undecided`.
 uint answer(uint path) {
   range = limits[path * limits_step];
@@ -343,45 +418,41 @@ uint answer(uint path) {
   bool is_turned = false;
 #ifdef SCENE
   float max_t = max(abs(range.first), abs(range.last));
-  bool is_in_frame = false;
-  uint at = in_scene;
+  is_in_frame = false;
+  at = in_scene;
 #else
-  uint at = 0;
+  at = 0;
 #endif
 
   float enters;
-  if (misses_node(node_at(at), enters)) return miss;
-  uint waiting[max_depth];
-  float waiting_enters[max_depth];
-  uint depth = 0;
-  for (steps = 0; steps < max_steps; ++steps) {
-    TreeNode node = node_at(at);
-    if (rounds_best) {
-      node.first = best;
-      node.count = 1;
+  node = node_at(at);
+  if (misses_node(node, enters)) return miss;
+  depth = 0;
+  bool has_node = true;
+  bool is_full = false;
+  for (steps = 0; may_go_on(); ++steps) {
+    // The threads of a group go down to their leaves together, and then meet triangles together.
+    while (has_node && count_of(node) == 0 && may_go_on()) {
+      has_node = go_down(is_full);
+      ++steps;
     }
-    if (node.count == 0) {
-      float left_enters;
-      float right_enters;
-      bool skips_left = misses_node(node_at(node.first), left_enters);
-      bool skips_right = misses_node(node_at(node.first + 1), right_enters);
-      skips_left = skips_left || left_enters > limit;  // G7
-      skips_right = skips_right || right_enters > limit;
-      if (!skips_left || !skips_right) {
-        bool goes_left = !skips_left && (skips_right || left_enters <= right_enters);
-        if (!skips_left && !skips_right) {
-          if (depth == max_depth) return undecided;
-          waiting[depth] = goes_left ? node.first + 1 : node.first;
-          waiting_enters[depth] = goes_left ? right_enters : left_enters;
-          ++depth;
-        }
-        at = goes_left ? node.first : node.first + 1;
-        continue;
-      }
+    if (is_full || !may_go_on()) break;
+    if (!has_node) {
+      if (best == miss) return has_open ? undecided : miss;  // G8
+      if (best_upper >= others) return undecided;            // G8
+      if (wants_first == 0) return best;
+      round_best();
+#ifndef SCENE
+      rounds_best = is_quick == 0 && !best_hit.is_rounded;
+#endif
+      if (!rounds_best) return best;
+      node.low.w = best;
+      node.high.w = 1;
+    }
 #ifdef SCENE
-    } else if ((at & in_scene) != 0) {
+    if ((at & in_scene) != 0) {
       // A leaf of the scene's tree has one instance. The walk goes on in its mesh (G18).
-      Instance placed = instances[node.first];
+      Instance placed = instances[first_of(node)];
       bool is_named = placed.index == range.ignored_instance;
       ignored = is_named ? range.ignored : miss;
       if ((placed.mask & range.instance_mask) != 0 && !(is_named && ignored == miss)) {
@@ -390,44 +461,21 @@ uint answer(uint path) {
           if (leave_open(enters)) return undecided;
         } else {
           is_in_frame = true;
-          instance = node.first;
+          instance = first_of(node);
           is_turned = (placed.flags & is_mirrored) != 0;
-          if (!misses_node(node_at(placed.root), enters) && enters <= limit) {
-            at = placed.root;
-            continue;
-          }
+          at = placed.root;
+          node = node_at(at);
+          if (!misses_node(node, enters) && enters <= limit) continue;
         }
       }
+      has_node = go_to_next();
+      continue;
+    }
 #endif
-    } else if (meet_leaf(node, ignored, instance, is_turned)) {
+    if (meet_leaf(node, ignored, instance, is_turned)) {
       return wants_first != 0 && !rounds_best ? undecided : best;
     }
-    // On to the next node that waits, unless all that it has comes later than a certain hit (G7).
-    bool has_next = false;
-    while (depth > 0 && !has_next) {
-      --depth;
-      has_next = waiting_enters[depth] <= limit;
-    }
-    if (!has_next) {
-      if (best == miss) return has_open ? undecided : miss;  // G8
-      if (best_upper >= others) return undecided;            // G8
-      if (wants_first == 0 || rounds_best) return best;
-      round_best();
-#ifndef SCENE
-      if (!best_hit.is_rounded) {
-        rounds_best = true;
-        continue;
-      }
-#endif
-      return best;
-    }
-    at = waiting[depth];
-#ifdef SCENE
-    if (is_in_frame && (at & in_scene) != 0) {
-      read_path(path);
-      is_in_frame = false;
-    }
-#endif
+    has_node = go_to_next();
   }
   return undecided;
 }
@@ -440,10 +488,23 @@ void list(uint path, uint triangle) {
   for (uint i = 0; i < 6; ++i) leftovers[place].words[i] = path_words[6 * path + i];
 }
 
+// Leaves a path to the second dispatch, which is as large as it has to be.
+void look_again(uint path) {
+  uint place = atomicAdd(again_count, 1u);
+  if (place % threads_in_group == 0) atomicAdd(again_groups, 1u);
+  leftovers[place].again = path;
+}
+
 void main() {
   uint path = gl_GlobalInvocationID.x;
-  if (path >= path_count) return;
+  if (path >= (is_quick != 0 ? path_count : again_count)) return;
+  if (is_quick == 0) path = leftovers[path].again;
   uint found = answer(path);
+  bool is_certain = found == miss || (found != undecided && (wants_first == 0 || best_hit.is_rounded));
+  if (is_quick != 0 && !is_certain) {
+    look_again(path);
+    return;
+  }
   if (lists != 0 && found == miss) atomicAdd(miss_count, 1u);
   if (lists != 0 && found == undecided) list(path, miss);
   if (wants_first == 0) {
@@ -454,7 +515,7 @@ void main() {
   uint side = found == miss ? no_side : side_undecided;
   vec3 weights = vec3(0.0);
   if (found != miss && found != undecided) {
-    id = triangles[found].id;
+    id = id_at(found);
     side = best_side;
     weights = vec3(best_hit.t, best_hit.u, best_hit.v);
     if (!best_hit.is_rounded) {

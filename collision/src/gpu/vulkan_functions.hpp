@@ -54,6 +54,7 @@ namespace surehit::detail {
   X(CmdBindDescriptorSets)                 \
   X(CmdPushConstants)                      \
   X(CmdDispatch)                           \
+  X(CmdDispatchIndirect)                   \
   X(CmdCopyBuffer)                         \
   X(CmdPipelineBarrier) X(CreateFence) X(DestroyFence) X(ResetFences) X(WaitForFences) X(QueueSubmit)
 
