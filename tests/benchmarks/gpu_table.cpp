@@ -108,7 +108,7 @@ class GpuTables {
       const double in_buffers = race.time_in_buffers(given.part(), answers.part(), times.statistics);
       // Apart from the other times, because timestamps take time too.
       GpuStatistics unused;
-      const std::size_t tasks = paths.size() / GpuDeviceState::of(device_)->paths_in_dispatch + 1;
+      const std::size_t tasks = paths.size() / detail::DispatchSize::smallest + 1;
       DispatchTimer timer(device_, 2 * tasks);  // Each task has two dispatches.
       race.time_in_buffers(given.part(), answers.part(), unused);
       const std::optional<double> kernel = timer.nanoseconds();

@@ -119,8 +119,8 @@ struct GpuPaths {
 /// An open device of Vulkan. Copies refer to the same device, which closes with the last of them and of its colliders.
 ///
 /// Vulkan's loader is opened when a device is listed or opened, so a program starts without it. Any number of threads
-/// may use a device. No batch holds it, so an executor or a filter may ask it anew. Each batch under way at the same
-/// time takes 16 MB on the device and as much on the host. The memory of four is kept for later ones.
+/// may use a device. No batch holds it, so an executor or a filter may ask it anew. Each batch under way has
+/// memory for two dispatches, at most a 32nd of that of the device. The memory of four batches is kept for later ones.
 ///
 /// A program that has a device of its own lets the library adopt it, and so keeps paths and answers on the device.
 class GpuDevice {

@@ -14,7 +14,7 @@ std::string missing_of(const DeviceReport& report) {
   if (!memory_type(report.memory, any, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)) return "memory of its own";
   if (limits.maxComputeWorkGroupInvocations < threads_in_group ||
       limits.maxComputeWorkGroupSize[0] < threads_in_group ||
-      limits.maxComputeWorkGroupCount[0] < max_paths_in_dispatch / threads_in_group) {
+      limits.maxComputeWorkGroupCount[0] < DispatchSize::largest / threads_in_group) {
     return "work groups of 64 threads";
   }
   if (limits.maxPerStageDescriptorStorageBuffers < buffers_for_meshes) return "six buffers for a shader";

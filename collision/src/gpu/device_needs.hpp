@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/dispatch_size.hpp"
 #include "gpu/vulkan_functions.hpp"
 
 namespace surehit::detail {
@@ -16,10 +17,8 @@ struct DeviceReport {
   std::vector<VkQueueFamilyProperties> families;
 };
 
-/// The maximum number of paths in a dispatch. A path takes at most `max_path_steps` steps, so no dispatch takes long.
-inline constexpr std::uint32_t max_paths_in_dispatch = std::uint32_t{1} << 16;
-/// The maximum number of steps of a path before it is left to the host. A node of the tree takes one, and a decision in
-/// pairs as many as the shader says.
+/// The maximum number of steps of a path before it is left to the host, so that no dispatch takes long. A node of the
+/// tree takes one, and a decision in pairs as many as the shader says.
 inline constexpr std::uint32_t max_path_steps = std::uint32_t{1} << 12;
 /// The number of threads that work together on a device, as in the shaders.
 inline constexpr std::uint32_t threads_in_group = 64;

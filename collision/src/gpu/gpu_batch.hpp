@@ -52,15 +52,20 @@ class GpuBatch {
   std::optional<GpuError> run_on_device() {
     return in_dispatches(
         *state_.device, state_.mesh, count_, finished_,
-        [&](GpuSlot& slot, std::size_t first) { return begin(slot, first); },
-        [&](GpuSlot& slot, std::size_t first) {
-          finish(slot, first);
+        [&](GpuSlot& slot, std::size_t first, std::size_t count) { return begin(slot, first, count); },
+        [&](GpuSlot& slot, std::size_t first, std::size_t count) {
+          finish(slot, first, count);
           return std::optional<GpuError>();
         });
   }
 
-  std::optional<GpuError> begin(GpuSlot& slot, std::size_t first) {
-    const std::size_t count = std::min(step_, count_ - first);
+  std::optional<GpuError> begin(GpuSlot& slot, std::size_t first, std::size_t count) {
+    const std::size_t room = room_for(count);
+    const std::size_t limit_room = options_.path_options.empty() ? 1 : room;
+    if (auto error = state_.device->make_room(
+            slot.rooms(room * sizeof(float[6]), limit_room * sizeof(PathLimits), room * sizeof(DeviceAnswer), room))) {
+      return error;
+    }
     auto* const numbers = reinterpret_cast<float*>(slot.host_paths.data());
     if (paths_.is_packed()) {
       std::memcpy(numbers, paths_.packed(first), count * sizeof(float[6]));
@@ -82,9 +87,8 @@ class GpuBatch {
   }
 
   /// Answers the paths of a dispatch. All that may find no memory comes before the first answer.
-  void finish(GpuSlot& slot, std::size_t first) {
-    const std::span found(reinterpret_cast<const DeviceAnswer*>(slot.host_answers.data()),
-                          std::min(step_, count_ - first));
+  void finish(GpuSlot& slot, std::size_t first, std::size_t count) {
+    const std::span found(reinterpret_cast<const DeviceAnswer*>(slot.host_answers.data()), count);
     open_.clear();
     unrounded_.clear();
     std::size_t misses = 0;
@@ -161,7 +165,6 @@ class GpuBatch {
   std::span<Answer> answers_;
   const BatchOptions& options_;
   const GpuBatchOptions& gpu_;
-  const std::size_t step_ = state_.device->paths_in_dispatch;
   std::size_t count_ = 0;
   std::size_t finished_ = 0;
   GpuStatistics statistics_;

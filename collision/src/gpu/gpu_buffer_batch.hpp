@@ -60,8 +60,8 @@ class GpuBufferBatch {
       result.error = error_of_work(device_.no_memory, [&] {
         return in_dispatches(
             device_, state_.mesh, count_, result.finished,
-            [&](GpuSlot& slot, std::size_t first) { return begin(slot, first); },
-            [&](GpuSlot& slot, std::size_t first) { return finish(slot, first); });
+            [&](GpuSlot& slot, std::size_t first, std::size_t count) { return begin(slot, first, count); },
+            [&](GpuSlot& slot, std::size_t first, std::size_t count) { return finish(slot, first, count); });
       });
       // Whatever failed first, the device may still use the buffers.
       if (result.error && device_.is_lost) result.error = device_.lost;
@@ -80,18 +80,19 @@ class GpuBufferBatch {
   /// So much of the list comes back with the dispatch. The rest is fetched where there is more.
   static constexpr std::size_t listed_at_once = 1024;
 
-  [[nodiscard]] GpuRange paths_from(std::size_t first) const {
-    return {buffer_of(paths_.part), paths_.part.offset + first * path_size,
-            std::min(step_, count_ - first) * path_size};
+  [[nodiscard]] GpuRange paths_from(std::size_t first, std::size_t count) const {
+    return {buffer_of(paths_.part), paths_.part.offset + first * path_size, count * path_size};
   }
-  [[nodiscard]] GpuRange answers_from(std::size_t first) const {
-    return {buffer_of(answers_), answers_.offset + first * sizeof(DeviceAnswer),
-            std::min(step_, count_ - first) * sizeof(DeviceAnswer)};
+  [[nodiscard]] GpuRange answers_from(std::size_t first, std::size_t count) const {
+    return {buffer_of(answers_), answers_.offset + first * sizeof(DeviceAnswer), count * sizeof(DeviceAnswer)};
+  }
+  [[nodiscard]] static std::size_t list_size(std::size_t listed) {
+    return sizeof(ListedCounts) + listed * sizeof(ListedPath);
   }
 
-  std::optional<GpuError> begin(GpuSlot& slot, std::size_t first) {
-    const std::size_t count = std::min(step_, count_ - first);
-    const GpuRange paths = paths_from(first);
+  std::optional<GpuError> begin(GpuSlot& slot, std::size_t first, std::size_t count) {
+    const GpuRange paths = paths_from(first, count);
+    if (auto error = make_room(slot, room_for(count))) return error;
     const bool waits_for_all = first == 0;  // All work of the caller's comes before the first dispatch.
     if (is_for_host_) {
       const GpuCopy back = {paths.buffer, slot.host_paths.get(), {paths.offset, 0, paths.size}};
@@ -103,28 +104,42 @@ class GpuBufferBatch {
                              copy_of(slot.host_list, slot.list, sizeof(ListedCounts))};
     const GpuDispatch dispatch = {wants_first ? State::first_task : State::any_task,
                                   pushed_words(paths_.kind, !options_.path_options.empty(), count, true)};
-    const GpuCopy back =
-        copy_of(slot.list, slot.host_list, sizeof(ListedCounts) + std::min(count, listed_at_once) * sizeof(ListedPath));
-    device_.bind(slot, state_.mesh->buffers(), paths, answers_from(first));
+    const GpuCopy back = copy_of(slot.list, slot.host_list, list_size(std::min(count, listed_at_once)));
+    device_.bind(slot, state_.mesh->buffers(), paths, answers_from(first, count));
     auto error = device_.submit(slot, there, &dispatch, {&back, 1}, waits_for_all);
     if (!error) ++statistics_.dispatches;
     return error;
   }
 
-  std::optional<GpuError> finish(GpuSlot& slot, std::size_t first) {
+  /// Lets a slot have room for so many paths. That for long lists of the host is made where there are some.
+  std::optional<GpuError> make_room(GpuSlot& slot, std::size_t count) const {
+    constexpr auto on_host = GpuBuffer::Place::host;
+    constexpr auto on_device = GpuBuffer::Place::device;
     if (is_for_host_) {
-      take_all(slot, first);
-    } else if (auto error = take_list(slot, first)) {
+      const GpuRoom room = {&slot.host_paths, on_host, count * path_size};
+      return device_.make_room({&room, 1});
+    }
+    const std::size_t limits = (options_.path_options.empty() ? 1 : count) * sizeof(PathLimits);
+    const GpuRoom rooms[] = {{&slot.host_limits, on_host, limits},
+                             {&slot.limits, on_device, limits},
+                             {&slot.host_list, on_host, list_size(std::min(count, listed_at_once))},
+                             {&slot.list, on_device, list_size(count)}};
+    return device_.make_room(rooms);
+  }
+
+  std::optional<GpuError> finish(GpuSlot& slot, std::size_t first, std::size_t count) {
+    if (is_for_host_) {
+      take_all(slot, count);
+    } else if (auto error = take_list(slot, count)) {
       return error;
     }
     if (listed_.empty()) return std::nullopt;
     answer_listed(first);
-    return write_back(slot, first);
+    return write_back(slot, answers_from(first, count));
   }
 
   /// Takes all paths of a dispatch, which the host answers.
-  void take_all(GpuSlot& slot, std::size_t first) {
-    const std::size_t count = std::min(step_, count_ - first);
+  void take_all(GpuSlot& slot, std::size_t count) {
     statistics_.undecided += count;
     listed_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -135,14 +150,15 @@ class GpuBufferBatch {
   }
 
   /// Takes the list of a dispatch, by the order of paths.
-  std::optional<GpuError> take_list(GpuSlot& slot, std::size_t first) {
-    const std::size_t count = std::min(step_, count_ - first);
+  std::optional<GpuError> take_list(GpuSlot& slot, std::size_t count) {
     ListedCounts counts;
     std::memcpy(&counts, slot.host_list.data(), sizeof counts);
     if (counts.leftovers > count || counts.misses > count - counts.leftovers) return odd_list();
     if (counts.leftovers > listed_at_once) {
-      const GpuCopy rest =
-          copy_of(slot.list, slot.host_list, sizeof(ListedCounts) + counts.leftovers * sizeof(ListedPath));
+      const std::size_t bytes = list_size(counts.leftovers);
+      const GpuRoom room = {&slot.host_list, GpuBuffer::Place::host, bytes};
+      if (auto error = device_.make_room({&room, 1})) return error;
+      const GpuCopy rest = copy_of(slot.list, slot.host_list, bytes);
       if (auto error = device_.submit(slot, {&rest, 1}, nullptr, {})) return error;
       if (auto error = device_.wait(slot)) return error;
     }
@@ -201,9 +217,11 @@ class GpuBufferBatch {
   }
 
   /// Copies the answers of the host into the caller's buffer: those that lie side by side at once.
-  std::optional<GpuError> write_back(GpuSlot& slot, std::size_t first) {
-    std::memcpy(slot.host_answers.data(), written_.data(), written_.size() * sizeof(DeviceAnswer));
-    const GpuRange answers = answers_from(first);
+  std::optional<GpuError> write_back(GpuSlot& slot, const GpuRange& answers) {
+    const std::size_t bytes = written_.size() * sizeof(DeviceAnswer);
+    const GpuRoom room = {&slot.host_answers, GpuBuffer::Place::host, room_for(written_.size()) * sizeof(DeviceAnswer)};
+    if (auto error = device_.make_room({&room, 1})) return error;
+    std::memcpy(slot.host_answers.data(), written_.data(), bytes);
     copies_.clear();
     for (std::size_t i = 0; i < listed_.size();) {
       std::size_t end = i + 1;
@@ -224,7 +242,6 @@ class GpuBufferBatch {
   const GpuBufferPart& answers_;
   const BatchOptions& options_;
   const GpuBatchOptions& gpu_;
-  const std::size_t step_ = device_.paths_in_dispatch;
   std::size_t count_ = 0;
   bool is_for_host_ = false;
   GpuStatistics statistics_;

@@ -1,6 +1,7 @@
 #include "gpu/gpu_device_state.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <utility>
 
@@ -177,6 +178,8 @@ GpuHandles GpuDeviceState::handles() const {
 }
 
 std::optional<GpuError> GpuDeviceState::prepare() {
+  // A batch has two slots, and may have a 32nd of the device's memory.
+  dispatch_size.set_limit(description_of(report).memory_bytes / 32 / (2 * GpuSlot::bytes_for_path));
   if (auto error = make_layouts()) return error;
   VkPipeline& roundings = pipelines_[static_cast<std::size_t>(GpuTask::roundings)];
   if (auto error = make_pipeline(GpuTask::roundings, roundings_spirv, false, roundings)) return error;
@@ -399,6 +402,8 @@ std::optional<GpuError> GpuDeviceState::submit(GpuSlot& slot, std::span<const Gp
   auto work = of_type<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
   work.commandBufferCount = 1;
   work.pCommandBuffers = &slot.commands;
+  slot.dispatched = dispatch == nullptr ? 0 : dispatch->words.path_count;
+  slot.begun = std::chrono::steady_clock::now();
   const VkResult begun = [&] {
     const std::lock_guard lock(queue_mutex_);
     return vulkan.QueueSubmit(queue_, 1, &work, slot.fence);
@@ -426,6 +431,9 @@ std::optional<GpuError> GpuDeviceState::upload(GpuSlot& slot, std::span<const st
 }
 
 std::optional<GpuError> GpuDeviceState::upload(GpuSlot& slot, std::span<const std::byte> bytes, const GpuBuffer& to) {
+  constexpr std::size_t bytes_at_once = std::size_t{4} << 20;
+  const GpuRoom room = {&slot.host_paths, GpuBuffer::Place::host, std::min(bytes.size(), bytes_at_once)};
+  if (auto error = make_room({&room, 1})) return error;
   for (std::size_t first = 0; first < bytes.size(); first += slot.host_paths.size()) {
     const std::size_t count = std::min(slot.host_paths.size(), bytes.size() - first);
     std::memcpy(slot.host_paths.data(), bytes.data() + first, count);
@@ -438,6 +446,7 @@ std::optional<GpuError> GpuDeviceState::upload(GpuSlot& slot, std::span<const st
 
 std::optional<GpuError> GpuDeviceState::round(GpuSlot& slot, std::span<const RoundingCase> cases,
                                               std::span<RoundingResult> results) {
+  if (auto error = make_room(slot.rooms(cases.size_bytes(), 0, results.size_bytes(), 0))) return error;
   std::memcpy(slot.host_paths.data(), cases.data(), cases.size_bytes());
   // The shader reads no mesh.
   VkBuffer unread = slot.limits.get();
@@ -453,6 +462,9 @@ std::optional<GpuError> GpuDeviceState::round(GpuSlot& slot, std::span<const Rou
 
 std::optional<GpuError> GpuDeviceState::walk(GpuSlot& slot, const GpuMesh& mesh, std::span<const Segmentf> paths,
                                              const PathLimits& limits, GpuTask task, std::span<std::byte> answers) {
+  if (auto error = make_room(slot.rooms(paths.size_bytes(), sizeof limits, answers.size_bytes(), paths.size()))) {
+    return error;
+  }
   std::memcpy(slot.host_paths.data(), paths.data(), paths.size_bytes());
   std::memcpy(slot.host_limits.data(), &limits, sizeof limits);
   slot.clear_list();

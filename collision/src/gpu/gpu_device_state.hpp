@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "gpu/device_needs.hpp"
+#include "gpu/dispatch_size.hpp"
 #include "gpu/gpu_slots.hpp"
 #include "gpu/path_limits.hpp"
 #include "gpu/rounding_check.hpp"
@@ -83,6 +84,8 @@ struct GpuDeviceState {
   /// Lets others take slots, once the device has nothing more to do with them. If that cannot be waited for, the device
   /// keeps them, and counts as lost.
   void give_back(GpuSlotPair& pair) noexcept;
+  /// Lets buffers of a slot that is not under way have room for so many bytes. What they had is lost.
+  [[nodiscard]] std::optional<GpuError> make_room(std::span<const GpuRoom> rooms) const;
   /// Sets the buffers of a slot. The first ones are those of a mesh or of a scene.
   void bind(const GpuSlot& slot, const std::array<VkBuffer, 4>& of_mesh, const GpuRange& paths,
             const GpuRange& answers) const;
@@ -122,7 +125,7 @@ struct GpuDeviceState {
   /// The slots of all batches and uploads under way, and a few that are free.
   std::vector<std::unique_ptr<GpuSlotPair>> pairs;
   static constexpr std::ptrdiff_t max_free_pairs = 4;
-  std::uint32_t paths_in_dispatch = max_paths_in_dispatch;  ///< Tests take fewer.
+  DispatchSize dispatch_size;
 
  private:
   /// Makes the slots of a pair.

@@ -18,6 +18,20 @@ constexpr const char* for_a_batch = "for a batch";
 
 }  // namespace
 
+std::array<GpuRoom, 8> GpuSlot::rooms(std::size_t path_bytes, std::size_t limit_bytes, std::size_t answer_bytes,
+                                      std::size_t listed) {
+  constexpr auto on_host = GpuBuffer::Place::host;
+  constexpr auto on_device = GpuBuffer::Place::device;
+  return {GpuRoom{&host_paths, on_host, path_bytes},
+          {&paths, on_device, path_bytes},
+          {&host_limits, on_host, limit_bytes},
+          {&limits, on_device, limit_bytes},
+          {&host_answers, on_host, answer_bytes},
+          {&answers, on_device, answer_bytes},
+          {&host_list, on_host, sizeof(ListedCounts)},
+          {&list, on_device, sizeof(ListedCounts) + listed * sizeof(ListedPath)}};
+}
+
 void GpuSlot::clear_list() const {
   const ListedCounts none;
   std::memcpy(host_list.data(), &none, sizeof none);
@@ -114,17 +128,13 @@ std::optional<GpuError> GpuDeviceState::make(GpuSlot& slot, const GpuSlotPair& p
   const auto fence = of_type<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
   const VkResult has_fence = vulkan.CreateFence(device, &fence, nullptr, &slot.fence);
   if (auto error = error_of(has_fence, for_a_batch, slot.fence)) return error;
-  struct Wanted {
-    GpuBuffer *on_host, *on_device;
-    std::size_t size;
-  };
-  for (const Wanted& wanted : {Wanted{&slot.host_paths, &slot.paths, sizeof(float[6])},
-                               Wanted{&slot.host_limits, &slot.limits, sizeof(PathLimits)},
-                               Wanted{&slot.host_answers, &slot.answers, sizeof(DeviceSceneHit)},
-                               Wanted{&slot.host_list, &slot.list, sizeof(ListedPath)}}) {
-    const std::size_t bytes = wanted.size * max_paths_in_dispatch + sizeof(ListedCounts);
-    if (auto error = wanted.on_host->make(*this, bytes, GpuBuffer::Place::host, "a batch")) return error;
-    if (auto error = wanted.on_device->make(*this, bytes, GpuBuffer::Place::device, "a batch")) return error;
+  return std::nullopt;
+}
+
+std::optional<GpuError> GpuDeviceState::make_room(std::span<const GpuRoom> rooms) const {
+  for (const auto& [buffer, place, bytes] : rooms) {
+    if (buffer->size() >= bytes && buffer->get() != VK_NULL_HANDLE) continue;
+    if (auto error = buffer->make(*this, bytes, place, "a batch")) return error;
   }
   return std::nullopt;
 }
@@ -134,6 +144,7 @@ std::optional<GpuError> GpuDeviceState::wait(GpuSlot& slot) {
   const char* const what = "while a batch was under way";
   if (auto error = noted(wait_for_end(slot), what)) return error;
   slot.is_under_way = false;
+  if (slot.dispatched > 0) dispatch_size.note(slot.dispatched, std::chrono::steady_clock::now() - slot.begun);
   const VkResult reset = vulkan.ResetFences(device, 1, &slot.fence);
   if (reset != VK_SUCCESS) is_lost = true;  // The next wait would end before the work does.
   return noted(reset, what);

@@ -1,18 +1,36 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <memory>
 
+#include "gpu/device_answers.hpp"
 #include "gpu/gpu_buffer.hpp"
+#include "gpu/path_limits.hpp"
 #include "gpu/vulkan_functions.hpp"
 
 namespace surehit::detail {
 
 struct GpuDeviceState;
 
-/// The work on one dispatch: its buffers on both sides, its commands, and a fence.
+/// How large a buffer has to be at least.
+struct GpuRoom {
+  GpuBuffer* buffer;
+  GpuBuffer::Place place;
+  std::size_t bytes;
+};
+
+/// The work on one dispatch: its buffers on both sides, its commands, and a fence. The buffers grow with the work.
 struct GpuSlot {
+  /// The most that a path takes on the device.
+  static constexpr std::size_t bytes_for_path =
+      sizeof(float[6]) + sizeof(PathLimits) + sizeof(DeviceSceneHit) + sizeof(ListedPath);
+
+  /// Returns the rooms for a dispatch whose paths and answers come from the host and go back. `listed` is the number of
+  /// paths that the device may list.
+  [[nodiscard]] std::array<GpuRoom, 8> rooms(std::size_t path_bytes, std::size_t limit_bytes, std::size_t answer_bytes,
+                                             std::size_t listed);
   /// Sets what stands before the list on the host to what a device begins with.
   void clear_list() const;
 
@@ -21,7 +39,9 @@ struct GpuSlot {
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkDescriptorSet buffers = VK_NULL_HANDLE;
   VkFence fence = VK_NULL_HANDLE;
-  bool is_under_way = false;  ///< True from when work begins until it has been waited for.
+  bool is_under_way = false;                    ///< True from when work begins until it has been waited for.
+  std::size_t dispatched = 0;                   ///< The paths that the device was given last.
+  std::chrono::steady_clock::time_point begun;  ///< When that was.
 };
 
 /// The buffers of a mesh on a device, or those of a scene. Other versions of a scene may share those of its meshes.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -15,29 +16,40 @@
 namespace surehit::detail {
 
 /// Cuts a batch of `count` paths into dispatches. While the device works on one slot, the host finishes the other.
-/// Nothing is locked, so what runs in `finish` may ask the device anew. `begin(slot, first)` and `finish(slot, first)`
-/// return errors. `finished` is set to the number of finished paths, even if there is an error.
+/// Nothing is locked, so what runs in `finish` may ask the device anew. `begin(slot, first, some)` and
+/// `finish(slot, first, some)` are for `some` paths from `first` on, and return errors. `finished` is set to the number
+/// of finished paths, even if there is an error.
 template <typename Begin, typename Finish>
 [[nodiscard]] std::optional<GpuError> in_dispatches(GpuDeviceState& device, const std::shared_ptr<GpuMesh>& mesh,
                                                     std::size_t count, std::size_t& finished, const Begin& begin,
                                                     const Finish& finish) {
-  const std::size_t step = device.paths_in_dispatch;
   GpuWork work(device);
   if (auto error = work.begin(mesh)) return error;
   std::array<GpuSlot, 2>& slots = work.slots();
-  std::size_t begun = 0;
+  std::array<std::size_t, 2> under_way = {};  // How many paths are in each slot.
+  std::size_t begun = 0, next = 0;            // Dispatches begin and end in the slots by turns.
+  std::size_t oldest = 0;
   while (finished < count) {
-    if (begun < count && begun - finished < slots.size() * step) {
-      if (auto error = begin(slots[begun / step % 2], begun)) return error;
-      begun += std::min(step, count - begun);
+    if (begun < count && under_way[next] == 0) {
+      const std::size_t some = std::min<std::size_t>(device.dispatch_size.paths(), count - begun);
+      if (auto error = begin(slots[next], begun, some)) return error;
+      under_way[next] = some;
+      begun += some;
+      next = 1 - next;
       continue;
     }
-    GpuSlot& slot = slots[finished / step % 2];
-    if (auto error = device.wait(slot)) return error;
-    if (auto error = finish(slot, finished)) return error;
-    finished += std::min(step, count - finished);
+    if (auto error = device.wait(slots[oldest])) return error;
+    if (auto error = finish(slots[oldest], finished, under_way[oldest])) return error;
+    finished += under_way[oldest];
+    under_way[oldest] = 0;
+    oldest = 1 - oldest;
   }
   return std::nullopt;
+}
+
+/// Returns for how many paths a slot gets room, so that it need not grow each time.
+[[nodiscard]] inline std::size_t room_for(std::size_t count) {
+  return std::max(std::bit_ceil(count), std::size_t{1024});
 }
 
 /// Returns what `work` returns, or `no_memory` where it finds no memory. A batch that throws could not say how many

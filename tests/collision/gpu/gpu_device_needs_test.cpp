@@ -74,7 +74,7 @@ TEST(GpuNeedsTest, a_device_that_lacks_something_is_refused_with_the_reason) {
             "work groups of 64 threads");
   EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxComputeWorkGroupSize[0] = 63; }),
             "work groups of 64 threads");
-  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxComputeWorkGroupCount[0] = 1023; }),
+  EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxComputeWorkGroupCount[0] = 16383; }),
             "work groups of 64 threads");
   EXPECT_EQ(missing([](DeviceReport& report) { report.properties.limits.maxPerStageDescriptorStorageBuffers = 5; }),
             "six buffers for a shader");

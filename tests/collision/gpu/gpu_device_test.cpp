@@ -350,7 +350,7 @@ TEST_F(GpuDeviceTest, a_device_that_does_not_answer_keeps_the_mesh) {
     on_gpu = GpuCollider();
     EXPECT_EQ(freed, 0);
     device = GpuDevice();
-    EXPECT_EQ(freed, answers_at_last ? 18 : 0);  // Those of the mesh and of two slots.
+    EXPECT_EQ(freed, answers_at_last ? 10 : 0);  // Those of the mesh and of one slot.
   }
 }
 
