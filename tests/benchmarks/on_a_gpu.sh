@@ -31,7 +31,7 @@ stage "Packages"
 
 stage "Building"
 folder=build/gpu
-tests=(gpu_batches_test gpu_buffer_batch_test gpu_collider_test gpu_device_needs_test gpu_device_test gpu_memory_test
+tests=(gpu_batches_test gpu_buffer_batch_test gpu_collider_test gpu_commands_test gpu_device_needs_test gpu_device_test gpu_memory_test
   gpu_placed_path_test gpu_scene_buffer_test gpu_scene_failures_test gpu_scene_test gpu_shares_test gpu_slots_test
   gpu_tree_test)
 mkdir -p build

@@ -32,6 +32,16 @@ std::optional<std::uint32_t> computing_family(const DeviceReport& report) {
   return std::nullopt;
 }
 
+std::optional<std::uint32_t> copying_family(const DeviceReport& report) {
+  constexpr VkQueueFlags copies = VK_QUEUE_TRANSFER_BIT;
+  constexpr VkQueueFlags allowed = copies | VK_QUEUE_SPARSE_BINDING_BIT;
+  for (std::uint32_t i = 0; i < report.families.size(); ++i) {
+    const VkQueueFamilyProperties& family = report.families[i];
+    if ((family.queueFlags & copies) != 0 && (family.queueFlags & ~allowed) == 0 && family.queueCount >= 2) return i;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::uint32_t> memory_type(const VkPhysicalDeviceMemoryProperties& memory, std::uint32_t allowed,
                                          VkMemoryPropertyFlags needed, VkMemoryPropertyFlags wished) {
   for (const VkMemoryPropertyFlags flags : {needed | wished, needed}) {

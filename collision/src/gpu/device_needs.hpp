@@ -31,6 +31,8 @@ inline constexpr std::uint32_t buffers_for_meshes = 6, buffers_for_scenes = 8;
 [[nodiscard]] bool has_buffers_for_scenes(const DeviceReport& report);
 /// Returns the first queue family that computes.
 [[nodiscard]] std::optional<std::uint32_t> computing_family(const DeviceReport& report);
+/// Returns the first queue family that has two queues for copies and for nothing else.
+[[nodiscard]] std::optional<std::uint32_t> copying_family(const DeviceReport& report);
 /// Returns a type of memory that has all of these properties and is one of `allowed`, those with `wished` first.
 [[nodiscard]] std::optional<std::uint32_t> memory_type(const VkPhysicalDeviceMemoryProperties& memory,
                                                        std::uint32_t allowed, VkMemoryPropertyFlags needed,

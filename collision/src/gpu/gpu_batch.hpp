@@ -67,11 +67,13 @@ class GpuBatch {
       return error;
     }
     auto* const numbers = reinterpret_cast<float*>(slot.host_paths.data());
-    if (paths_.is_packed()) {
-      std::memcpy(numbers, paths_.packed(first), count * sizeof(float[6]));
-    } else {
-      for (std::size_t i = 0; i < count; ++i) paths_.copy(first + i, numbers + 6 * i);
-    }
+    in_tasks(options_.executor, count, [&](std::size_t from, std::size_t to) {
+      if (paths_.is_packed()) {
+        std::memcpy(numbers + 6 * from, paths_.packed(first + from), (to - from) * sizeof(float[6]));
+      } else {
+        for (std::size_t i = from; i < to; ++i) paths_.copy(first + i, numbers + 6 * i);
+      }
+    });
     const std::size_t limits = write_limits(state_, slot, paths_.kind(), options_, first, count);
     slot.clear_list();
     const GpuCopy there[] = {copy_of(slot.host_paths, slot.paths, count * sizeof(float[6])),
@@ -81,7 +83,7 @@ class GpuBatch {
                                   pushed_words(paths_.kind(), !options_.path_options.empty(), count, false)};
     const GpuCopy back = copy_of(slot.answers, slot.host_answers, count * sizeof(DeviceAnswer));
     state_.device->bind(slot, state_.mesh->buffers(), {slot.paths.get()}, {slot.answers.get()});
-    auto error = state_.device->submit(slot, there, &dispatch, {&back, 1});
+    auto error = state_.device->submit_apart(slot, there, dispatch, {&back, 1});
     if (!error) ++statistics_.dispatches;
     return error;
   }
@@ -89,24 +91,7 @@ class GpuBatch {
   /// Answers the paths of a dispatch. All that may find no memory comes before the first answer.
   void finish(GpuSlot& slot, std::size_t first, std::size_t count) {
     const std::span found(reinterpret_cast<const DeviceAnswer*>(slot.host_answers.data()), count);
-    open_.clear();
-    unrounded_.clear();
-    std::size_t misses = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      switch (state_.leftover_of(found[i])) {
-        case Leftover::nothing_of_miss:
-          ++misses;
-          break;
-        case Leftover::nothing_of_hit:
-          break;
-        case Leftover::rounding:
-          unrounded_.push_back(i);
-          break;
-        case Leftover::all:
-          open_.push_back(first + i);
-      }
-    }
-    const std::size_t undecided = open_.size();
+    const LeftCounts left = find_leftovers(found, first);
     if constexpr (std::is_same_v<Answer, Hitf>) {
       rounded_.resize(unrounded_.size());
       in_tasks(options_.executor, unrounded_.size(), [&](std::size_t from, std::size_t to) {
@@ -125,20 +110,62 @@ class GpuBatch {
       answer_open(state_.asked(), paths_.kind(), numbers_, open_, options_, found_);
     }
 
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const Leftover left = state_.leftover_of(found[i]);
-      if (left == Leftover::nothing_of_miss || left == Leftover::nothing_of_hit) {
-        answers_[first + i] = answer_on_device(found[i]);
+    in_tasks(options_.executor, found.size(), [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) {
+        const Leftover leftover = state_.leftover_of(found[i]);
+        if (leftover == Leftover::nothing_of_miss || leftover == Leftover::nothing_of_hit) {
+          answers_[first + i] = answer_on_device(found[i]);
+        }
       }
-    }
+    });
     for (std::size_t i = 0; i < rounded_.size(); ++i) answers_[first + unrounded_[i]] = rounded_[i];
     for (std::size_t i = 0; i < open_.size(); ++i) answers_[open_[i]] = found_[i];
-    const std::size_t hits = found.size() - misses - undecided;
-    statistics_.misses += misses;
-    statistics_.undecided += undecided;
+    const std::size_t hits = found.size() - left.misses - left.open;
+    statistics_.misses += left.misses;
+    statistics_.undecided += left.open;
     statistics_.hits += hits;
-    statistics_.rounded_by_host += unrounded_.size();
-    if (wants_first) statistics_.rounded += hits - unrounded_.size();
+    statistics_.rounded_by_host += left.unrounded;
+    if (wants_first) statistics_.rounded += hits - left.unrounded;
+  }
+
+  /// What a dispatch, or a task of the host for it, has to do with how many paths.
+  struct LeftCounts {
+    std::size_t misses = 0, unrounded = 0, open = 0;
+  };
+
+  /// Lists what is left to the host. Tasks count first, so that none of them needs memory.
+  LeftCounts find_leftovers(std::span<const DeviceAnswer> found, std::size_t first) {
+    of_tasks_.assign(found.size() / paths_in_a_task + 1, {});
+    in_tasks(options_.executor, found.size(), [&](std::size_t from, std::size_t to) {
+      LeftCounts counts;
+      for (std::size_t i = from; i < to; ++i) {
+        const Leftover leftover = state_.leftover_of(found[i]);
+        counts.misses += leftover == Leftover::nothing_of_miss ? 1 : 0;
+        counts.unrounded += leftover == Leftover::rounding ? 1 : 0;
+        counts.open += leftover == Leftover::all ? 1 : 0;
+      }
+      of_tasks_[from / paths_in_a_task] = counts;
+    });
+    LeftCounts all;
+    for (LeftCounts& counts : of_tasks_) {  // Each becomes where the lists of its task begin.
+      const LeftCounts before = all;
+      all.misses += counts.misses;
+      all.unrounded += counts.unrounded;
+      all.open += counts.open;
+      counts = before;
+    }
+    unrounded_.resize(all.unrounded);
+    open_.resize(all.open);
+    if (all.unrounded + all.open == 0) return all;
+    in_tasks(options_.executor, found.size(), [&](std::size_t from, std::size_t to) {
+      LeftCounts next = of_tasks_[from / paths_in_a_task];
+      for (std::size_t i = from; i < to; ++i) {
+        const Leftover leftover = state_.leftover_of(found[i]);
+        if (leftover == Leftover::rounding) unrounded_[next.unrounded++] = i;
+        if (leftover == Leftover::all) open_[next.open++] = first + i;
+      }
+    });
+    return all;
   }
 
   /// Returns an answer that has left nothing to the host.
@@ -168,6 +195,7 @@ class GpuBatch {
   std::size_t count_ = 0;
   std::size_t finished_ = 0;
   GpuStatistics statistics_;
+  std::vector<LeftCounts> of_tasks_;
   std::vector<std::size_t> unrounded_;  ///< The paths of a dispatch that the host rounds.
   std::vector<Answer> rounded_;         ///< Their answers.
   std::vector<std::size_t> open_;       ///< The paths that the host answers.

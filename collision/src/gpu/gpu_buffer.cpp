@@ -1,6 +1,8 @@
 #include "gpu/gpu_buffer.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -35,6 +37,13 @@ std::optional<GpuError> GpuBuffer::make(const GpuDeviceState& device, std::size_
   info.size = made.size_;
   info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   if (place == Place::device) info.usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+  // Queues for copies use buffers too.
+  const std::span<const std::uint32_t> families = device.families();
+  if (families.size() > 1) {
+    info.sharingMode = VK_SHARING_MODE_CONCURRENT;
+    info.queueFamilyIndexCount = static_cast<std::uint32_t>(families.size());
+    info.pQueueFamilyIndices = families.data();
+  }
   const VkResult created = vulkan.CreateBuffer(device.device, &info, nullptr, &made.buffer_);
   if (auto error = error_of(created, purpose, made.buffer_)) return error;
 

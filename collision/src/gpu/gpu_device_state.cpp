@@ -44,15 +44,15 @@ bool GpuDeviceState::close() noexcept {
     return false;
   }
   pairs.clear();
-  for (auto* const all : {&quick_pipelines_, &pipelines_}) {
-    for (VkPipeline& pipeline : *all) {
-      vulkan.DestroyPipeline(device, std::exchange(pipeline, VkPipeline{VK_NULL_HANDLE}), nullptr);
-    }
+  for (GpuPipelines& pipelines : pipelines_) {
+    for (VkPipeline pipeline : {pipelines.quick, pipelines.whole}) vulkan.DestroyPipeline(device, pipeline, nullptr);
+    pipelines = {};
   }
   vulkan.DestroyPipelineLayout(device, std::exchange(layout_, VkPipelineLayout{VK_NULL_HANDLE}), nullptr);
   vulkan.DestroyDescriptorSetLayout(device, std::exchange(set_layout_, VkDescriptorSetLayout{VK_NULL_HANDLE}), nullptr);
   if (!is_adopted) vulkan.DestroyDevice(device, nullptr);
   device = VK_NULL_HANDLE;
+  copy_queues_ = {};
   takes_scenes_ = false;
   is_lost = false;
   return true;
@@ -121,15 +121,20 @@ std::optional<GpuError> GpuDeviceState::open(VkPhysicalDevice chosen, const Devi
   report = its_report;
   name = report.properties.deviceName;
   if (const std::string missing = missing_of(report); !missing.empty()) return lacking(name, missing);
-  family_ = *computing_family(report);
-  const float priority = 1;
-  auto queue = of_type<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
-  queue.queueFamilyIndex = family_;
-  queue.queueCount = 1;
-  queue.pQueuePriorities = &priority;
+  families_[0] = *computing_family(report);
+  const std::optional<std::uint32_t> copying = copying_family(report);
+  families_[1] = copying.value_or(families_[0]);
+  const float priorities[] = {1, 1};
+  std::array<VkDeviceQueueCreateInfo, 2> queues;
+  for (std::size_t i = 0; i < queues.size(); ++i) {
+    queues[i] = of_type<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
+    queues[i].queueFamilyIndex = families_[i];
+    queues[i].queueCount = i == 0 ? 1 : 2;
+    queues[i].pQueuePriorities = priorities;
+  }
   auto info = of_type<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
-  info.queueCreateInfoCount = 1;
-  info.pQueueCreateInfos = &queue;
+  info.queueCreateInfoCount = copying ? 2 : 1;
+  info.pQueueCreateInfos = queues.data();
   VkDevice opened = VK_NULL_HANDLE;
   if (auto error = error_of(vulkan.CreateDevice(chosen, &info, nullptr, &opened), "while opening " + name))
     return error;
@@ -138,7 +143,10 @@ std::optional<GpuError> GpuDeviceState::open(VkPhysicalDevice chosen, const Devi
     return error;
   }
   device = opened;
-  vulkan.GetDeviceQueue(device, family_, 0, &queue_);
+  vulkan.GetDeviceQueue(device, families_[0], 0, &queue_);
+  for (std::uint32_t i = 0; copying && i < copy_queues_.size(); ++i) {
+    vulkan.GetDeviceQueue(device, *copying, i, &copy_queues_[i]);
+  }
   return prepare();
 }
 
@@ -163,9 +171,10 @@ std::optional<GpuError> GpuDeviceState::adopt(const GpuHandles& given) {
   report = report_of(physical_);
   name = report.properties.deviceName;
   if (const std::string missing = missing_of(report); !missing.empty()) return lacking(name, missing);
-  family_ = given.queue_family;
-  if (family_ >= report.families.size() || (report.families[family_].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
-    return lacking(name, "a queue that computes in family " + std::to_string(family_));
+  families_[0] = given.queue_family;
+  if (families_[0] >= report.families.size() ||
+      (report.families[families_[0]].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
+    return lacking(name, "a queue that computes in family " + std::to_string(families_[0]));
   }
   if (auto error = vulkan.load(static_cast<VkDevice>(given.device))) return error;
   device = static_cast<VkDevice>(given.device);
@@ -174,14 +183,14 @@ std::optional<GpuError> GpuDeviceState::adopt(const GpuHandles& given) {
 }
 
 GpuHandles GpuDeviceState::handles() const {
-  return {reinterpret_cast<void (*)()>(vulkan.GetInstanceProcAddr), instance, physical_, device, queue_, family_};
+  return {reinterpret_cast<void (*)()>(vulkan.GetInstanceProcAddr), instance, physical_, device, queue_, families_[0]};
 }
 
 std::optional<GpuError> GpuDeviceState::prepare() {
   // A batch has two slots, and may have a 32nd of the device's memory.
   dispatch_size.set_limit(description_of(report).memory_bytes / 32 / (2 * GpuSlot::bytes_for_path));
   if (auto error = make_layouts()) return error;
-  VkPipeline& roundings = pipelines_[static_cast<std::size_t>(GpuTask::roundings)];
+  VkPipeline& roundings = pipelines_of(GpuTask::roundings).whole;
   if (auto error = make_pipeline(GpuTask::roundings, roundings_spirv, false, roundings)) return error;
   if (auto error = check_roundings()) return error;
   if (auto error = make_pipelines(GpuTask::any_hits, tree_walk_spirv)) return error;
@@ -284,11 +293,11 @@ std::optional<GpuError> GpuDeviceState::make_layouts() {
 }
 
 std::optional<GpuError> GpuDeviceState::make_pipelines(GpuTask task, std::span<const std::uint32_t> shader) {
-  const auto place = static_cast<std::size_t>(task);
-  if (quick_pipelines_[place] == VK_NULL_HANDLE) {
-    if (auto error = make_pipeline(task, shader, true, quick_pipelines_[place])) return error;
+  auto& [quick, whole] = pipelines_of(task);
+  if (quick == VK_NULL_HANDLE) {
+    if (auto error = make_pipeline(task, shader, true, quick)) return error;
   }
-  return pipelines_[place] == VK_NULL_HANDLE ? make_pipeline(task, shader, false, pipelines_[place]) : std::nullopt;
+  return whole == VK_NULL_HANDLE ? make_pipeline(task, shader, false, whole) : std::nullopt;
 }
 
 std::optional<GpuError> GpuDeviceState::make_pipeline(GpuTask task, std::span<const std::uint32_t> shader,
@@ -343,73 +352,66 @@ std::optional<GpuError> GpuDeviceState::submit(GpuSlot& slot, std::span<const Gp
                                                const GpuDispatch* dispatch, std::span<const GpuCopy> after,
                                                bool waits_for_all) {
   if (is_lost) return lost;
-  auto begin = of_type<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
-  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  if (auto error = noted(vulkan.BeginCommandBuffer(slot.commands, &begin), while_beginning)) return error;
+  const GpuCommands commands(vulkan, slot.commands);
+  if (auto error = noted(commands.begin(), while_beginning)) return error;
   // Nothing throws until the commands end, because those of the next batch cannot begin before.
-  const auto wait_for = [&](VkPipelineStageFlags stages, VkAccessFlags written, VkPipelineStageFlags next_stages,
-                            VkAccessFlags used) {
-    auto barrier = of_type<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
-    barrier.srcAccessMask = written;
-    barrier.dstAccessMask = used;
-    vulkan.CmdPipelineBarrier(slot.commands, stages, next_stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
-  };
-  const auto copy_all = [&](std::span<const GpuCopy> copies) {
-    for (std::size_t i = 0; i < copies.size();) {
-      std::array<VkBufferCopy, 64> regions;
-      std::uint32_t count = 0;
-      const GpuCopy& first = copies[i];
-      while (count < regions.size() && i < copies.size() && copies[i].from == first.from && copies[i].to == first.to) {
-        regions[count++] = copies[i++].region;
-      }
-      vulkan.CmdCopyBuffer(slot.commands, first.from, first.to, count, regions.data());
-    }
-  };
-  constexpr auto transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
-  constexpr auto compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-  constexpr auto by_transfer = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
-  constexpr auto by_shader = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
-  if (waits_for_all) {
-    wait_for(VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT, transfer | compute,
-             by_transfer | by_shader);
-  }
-  copy_all(before);
-  wait_for(transfer, VK_ACCESS_TRANSFER_WRITE_BIT, transfer | compute, by_transfer | by_shader);
+  if (waits_for_all) commands.wait_for_queue();
+  commands.copy(before);
   if (dispatch != nullptr) {
-    const auto task = static_cast<std::size_t>(dispatch->task);
-    const PushedWords& words = dispatch->words;
-    const bool is_in_two = quick_pipelines_[task] != VK_NULL_HANDLE;
-    vulkan.CmdBindPipeline(slot.commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                           is_in_two ? quick_pipelines_[task] : pipelines_[task]);
-    vulkan.CmdBindDescriptorSets(slot.commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &slot.buffers, 0,
-                                 nullptr);
-    vulkan.CmdPushConstants(slot.commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof words, &words);
-    vulkan.CmdDispatch(slot.commands, (words.path_count + threads_in_group - 1) / threads_in_group, 1, 1);
-    if (is_in_two) {
-      wait_for(compute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | compute,
-               VK_ACCESS_INDIRECT_COMMAND_READ_BIT | by_shader);
-      vulkan.CmdBindPipeline(slot.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[task]);
-      vulkan.CmdDispatchIndirect(slot.commands, slot.list.get(), offsetof(ListedCounts, groups));
-    }
-    wait_for(compute, VK_ACCESS_SHADER_WRITE_BIT, transfer, by_transfer);
+    commands.dispatch(slot, pipelines_of(dispatch->task), layout_, dispatch->words);
+    commands.wait_for_shader();
   }
-  copy_all(after);
-  // The host reads what was copied to it, and the caller's work on the queue what is in the caller's buffers.
-  wait_for(transfer | compute, VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT,
-           VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-           VK_ACCESS_HOST_READ_BIT | VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT);
-  if (auto error = noted(vulkan.EndCommandBuffer(slot.commands), while_beginning)) return error;
-  auto work = of_type<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-  work.commandBufferCount = 1;
-  work.pCommandBuffers = &slot.commands;
+  commands.copy(after);
+  if (auto error = noted(commands.end(), while_beginning)) return error;
+  const GpuPart whole = {queue_, slot.commands, VK_NULL_HANDLE, VK_NULL_HANDLE};
+  return begin_work(slot, dispatch, {&whole, 1});
+}
+
+std::optional<GpuError> GpuDeviceState::submit_apart(GpuSlot& slot, std::span<const GpuCopy> before,
+                                                     const GpuDispatch& dispatch, std::span<const GpuCopy> after) {
+  if (!copies_apart()) return submit(slot, before, &dispatch, after);
+  if (is_lost) return lost;
+  const GpuCommands there(vulkan, slot.commands_there, GpuCommands::Queue::only_copies);
+  const GpuCommands computing(vulkan, slot.commands);
+  const GpuCommands back(vulkan, slot.commands_back, GpuCommands::Queue::only_copies);
+  for (const GpuCommands* commands : {&there, &computing, &back}) {
+    if (auto error = noted(commands->begin(), while_beginning)) return error;
+  }
+  there.copy(before);
+  computing.dispatch(slot, pipelines_of(dispatch.task), layout_, dispatch.words);
+  back.copy(after);
+  for (const GpuCommands* commands : {&there, &computing, &back}) {
+    if (auto error = noted(commands->end(), while_beginning)) return error;
+  }
+  const GpuPart parts[] = {{copy_queues_[0], slot.commands_there, VK_NULL_HANDLE, slot.is_there},
+                           {queue_, slot.commands, slot.is_there, slot.is_computed},
+                           {copy_queues_[1], slot.commands_back, slot.is_computed, VK_NULL_HANDLE}};
+  return begin_work(slot, &dispatch, parts);
+}
+
+std::optional<GpuError> GpuDeviceState::begin_work(GpuSlot& slot, const GpuDispatch* dispatch,
+                                                   std::span<const GpuPart> parts) {
   slot.dispatched = dispatch == nullptr ? 0 : dispatch->words.path_count;
   slot.begun = std::chrono::steady_clock::now();
-  const VkResult begun = [&] {
-    const std::lock_guard lock(queue_mutex_);
-    return vulkan.QueueSubmit(queue_, 1, &work, slot.fence);
-  }();
-  slot.is_under_way = begun == VK_SUCCESS;
-  return noted(begun, while_beginning);
+  const std::lock_guard lock(queue_mutex_);
+  for (const GpuPart& part : parts) {
+    const bool is_last = &part == &parts.back();
+    constexpr VkPipelineStageFlags all_commands = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    auto work = of_type<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+    work.commandBufferCount = 1;
+    work.pCommandBuffers = &part.commands;
+    work.waitSemaphoreCount = part.begins == VK_NULL_HANDLE ? 0 : 1;
+    work.pWaitSemaphores = &part.begins;
+    work.pWaitDstStageMask = &all_commands;
+    work.signalSemaphoreCount = part.ends == VK_NULL_HANDLE ? 0 : 1;
+    work.pSignalSemaphores = &part.ends;
+    const VkResult begun = vulkan.QueueSubmit(part.queue, 1, &work, is_last ? slot.fence : VK_NULL_HANDLE);
+    slot.is_under_way = slot.is_under_way || begun == VK_SUCCESS;
+    if (begun == VK_SUCCESS) continue;
+    if (slot.is_under_way) is_lost = true;  // No fence tells when the parts end that were taken.
+    return noted(begun, while_beginning);
+  }
+  return std::nullopt;
 }
 
 std::optional<GpuError> GpuDeviceState::noted(VkResult result, const char* what) {

@@ -15,6 +15,7 @@
 
 #include "gpu/device_needs.hpp"
 #include "gpu/dispatch_size.hpp"
+#include "gpu/gpu_commands.hpp"
 #include "gpu/gpu_slots.hpp"
 #include "gpu/path_limits.hpp"
 #include "gpu/rounding_check.hpp"
@@ -23,26 +24,22 @@
 
 namespace surehit::detail {
 
-/// The words that a dispatch pushes.
-struct PushedWords {
-  std::uint32_t path_count, is_segment, limits_step, max_steps, lists;
-};
-
 /// A part of a buffer.
 struct GpuRange {
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDeviceSize offset = 0, size = VK_WHOLE_SIZE;
 };
 
-/// A copy from one buffer to another.
-struct GpuCopy {
-  VkBuffer from, to;
-  VkBufferCopy region;
-};
-
 /// What the shader of a dispatch is.
 enum class GpuTask : std::uint8_t { any_hits, first_hits, roundings, scene_any_hits, scene_first_hits };
 inline constexpr std::size_t gpu_task_count = 5;
+
+/// Some commands for a queue. They may wait for a part before, and let one after them begin.
+struct GpuPart {
+  VkQueue queue;
+  VkCommandBuffer commands;
+  VkSemaphore begins, ends;
+};
 
 /// What a device computes at a time.
 struct GpuDispatch {
@@ -94,6 +91,16 @@ struct GpuDeviceState {
   [[nodiscard]] std::optional<GpuError> submit(GpuSlot& slot, std::span<const GpuCopy> before,
                                                const GpuDispatch* dispatch, std::span<const GpuCopy> after,
                                                bool waits_for_all = false);
+  /// Does the same with a dispatch. If the device has queues of their own for copies, it goes on with them while it
+  /// computes for another slot.
+  [[nodiscard]] std::optional<GpuError> submit_apart(GpuSlot& slot, std::span<const GpuCopy> before,
+                                                     const GpuDispatch& dispatch, std::span<const GpuCopy> after);
+  /// Returns true if the device has queues of their own for copies there and back.
+  [[nodiscard]] bool copies_apart() const { return copy_queues_[0] != VK_NULL_HANDLE; }
+  /// Returns the families of the queues that use buffers.
+  [[nodiscard]] std::span<const std::uint32_t> families() const {
+    return std::span(families_).first(copies_apart() ? 2 : 1);
+  }
   /// Waits until the work in a slot has ended.
   [[nodiscard]] std::optional<GpuError> wait(GpuSlot& slot);
   /// Makes a buffer of the device, and fills it through a slot. `what` is what it is for.
@@ -128,6 +135,10 @@ struct GpuDeviceState {
   DispatchSize dispatch_size;
 
  private:
+  [[nodiscard]] GpuPipelines& pipelines_of(GpuTask task) { return pipelines_[static_cast<std::size_t>(task)]; }
+  /// Gives the commands of a slot to queues. Fails if one of them does not take its part.
+  [[nodiscard]] std::optional<GpuError> begin_work(GpuSlot& slot, const GpuDispatch* dispatch,
+                                                   std::span<const GpuPart> parts);
   /// Makes the slots of a pair.
   [[nodiscard]] std::optional<GpuError> make(GpuSlotPair& pair) const;
   [[nodiscard]] std::optional<GpuError> make(GpuSlot& slot, const GpuSlotPair& pair) const;
@@ -171,18 +182,17 @@ struct GpuDeviceState {
   [[nodiscard]] std::optional<GpuError> noted(VkResult result, const char* what);
 
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
-  std::uint32_t family_ = 0;
+  std::array<std::uint32_t, 2> families_ = {};  ///< That of the queue which computes, and that of copies.
   VkQueue queue_ = VK_NULL_HANDLE;
-  std::atomic<std::uint64_t> ended_ = 0;  ///< The number of times that work was seen to end.
-  std::mutex queue_mutex_;                ///< Held while work is given to the queue.
-  std::mutex pairs_mutex_;                ///< Held while slots are taken or given back.
-  std::mutex scenes_mutex_;               ///< Held while what scenes need is made and checked.
-  bool takes_scenes_ = false;             ///< True once it is made and checked.
+  std::array<VkQueue, 2> copy_queues_ = {};  ///< One for copies to the device, and one for those to the host.
+  std::atomic<std::uint64_t> ended_ = 0;     ///< The number of times that work was seen to end.
+  std::mutex queue_mutex_;                   ///< Held while work is given to a queue.
+  std::mutex pairs_mutex_;                   ///< Held while slots are taken or given back.
+  std::mutex scenes_mutex_;                  ///< Held while what scenes need is made and checked.
+  bool takes_scenes_ = false;                ///< True once it is made and checked.
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  std::array<VkPipeline, gpu_task_count> pipelines_ = {};
-  /// Those of the first dispatch of a task that has two.
-  std::array<VkPipeline, gpu_task_count> quick_pipelines_ = {};
+  std::array<GpuPipelines, gpu_task_count> pipelines_ = {};
 };
 
 /// A batch or an upload on a device. In the end it waits until the device has nothing to do for it. So neither an error

@@ -39,9 +39,14 @@ void GpuSlot::clear_list() const {
 
 GpuSlotPair::~GpuSlotPair() {
   if (device == nullptr) return;
-  for (const GpuSlot& slot : slots) device->vulkan.DestroyFence(device->device, slot.fence, nullptr);
+  for (const GpuSlot& slot : slots) {
+    device->vulkan.DestroyFence(device->device, slot.fence, nullptr);
+    device->vulkan.DestroySemaphore(device->device, slot.is_there, nullptr);
+    device->vulkan.DestroySemaphore(device->device, slot.is_computed, nullptr);
+  }
   device->vulkan.DestroyDescriptorPool(device->device, sets, nullptr);
   device->vulkan.DestroyCommandPool(device->device, commands, nullptr);
+  device->vulkan.DestroyCommandPool(device->device, copies, nullptr);
 }
 
 void GpuSlotPair::forget() noexcept {
@@ -96,9 +101,12 @@ void GpuDeviceState::give_back(GpuSlotPair& pair) noexcept {
 std::optional<GpuError> GpuDeviceState::make(GpuSlotPair& pair) const {
   auto commands = of_type<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
   commands.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-  commands.queueFamilyIndex = family_;
-  const VkResult has_commands = vulkan.CreateCommandPool(device, &commands, nullptr, &pair.commands);
-  if (auto error = error_of(has_commands, for_a_batch, pair.commands)) return error;
+  for (std::size_t i = 0; i < families().size(); ++i) {
+    commands.queueFamilyIndex = families()[i];
+    VkCommandPool& pool = i == 0 ? pair.commands : pair.copies;
+    const VkResult has_commands = vulkan.CreateCommandPool(device, &commands, nullptr, &pool);
+    if (auto error = error_of(has_commands, for_a_batch, pool)) return error;
+  }
   const auto slot_count = static_cast<std::uint32_t>(pair.slots.size());
   const VkDescriptorPoolSize sizes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer_count() * slot_count};
   auto sets = of_type<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
@@ -114,12 +122,23 @@ std::optional<GpuError> GpuDeviceState::make(GpuSlotPair& pair) const {
 }
 
 std::optional<GpuError> GpuDeviceState::make(GpuSlot& slot, const GpuSlotPair& pair) const {
-  auto commands = of_type<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
-  commands.commandPool = pair.commands;
-  commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-  commands.commandBufferCount = 1;
-  const VkResult has_commands = vulkan.AllocateCommandBuffers(device, &commands, &slot.commands);
-  if (auto error = error_of(has_commands, for_a_batch)) return error;
+  const auto make_commands = [&](VkCommandPool pool, VkCommandBuffer& made) {
+    auto commands = of_type<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+    commands.commandPool = pool;
+    commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    commands.commandBufferCount = 1;
+    return error_of(vulkan.AllocateCommandBuffers(device, &commands, &made), for_a_batch);
+  };
+  if (auto error = make_commands(pair.commands, slot.commands)) return error;
+  if (copies_apart()) {
+    if (auto error = make_commands(pair.copies, slot.commands_there)) return error;
+    if (auto error = make_commands(pair.copies, slot.commands_back)) return error;
+    const auto semaphore = of_type<VkSemaphoreCreateInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO);
+    for (VkSemaphore* made : {&slot.is_there, &slot.is_computed}) {
+      const VkResult has_semaphore = vulkan.CreateSemaphore(device, &semaphore, nullptr, made);
+      if (auto error = error_of(has_semaphore, for_a_batch, *made)) return error;
+    }
+  }
   auto set = of_type<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
   set.descriptorPool = pair.sets;
   set.descriptorSetCount = 1;

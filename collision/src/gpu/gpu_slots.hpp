@@ -37,6 +37,9 @@ struct GpuSlot {
   GpuBuffer host_paths, host_limits, host_answers, host_list;  ///< Where the host writes and reads.
   GpuBuffer paths, limits, answers, list;                      ///< Where the device does.
   VkCommandBuffer commands = VK_NULL_HANDLE;
+  /// Copies to the device and back, where it has queues for them, and what says that the part before has ended.
+  VkCommandBuffer commands_there = VK_NULL_HANDLE, commands_back = VK_NULL_HANDLE;
+  VkSemaphore is_there = VK_NULL_HANDLE, is_computed = VK_NULL_HANDLE;
   VkDescriptorSet buffers = VK_NULL_HANDLE;
   VkFence fence = VK_NULL_HANDLE;
   bool is_under_way = false;                    ///< True from when work begins until it has been waited for.
@@ -80,6 +83,7 @@ struct GpuSlotPair {
   bool is_taken = true;          ///< True while a batch or an upload has it.
   const GpuDeviceState* device;  ///< Null after `forget`.
   VkCommandPool commands = VK_NULL_HANDLE;
+  VkCommandPool copies = VK_NULL_HANDLE;  ///< Null where the device has no queues for copies.
   VkDescriptorPool sets = VK_NULL_HANDLE;
 };
 

@@ -56,7 +56,8 @@ namespace surehit::detail {
   X(CmdDispatch)                           \
   X(CmdDispatchIndirect)                   \
   X(CmdCopyBuffer)                         \
-  X(CmdPipelineBarrier) X(CreateFence) X(DestroyFence) X(ResetFences) X(WaitForFences) X(QueueSubmit)
+  X(CmdPipelineBarrier)                    \
+  X(CreateSemaphore) X(DestroySemaphore) X(CreateFence) X(DestroyFence) X(ResetFences) X(WaitForFences) X(QueueSubmit)
 
 /// The names of Vulkan's loader on this platform. On macOS, the loader shows no device of MoltenVK to programs that do
 /// not ask for it, so MoltenVK itself is opened where it is there.

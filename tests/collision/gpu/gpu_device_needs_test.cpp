@@ -80,6 +80,22 @@ TEST(GpuNeedsTest, a_device_that_lacks_something_is_refused_with_the_reason) {
             "six buffers for a shader");
 }
 
+TEST(GpuNeedsTest, two_queues_copy_if_they_do_nothing_else) {
+  DeviceReport report = good_report();
+  EXPECT_EQ(detail::copying_family(report), std::nullopt);  // It has one.
+  report.families[0].queueCount = 2;
+  EXPECT_EQ(detail::copying_family(report), 0U);
+  report.families[0].queueFlags |= VK_QUEUE_SPARSE_BINDING_BIT;
+  EXPECT_EQ(detail::copying_family(report), 0U);
+  constexpr VkQueueFlags decodes_video = 0x20;
+  for (const VkQueueFlags other :
+       {VkQueueFlags{VK_QUEUE_COMPUTE_BIT}, VkQueueFlags{VK_QUEUE_GRAPHICS_BIT}, decodes_video}) {
+    DeviceReport busy = report;
+    busy.families[0].queueFlags |= other;
+    EXPECT_EQ(detail::copying_family(busy), std::nullopt) << other;
+  }
+}
+
 TEST(GpuNeedsTest, scenes_need_eight_buffers) {
   DeviceReport report = good_report();
   EXPECT_FALSE(detail::has_buffers_for_scenes(report));
