@@ -143,6 +143,7 @@ void shrink(const CLI::App& app, Request& request) {
   set("--largest", request.largest, 4000);
   request.tick_paths = {64, 128};
   if (app.get_option("--batch")->empty()) request.gpu_paths = {100, 1000};
+  request.gpu_warm_up = {};
   request.detail = 0.05f;
 }
 

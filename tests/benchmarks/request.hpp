@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ struct Request {
   std::size_t largest = 10'000'000;  ///< triangles
   std::vector<std::size_t> tick_paths = {10'000, 100'000};
   std::vector<std::size_t> gpu_paths = {100'000, 1'000'000, 10'000'000};
-  std::size_t largest_break_even = 1 << 20;  ///< of the batches that are tried for it on a GPU
+  std::chrono::milliseconds gpu_warm_up{300};  ///< Works so long on a GPU before it is timed.
+  std::size_t largest_break_even = 1 << 20;    ///< of the batches that are tried for it on a GPU
   std::string gpu_name;  ///< A part of the device's name, or nothing for the first that is no software.
   int core = 0;
   std::vector<NamedMesh> meshes;

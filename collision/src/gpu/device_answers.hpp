@@ -60,23 +60,23 @@ enum class Leftover : std::uint8_t {
 };
 
 [[nodiscard]] inline Leftover leftover_of(const DeviceHit& answer, std::size_t triangle_count) {
-  constexpr auto front = static_cast<std::uint32_t>(Side::front);
-  constexpr auto back = static_cast<std::uint32_t>(Side::back);
-  if (answer.triangle == no_triangle && answer.side == 0) return Leftover::nothing_of_miss;
-  if (answer.triangle >= triangle_count) return Leftover::all;
-  if (answer.side == DeviceHit::edge_on || answer.side == front || answer.side == back) return Leftover::nothing_of_hit;
-  const std::uint32_t side = answer.side - DeviceHit::is_not_rounded;
-  return side == front || side == back ? Leftover::rounding : Leftover::all;
+  static_assert(static_cast<int>(Leftover::nothing_of_hit) == 1 && static_cast<int>(Leftover::rounding) == 2 &&
+                static_cast<int>(Leftover::all) == 3);
+  static_assert(static_cast<int>(Side::front) == 1 && static_cast<int>(Side::back) == 2 && DeviceHit::edge_on == 3);
+  // There are no branches, because no processor foresees which paths hit.
+  const std::uint32_t is_known = answer.triangle < triangle_count ? 1 : 0;
+  const std::uint32_t is_rounded = answer.side - 1 < 3 ? 1 : 0;
+  const std::uint32_t is_unrounded = answer.side - DeviceHit::is_not_rounded - 1 < 2 ? 1 : 0;
+  const std::uint32_t misses = answer.triangle == no_triangle ? 1 : 0;
+  const std::uint32_t has_no_side = answer.side == 0 ? 1 : 0;
+  return static_cast<Leftover>(3 - is_known * (2 * is_rounded + is_unrounded) - 3 * (misses & has_no_side));
 }
 
-[[nodiscard]] inline Leftover leftover_of(DeviceAny answer) {
-  if (answer == 0) return Leftover::nothing_of_miss;
-  return answer == 1 ? Leftover::nothing_of_hit : Leftover::all;
-}
+[[nodiscard]] inline Leftover leftover_of(DeviceAny answer) { return static_cast<Leftover>(answer < 2 ? answer : 3); }
 
 /// Returns an answer that has left nothing to the host.
 [[nodiscard]] inline Hitf answer_of(const DeviceHit& answer) {
-  const Side side = answer.side == DeviceHit::edge_on ? Side::edge_on : static_cast<Side>(answer.side);
+  const Side side = static_cast<Side>(answer.side % DeviceHit::edge_on);
   return {answer.t, answer.u, answer.v, answer.triangle, side};
 }
 [[nodiscard]] inline std::uint8_t answer_of(DeviceAny answer) { return static_cast<std::uint8_t>(answer); }

@@ -30,6 +30,9 @@ inline VKAPI_ATTR VkResult VKAPI_CALL no_submit(VkQueue queue, std::uint32_t cou
   return calls_left-- > 0 ? submit(queue, count, work, fence) : submit_result;
 }
 
+/// How often a device is given work for a dispatch whose paths and answers are on the host.
+inline int submissions_of_dispatch(const detail::GpuDeviceState& state) { return state.copies_apart() ? 3 : 1; }
+
 inline PFN_vkWaitForFences wait_for = nullptr;
 inline VkResult wait_result = VK_SUCCESS;
 inline int failures_left = 0;

@@ -223,7 +223,7 @@ TEST_F(GpuDeviceTest, a_device_that_fails_in_the_middle_leaves_the_rest) {
   const Hitf unset{.t = 7, .triangle = 7};
   submit = std::exchange(state().vulkan.QueueSubmit, no_submit);
   submit_result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  calls_left = 2;
+  calls_left = 2 * submissions_of_dispatch(state());
   std::vector<Hitf> hits(paths.size(), unset);
   const GpuBatchResult result = on_gpu.first_hits(paths, hits);
   EXPECT_FALSE(result);
@@ -232,7 +232,7 @@ TEST_F(GpuDeviceTest, a_device_that_fails_in_the_middle_leaves_the_rest) {
   EXPECT_EQ(result.finished, paths_in_small_dispatch);
   for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(hits[i], i < result.finished ? expected[i] : unset) << i;
 
-  calls_left = 1;
+  calls_left = submissions_of_dispatch(state());
   GpuStatistics statistics;
   const GpuBatchResult rest =
       on_gpu.first_hits(paths, hits, {}, {.goes_on_without_device = true, .statistics = &statistics});

@@ -127,7 +127,7 @@ TEST_F(GpuSceneFailuresTest, a_device_that_fails_in_the_middle_leaves_the_rest) 
   unset.t = 7;
   submit = std::exchange(state().vulkan.QueueSubmit, no_submit);
   submit_result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  calls_left = 2;
+  calls_left = 2 * submissions_of_dispatch(state());
   std::vector<SceneHitf> hits(paths.size(), unset);
   const GpuBatchResult result = on_gpu.first_hits(paths, hits);
   EXPECT_FALSE(result);
@@ -137,7 +137,7 @@ TEST_F(GpuSceneFailuresTest, a_device_that_fails_in_the_middle_leaves_the_rest) 
   for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(hits[i], i < result.finished ? expected[i] : unset) << i;
 
   submit_result = VK_ERROR_DEVICE_LOST;
-  calls_left = 1;
+  calls_left = submissions_of_dispatch(state());
   const GpuBatchResult rest = on_gpu.first_hits(paths, hits, {}, {.goes_on_without_device = true});
   EXPECT_TRUE(rest);
   EXPECT_EQ(rest.error->reason, Reason::device_lost);

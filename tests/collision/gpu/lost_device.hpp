@@ -44,8 +44,7 @@ void expect_lost_in_batch(const GpuDevice& device, const OnGpu& on_gpu, std::spa
   }
   submit_result = VK_ERROR_DEVICE_LOST;
   wait_result = VK_ERROR_DEVICE_LOST;
-  // A dispatch with copies apart is given to three queues.
-  calls_left = loss.is_in_wait || !state.copies_apart() ? loss.calls : 3 * loss.calls;
+  calls_left = loss.is_in_wait ? loss.calls : loss.calls * submissions_of_dispatch(state);
   failures_left = 1;
   const std::size_t finished = loss.finished * paths_in_small_dispatch;
   const GpuBatchResult result = on_gpu.first_hits(paths, hits);
