@@ -60,7 +60,9 @@ class DeviceBuffer {
 
 /// Times of each round, in nanoseconds per path.
 struct GpuTimes {
-  RoundSeries on_host, with_transfers, in_buffers;
+  RoundSeries on_host, with_transfers;
+  RoundSeries on_all_threads, with_transfers_on_all;  ///< The same with all threads of the host.
+  RoundSeries in_buffers;
   RoundSeries kernel;  ///< Empty where the device has no timestamps.
   GpuStatistics statistics;
 };
@@ -89,7 +91,7 @@ class GpuTables {
   }
 
   void show() const {
-    report_.show(table_ + ": ns per path on " + device_.name() + ", and on one thread of the host", times_);
+    report_.show(table_ + ": ns per path on the host, and on " + device_.name(), times_);
     report_.show(table_ + ": paths in a batch, from which on " + device_.name() + " is no slower than the host",
                  break_even_);
   }
@@ -107,6 +109,15 @@ class GpuTables {
     for (std::size_t round = 0; round < request_.rounds; ++round) {
       times.on_host.push_back(race.time_on_host());
       times.with_transfers.push_back(race.time_with_transfers());
+    }
+    {
+      const PinnedThreads threads(CorePin::allowed_cores().size());
+      race.time_on_host(threads);
+      race.time_with_transfers(threads);
+      for (std::size_t round = 0; round < request_.rounds; ++round) {
+        times.on_all_threads.push_back(race.time_on_host(threads));
+        times.with_transfers_on_all.push_back(race.time_with_transfers(threads));
+      }
     }
     // A card that mostly waits for the host runs slowly, and takes a while to speed up.
     const auto ask_in_buffers = [&](GpuStatistics& statistics) {
@@ -148,6 +159,8 @@ class GpuTables {
     times_.add_row({place.mesh, place.paths, place.question, std::to_string(count),
                     keep("surehit batch", times.on_host),
                     keep("surehit on a GPU, with transfers", times.with_transfers),
+                    keep("surehit batch, all threads", times.on_all_threads),
+                    keep("surehit on a GPU, with transfers, all threads", times.with_transfers_on_all),
                     keep("surehit on a GPU, in its buffers", times.in_buffers),
                     keep("surehit on a GPU, kernel alone", times.kernel), percent("answered by the host", of.undecided),
                     percent("rounded by the host", of.rounded_by_host)});
@@ -158,7 +171,7 @@ class GpuTables {
   void add_break_even(const Place& place, const BothSides<Host>& sides, Question question,
                       std::span<const Segmentf> paths) {
     const PinnedThreads threads(CorePin::allowed_cores().size());
-    std::optional<std::size_t> beside_one, beside_all;
+    std::size_t beside_one = 0, beside_all = 0;  // 0 if there is none.
     for (std::size_t count = 64; count <= paths.size(); count *= 2) {
       GpuRace<Host> race(sides, question, paths.first(count));
       RoundSeries one, all, gpu, gpu_with_all;
@@ -169,21 +182,21 @@ class GpuTables {
         gpu_with_all.push_back(race.time_with_transfers(threads));
         if (round == 0) one.clear(), all.clear(), gpu.clear(), gpu_with_all.clear();
       }
-      const auto note = [&](const RoundSeries& on_host, const RoundSeries& on_gpu, std::optional<std::size_t>& found) {
+      const auto note = [&](const RoundSeries& on_host, const RoundSeries& on_gpu, std::size_t& found) {
         if (summary_of(on_gpu).median > summary_of(on_host).median) {
-          found.reset();
-        } else if (!found) {
+          found = 0;
+        } else if (found == 0) {
           found = count;
         }
       };
       note(one, gpu, beside_one);
       note(all, gpu_with_all, beside_all);
     }
-    const auto keep = [&](const std::string& beside, const std::optional<std::size_t>& count) -> std::string {
-      if (!count) return "none";
+    const auto keep = [&](const std::string& beside, std::size_t count) -> std::string {
+      if (count == 0) return "none";
       report_.keep(place, "surehit on a GPU", "break-even batch beside " + beside,
-                   summary_of(static_cast<double>(*count)));
-      return std::to_string(*count);
+                   summary_of(static_cast<double>(count)));
+      return std::to_string(count);
     };
     break_even_.add_row(
         {place.mesh, place.paths, place.question, keep("one thread", beside_one), keep(all_threads(), beside_all)});
@@ -193,8 +206,8 @@ class GpuTables {
   const GpuDevice& device_;
   const Request& request_;
   Report& report_;
-  MarkdownTable times_{{"mesh", "paths", "question", "batch", "on the host", "with transfers", "in buffers",
-                        "kernel alone", "by host, %", "rounded, %"},
+  MarkdownTable times_{{"mesh", "paths", "question", "batch", "one thread", "with transfers", all_threads(),
+                        "with transfers", "in buffers", "kernel alone", "by host, %", "rounded, %"},
                        3};
   MarkdownTable break_even_{{"mesh", "paths", "question", "beside one thread", "beside " + all_threads()}, 3};
 };
