@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,9 +19,15 @@ struct DeviceReport {
   std::vector<VkQueueFamilyProperties> families;
 };
 
-/// The maximum number of steps of a path before it is left to the host, so that no dispatch takes long. A node of the
+/// The maximum number of steps of a path before it is left to the host. A node of the
 /// tree takes one, and a decision in pairs as many as the shader says.
 inline constexpr std::uint32_t max_path_steps = std::uint32_t{1} << 12;
+/// The maximum number of steps of all paths in a dispatch, so that none takes long.
+inline constexpr std::uint32_t max_dispatch_steps = std::uint32_t{1} << 30;
+/// Returns the maximum number of steps of each of so many paths.
+[[nodiscard]] constexpr std::uint32_t max_steps_of(std::size_t paths) {
+  return static_cast<std::uint32_t>(std::min<std::size_t>(max_path_steps, max_dispatch_steps / paths));
+}
 /// The number of threads that work together on a device, as in the shaders.
 inline constexpr std::uint32_t threads_in_group = 64;
 /// The number of buffers that the shader of meshes has, and that of the shader of scenes.

@@ -371,18 +371,22 @@ std::optional<GpuError> GpuDeviceState::submit_apart(GpuSlot& slot, std::span<co
                                                      const GpuDispatch& dispatch, std::span<const GpuCopy> after) {
   if (!copies_apart()) return submit(slot, before, &dispatch, after);
   if (is_lost) return lost;
-  const GpuCommands there(vulkan, slot.commands_there, GpuCommands::Queue::only_copies);
-  const GpuCommands computing(vulkan, slot.commands);
-  const GpuCommands back(vulkan, slot.commands_back, GpuCommands::Queue::only_copies);
-  for (const GpuCommands* commands : {&there, &computing, &back}) {
-    if (auto error = noted(commands->begin(), while_beginning)) return error;
-  }
-  there.copy(before);
-  computing.dispatch(slot, pipelines_of(dispatch.task), layout_, dispatch.words);
-  back.copy(after);
-  for (const GpuCommands* commands : {&there, &computing, &back}) {
-    if (auto error = noted(commands->end(), while_beginning)) return error;
-  }
+  // One after the other, so that none is left half written.
+  const auto written = [&](const GpuCommands& commands, const auto& write) -> std::optional<GpuError> {
+    if (auto error = noted(commands.begin(), while_beginning)) return error;
+    write(commands);
+    return noted(commands.end(), while_beginning);
+  };
+  constexpr auto only_copies = GpuCommands::Queue::only_copies;
+  const auto copies_of = [](std::span<const GpuCopy> copies) {
+    return [copies](const GpuCommands& commands) { commands.copy(copies); };
+  };
+  const auto computes = [&](const GpuCommands& commands) {
+    commands.dispatch(slot, pipelines_of(dispatch.task), layout_, dispatch.words);
+  };
+  if (auto error = written({vulkan, slot.commands_there, only_copies}, copies_of(before))) return error;
+  if (auto error = written({vulkan, slot.commands}, computes)) return error;
+  if (auto error = written({vulkan, slot.commands_back, only_copies}, copies_of(after))) return error;
   const GpuPart parts[] = {{copy_queues_[0], slot.commands_there, VK_NULL_HANDLE, slot.is_there},
                            {queue_, slot.commands, slot.is_there, slot.is_computed},
                            {copy_queues_[1], slot.commands_back, slot.is_computed, VK_NULL_HANDLE}};

@@ -153,6 +153,7 @@ std::optional<GpuError> GpuDeviceState::make(GpuSlot& slot, const GpuSlotPair& p
 std::optional<GpuError> GpuDeviceState::make_room(std::span<const GpuRoom> rooms) const {
   for (const auto& [buffer, place, bytes] : rooms) {
     if (buffer->size() >= bytes && buffer->get() != VK_NULL_HANDLE) continue;
+    *buffer = GpuBuffer();  // So there is memory for the larger one.
     if (auto error = buffer->make(*this, bytes, place, "a batch")) return error;
   }
   return std::nullopt;

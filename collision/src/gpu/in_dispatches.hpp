@@ -16,7 +16,7 @@
 namespace surehit::detail {
 
 /// Cuts a batch of `count` paths into dispatches. While the device works on one slot, the host finishes the other.
-/// Nothing is locked, so what runs in `finish` may ask the device anew. `begin(slot, first, some)` and
+/// Nothing is locked, so what runs in `begin` and `finish` may ask the device anew. `begin(slot, first, some)` and
 /// `finish(slot, first, some)` are for `some` paths from `first` on, and return errors. `finished` is set to the number
 /// of finished paths, even if there is an error.
 template <typename Begin, typename Finish>
@@ -32,7 +32,11 @@ template <typename Begin, typename Finish>
   while (finished < count) {
     if (begun < count && under_way[next] == 0) {
       const std::size_t some = std::min<std::size_t>(device.dispatch_size.paths(), count - begun);
-      if (auto error = begin(slots[next], begun, some)) return error;
+      if (auto error = begin(slots[next], begun, some)) {
+        const bool is_too_large = error->reason == GpuError::Reason::out_of_memory && !device.is_lost;
+        if (is_too_large && device.dispatch_size.shrink_below(some)) continue;
+        return error;
+      }
       under_way[next] = some;
       begun += some;
       next = 1 - next;
@@ -86,7 +90,7 @@ template <typename State, typename BatchOptions>
 /// Returns what the shader is told of a dispatch.
 [[nodiscard]] inline PushedWords pushed_words(PathKind kind, bool has_own_options, std::size_t count, bool lists) {
   return {static_cast<std::uint32_t>(count), kind == PathKind::segment ? 1U : 0U, has_own_options ? 1U : 0U,
-          max_path_steps, lists ? 1U : 0U};
+          max_steps_of(count), lists ? 1U : 0U};
 }
 
 /// Returns a copy of the first bytes of a buffer to the beginning of another one.

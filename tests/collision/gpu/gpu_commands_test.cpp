@@ -20,6 +20,7 @@
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
 #include "surehit/scene.hpp"
+#include "validation_layer.hpp"
 
 namespace surehit::test::gpu_commands_test {
 namespace {
@@ -100,6 +101,16 @@ TEST_F(GpuCopyQueuesTest, a_lost_device_is_told) {
   for (const LossInBatch& loss : losses_in_batch) {
     expect_lost_in_batch(device, on_gpu, paths, expected, loss);
   }
+}
+
+/// The layer sees one family of queues, and how parts wait for each other.
+TEST_F(GpuCopyQueuesTest, the_validation_layer_has_nothing_to_say) {
+  expect_nothing_from_validation(
+      [this](const GpuDevice& validated) {
+        const GpuCollider on_gpu(with_small_dispatches(validated), *collider);
+        expect_same_as_host(on_gpu, *collider, std::span(paths).first(paths_in_small_dispatch + 2000));
+      },
+      SimulatedCopyQueues::open);
 }
 
 /// A queue takes no part of a dispatch whose other parts are under way. No fence tells when those end.

@@ -96,6 +96,12 @@ TEST(GpuNeedsTest, two_queues_copy_if_they_do_nothing_else) {
   }
 }
 
+TEST(GpuNeedsTest, paths_of_large_dispatches_take_fewer_steps) {
+  EXPECT_EQ(detail::max_steps_of(1), 4096U);
+  EXPECT_EQ(detail::max_steps_of(std::size_t{1} << 18), 4096U);
+  EXPECT_EQ(detail::max_steps_of(std::size_t{1} << 20), 1024U);
+}
+
 TEST(GpuNeedsTest, scenes_need_eight_buffers) {
   DeviceReport report = good_report();
   EXPECT_FALSE(detail::has_buffers_for_scenes(report));

@@ -22,21 +22,37 @@ TEST(GpuDispatchSizeTest, short_dispatches_become_larger_and_long_ones_smaller) 
   };
   EXPECT_EQ(note(7), 2 * DispatchSize::initial);
   EXPECT_EQ(note(8), 2 * DispatchSize::initial);
-  EXPECT_EQ(note(100), 2 * DispatchSize::initial);
-  EXPECT_EQ(note(101), DispatchSize::initial);
+  EXPECT_EQ(note(50), 2 * DispatchSize::initial);
+  EXPECT_EQ(note(51), DispatchSize::initial);
   for (int i = 0; i < 20; ++i) note(0);
   EXPECT_EQ(size.paths(), DispatchSize::largest);
   for (int i = 0; i < 20; ++i) note(1000);
   EXPECT_EQ(size.paths(), DispatchSize::smallest);
 }
 
-/// The rest of a batch is short because it has few paths.
-TEST(GpuDispatchSizeTest, smaller_dispatches_say_nothing) {
+/// The rest of a batch is short because it has few paths, and a dispatch that is still under way may have more.
+TEST(GpuDispatchSizeTest, other_dispatches_say_nothing) {
   DispatchSize size;
   size.note(size.paths() - 1, milliseconds(0));
   EXPECT_EQ(size.paths(), DispatchSize::initial);
   size.note(size.paths() - 1, milliseconds(1000));
   EXPECT_EQ(size.paths(), DispatchSize::initial);
+  size.note(2 * size.paths(), milliseconds(1000));
+  EXPECT_EQ(size.paths(), DispatchSize::initial);
+}
+
+TEST(GpuDispatchSizeTest, dispatches_for_which_there_is_no_memory_become_smaller) {
+  DispatchSize size;
+  EXPECT_TRUE(size.shrink_below(DispatchSize::initial));
+  EXPECT_EQ(size.paths(), DispatchSize::initial / 2);
+  EXPECT_TRUE(size.shrink_below(DispatchSize::initial));  // Another batch found too little before.
+  EXPECT_EQ(size.paths(), DispatchSize::initial / 2);
+  EXPECT_TRUE(size.shrink_below(5000));
+  EXPECT_EQ(size.paths(), DispatchSize::smallest);
+  EXPECT_FALSE(size.shrink_below(DispatchSize::smallest));
+  DispatchSize fixed;
+  fixed.fix(8192);
+  EXPECT_FALSE(fixed.shrink_below(8192));
 }
 
 TEST(GpuDispatchSizeTest, there_is_room_for_it) {

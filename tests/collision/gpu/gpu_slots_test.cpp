@@ -165,6 +165,38 @@ TEST_F(GpuSlotsTest, a_batch_without_memory_for_slots_fails_alone) {
   expect_idle(state());
 }
 
+std::uint64_t largest_allocation = 0;
+VKAPI_ATTR VkResult VKAPI_CALL allocate_small(VkDevice on, const VkMemoryAllocateInfo* info,
+                                              const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+  if (info->allocationSize <= largest_allocation) return allocate(on, info, callbacks, memory);
+  *memory = VK_NULL_HANDLE;
+  return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
+
+/// Dispatches begin with 65,536 paths, whose list takes more than the device has. The last one begins anew too.
+TEST_F(GpuSlotsTest, dispatches_for_which_there_is_no_memory_become_smaller) {
+  draw(25'000);
+  device = any_gpu();
+  on_gpu = GpuCollider(device, collider);
+  const std::uint32_t initial = state().dispatch_size.paths();
+  allocate = std::exchange(state().vulkan.AllocateMemory, allocate_small);
+  largest_allocation = std::uint64_t{10'000} * sizeof(detail::ListedPath);
+  std::vector<Hitf> hits(paths.size());
+  GpuStatistics statistics;
+  EXPECT_TRUE(on_gpu.first_hits(paths, hits, {}, {.statistics = &statistics}));
+  EXPECT_EQ(hits, expected);
+  EXPECT_LE(state().dispatch_size.paths(), 8192U);
+  EXPECT_LT(state().dispatch_size.paths(), initial);
+  EXPECT_GE(statistics.dispatches, 4U);
+  largest_allocation = 1000;
+  state().pairs.clear();
+  const GpuBatchResult refused = on_gpu.first_hits(paths, hits);
+  ASSERT_TRUE(refused.error);
+  EXPECT_EQ(refused.error->reason, Reason::out_of_memory);
+  EXPECT_EQ(refused.finished, 0U);
+  state().vulkan.AllocateMemory = allocate;
+}
+
 /// The batch has a dispatch under way by then. It gives the device no more, or does not wait for what it has.
 TEST_F(GpuSlotsTest, a_batch_sees_that_another_has_lost_the_device) {
   for (const std::size_t count : {std::size_t{8750}, std::size_t{17'500}}) {

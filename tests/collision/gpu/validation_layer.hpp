@@ -28,7 +28,8 @@ inline void race(const GpuDevice& device) {
 /// Calls `work(device)` with a device whose calls and barriers Khronos's layer looks at. The layer writes what it finds
 /// to standard output. It is expected to find nothing in this work, and to find a race after it.
 template <typename Work>
-void expect_nothing_from_validation(const Work& work) {
+void expect_nothing_from_validation(
+    const Work& work, GpuDevice (*open)() = [] { return any_gpu(true); }) {
   if (!std::filesystem::exists("/usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json")) {
     GTEST_SKIP() << "no validation layer here";
   }
@@ -39,7 +40,7 @@ void expect_nothing_from_validation(const Work& work) {
   std::string said_of_work;
   bool is_open = false;
   {
-    const GpuDevice device = any_gpu(true);
+    const GpuDevice device = open();
     is_open = device.is_open();
     if (is_open) {
       work(device);
