@@ -355,6 +355,7 @@ bool is_in_frame;  // True if the path is in the frame of an instance.
 // Goes on to the next node that waits, unless all that it has comes later than a certain hit (G7). Returns false if
 // none is left.
 bool go_to_next() {
+  // There is no `continue`, because lavapipe 22.3 loses nodes with one here.
   bool has_next = false;
   while (depth > 0 && !has_next) {
     --depth;
