@@ -52,7 +52,7 @@ struct PlacedGroup {
 
 /// Gives the triangles of one instance that a shape may touch to `Keep`.
 template <typename Shape, typename MeshScalar, typename Keep>
-class PlacedShapeVisitor {
+class PlacedShapeVisitor final : public SweptVisitor {
   using Scalar = ScalarOf<Shape>;
 
  public:
@@ -69,8 +69,7 @@ class PlacedShapeVisitor {
         group_(group),
         keep_(keep) {}
 
-  void count_cell() { ++query_.statistics.cells; }
-  void visit_list(CellWord word) {
+  double visit_list(CellWord word) override {
     const std::uint32_t count = mesh_.grid.entry_count(word);
     const std::size_t first = mesh_.grid.first_entry(word);
     const PackedIds::Range ids = mesh_.grid.entries().between(first, first + count);
@@ -89,9 +88,10 @@ class PlacedShapeVisitor {
         const std::uint32_t id = mesh_.grid.entries()[first + from + lane];
         if (recent_.has(id)) continue;
         take(id, MeshBlocks<MeshScalar>::triangle(corners, count, from + lane));
-        if (is_done()) return;
+        if (is_done()) return -1;
       }
     }
+    return keep_.limit;
   }
   void visit_all() {
     const auto count = static_cast<std::uint32_t>(mesh_.mesh.triangle_count());
@@ -99,10 +99,9 @@ class PlacedShapeVisitor {
     query_.statistics.candidates += count;
     for (std::uint32_t id = 0; id < count && !is_done(); ++id) take(id, mesh_.mesh.triangle(id));
   }
-  [[nodiscard]] double limit() const { return keep_.limit; }
-  [[nodiscard]] bool is_done() const { return keep_.is_done; }
 
  private:
+  [[nodiscard]] bool is_done() const { return keep_.is_done; }
   [[nodiscard]] bool takes_part(std::uint32_t id) const {
     const std::uint32_t mask = mesh_.masks.empty() ? ~std::uint32_t{0} : mesh_.masks[id];
     return (mask & query_.options.mask) != 0 && !(is_ignored_ && id == query_.options.ignored_triangle);
@@ -172,8 +171,8 @@ class SceneShapeSearch {
     const PlacedShape shape(shape_, placed.placement, placed.frame, query_.share);
     if (!group_) group_.emplace();
     PlacedShapeVisitor<Shape, MeshScalar, Keep> visitor(query_, narrowphase, index, mesh, shape, shape_, *group_, keep);
-    if (!shape.is_usable() || !SweptWalk(mesh.grid, shape.in_mesh(), visitor, mesh.mesh.slabs()).walk())
-      visitor.visit_all();
+    const SweptWalk way = {mesh.grid, shape.in_mesh(), mesh.mesh.slabs(), keep.limit, visitor, query_.statistics.cells};
+    if (!shape.is_usable() || !way.walk()) visitor.visit_all();
   }
 
   const SceneShapeQuery<Scalar>& query_;

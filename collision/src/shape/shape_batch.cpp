@@ -132,7 +132,8 @@ class ShapeLanes {
   void visit_brick(std::size_t lane, const std::array<std::uint32_t, 3>& cell, CellWord word) {
     Visitor& visitor = slot(lane).visitor;
     const SweptExtents extents = swept_extents(batch_.shapes[index_[lane]]);
-    SweptWalk(batch_.grid, extents, visitor, batch_.mesh.slabs()).walk_top_cell(cell, word);
+    SweptWalk{batch_.grid, extents, batch_.mesh.slabs(), visitor.limit(), visitor, batch_.statistics.cells}
+        .walk_top_cell(cell, word);
     shorten(lane, visitor);
   }
   /// Gives a shape those triangles of a list that are elements of `near_` from `first` on. Returns the next element.

@@ -9,18 +9,15 @@ namespace {
 
 /// A visitor that is made when the walk comes to its first list. Most small shapes come to none.
 template <typename Shape, typename Keep>
-class LateVisitor {
+class LateVisitor final : public SweptVisitor {
   using Scalar = ScalarOf<Shape>;
   using Visitor = ShapeVisitor<Shape, Keep>;
 
  public:
-  LateVisitor(const ShapeQuery<Scalar>& query, const Shape& shape)
-      : query_(query), shape_(shape), limit_(last_t(query.options)) {}
+  LateVisitor(const ShapeQuery<Scalar>& query, const Shape& shape) : query_(query), shape_(shape) {}
 
-  void count_cell() { ++query_.statistics.cells; }
-  void visit_list(CellWord word) { made().visit_list(word); }
+  double visit_list(CellWord word) override { return made().visit_list(word); }
   void visit_all() { made().visit_all(); }
-  [[nodiscard]] double limit() const { return visitor_ ? visitor_->limit() : limit_; }
   [[nodiscard]] bool is_done() const { return visitor_ && visitor_->is_done(); }
   /// Returns the visitor, or null if there was nothing to visit.
   [[nodiscard]] Visitor* visitor() { return visitor_ ? &*visitor_ : nullptr; }
@@ -33,7 +30,6 @@ class LateVisitor {
 
   const ShapeQuery<Scalar>& query_;
   const Shape& shape_;
-  double limit_;
   typename Visitor::Times enters_;
   std::optional<Visitor> visitor_;
 };
@@ -43,7 +39,10 @@ template <typename Shape, typename Visitor>
 void walk(const ShapeQuery<ScalarOf<Shape>>& query, const Shape& shape, Visitor& visitor) {
   ++query.statistics.paths;
   if (query.grid.is_empty() || !is_valid(shape) || !(query.options.max_t >= 0)) return;
-  if (!SweptWalk(query.grid, swept_extents(shape), visitor, query.mesh.slabs()).walk()) visitor.visit_all();
+  const SweptExtents extents = swept_extents(shape);
+  const SweptWalk way = {
+      query.grid, extents, query.mesh.slabs(), last_t(query.options), visitor, query.statistics.cells};
+  if (!way.walk()) visitor.visit_all();
 }
 
 }  // namespace

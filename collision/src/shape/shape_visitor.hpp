@@ -15,12 +15,13 @@
 #include "shape/shape_narrowphase.hpp"
 #include "shape/shape_query.hpp"
 #include "shape/sphere_contact.hpp"
+#include "walk/swept_walk.hpp"
 
 namespace surehit::detail {
 
 /// Gives the triangles of the lists that a walk visits to `Keep`. This keeps the hits that its query wants.
 template <typename Shape, typename Keep>
-class ShapeVisitor {
+class ShapeVisitor final : public SweptVisitor {
   using Scalar = ScalarOf<Shape>;
 
  public:
@@ -34,8 +35,7 @@ class ShapeVisitor {
         narrowphase_(shape, query.options, query.statistics),
         keep_(last_t(query.options)) {}
 
-  void count_cell() { ++query_.statistics.cells; }
-  void visit_list(CellWord word) {
+  double visit_list(CellWord word) override {
     ShapeList<Scalar> list = list_of(word);
     std::array<NearTriangles, 8> near;
     for (std::size_t found = near.size(); found == near.size() && !is_done();) {
@@ -43,6 +43,7 @@ class ShapeVisitor {
       found = ShapeFilter<Scalar>::find_near({&list, 1}, near);
       visit_near(word, list, std::span(near).first(found));
     }
+    return is_done() ? -1 : limit();
   }
   /// Returns the triangles of a list that count.
   [[nodiscard]] ShapeList<Scalar> list_of(CellWord word) const {

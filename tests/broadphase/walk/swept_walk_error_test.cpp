@@ -11,14 +11,15 @@ namespace surehit::test::swept_walk_error_test {
 namespace {
 
 /// Looks for the list of one cell.
-class ListSeeker {
+class ListSeeker final : public SweptVisitor {
  public:
   ListSeeker(CellWord word, double limit) : word_(word.bits()), limit_(limit) {}
 
-  void visit_list(CellWord word) { is_found_ |= word.bits() == word_; }
-  void count_cell() {}
-  [[nodiscard]] bool is_done() const { return is_found_; }
-  [[nodiscard]] double limit() const { return limit_; }
+  double visit_list(CellWord word) override {
+    is_found_ |= word.bits() == word_;
+    return is_found_ ? -1 : limit_;
+  }
+  [[nodiscard]] bool is_found() const { return is_found_; }
 
  private:
   std::uint32_t word_;
@@ -32,7 +33,8 @@ class SweptWalkError : public SweptError {
  protected:
   [[nodiscard]] bool visits_list(const BoxAtCell& box) const {
     ListSeeker seeker(leaves_[box.leaf].word, box.limit);
-    return SweptWalk(grid_, box.swept, seeker).walk() && seeker.is_done();
+    std::uint64_t cells = 0;
+    return SweptWalk{grid_, box.swept, nullptr, box.limit, seeker, cells}.walk() && seeker.is_found();
   }
 
   /// Returns how many times the box must be made larger by 2^-48 S to come to its list. It is about 1.
