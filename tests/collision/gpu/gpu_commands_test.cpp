@@ -15,6 +15,7 @@
 #include "gpu/gpu_device_state.hpp"
 #include "gpu_answers.hpp"
 #include "lost_device.hpp"
+#include "reused_device.hpp"
 #include "simulated_copy_queues.hpp"
 #include "small_dispatches.hpp"
 #include "support/grid_breaking_meshes.hpp"
@@ -29,7 +30,9 @@ using detail::GpuDeviceState;
 
 class GpuCopyQueuesTest : public testing::Test {
  protected:
+  static void TearDownTestSuite() { device = GpuDevice(); }
   void SetUp() override {
+    renew(device, SimulatedCopyQueues::open);
     SUREHIT_SKIP_WITHOUT(device);
     Random random(1);
     const GeneratedMesh<float> ground = rough_ground<float>(20, 0.1F, random);
@@ -43,7 +46,7 @@ class GpuCopyQueuesTest : public testing::Test {
   }
   [[nodiscard]] GpuDeviceState& state() const { return *GpuDeviceState::of(device); }
 
-  GpuDevice device = with_small_dispatches(SimulatedCopyQueues::open());
+  static inline GpuDevice device;
   std::shared_ptr<Colliderf> collider;
   std::vector<Segmentf> paths;
 };

@@ -13,6 +13,7 @@
 #include "gpu/device_answers.hpp"
 #include "gpu_answers.hpp"
 #include "lost_device.hpp"
+#include "reused_device.hpp"
 #include "small_dispatches.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
@@ -27,7 +28,9 @@ using Reason = GpuError::Reason;
 /// Two instances of a piece of ground on a device that fails.
 class GpuSceneFailuresTest : public testing::Test {
  protected:
+  static void TearDownTestSuite() { device = GpuDevice(); }
   void SetUp() override {
+    renew(device, [] { return any_gpu(); });
     SUREHIT_SKIP_WITHOUT(device);
     Random random(1);
     ground = std::make_shared<Colliderf>(rough_ground<float>(20, 0.1F, random).view());
@@ -59,7 +62,7 @@ class GpuSceneFailuresTest : public testing::Test {
   static constexpr std::array<float, 9> corners = {0, 0, 0.5F, 1, 0, 0.5F, 0, 1, 0.5F};
   static constexpr std::array<unsigned, 3> triangle = {0, 1, 2};
 
-  GpuDevice device = with_small_dispatches(any_gpu());
+  static inline GpuDevice device;
   std::shared_ptr<Colliderf> ground;
   Scenef scene;
   InstanceId first;

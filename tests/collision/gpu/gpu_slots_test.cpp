@@ -19,6 +19,7 @@
 #include "faulty_vulkan.hpp"
 #include "gpu/gpu_device_state.hpp"
 #include "gpu_answers.hpp"
+#include "reused_device.hpp"
 #include "small_dispatches.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
@@ -31,7 +32,9 @@ using Reason = GpuError::Reason;
 
 class GpuSlotsTest : public testing::Test {
  protected:
+  static void TearDownTestSuite() { device = GpuDevice(); }
   void SetUp() override {
+    renew(device, [] { return any_gpu(); });
     SUREHIT_SKIP_WITHOUT(device);
     ground = rough_ground<float>(20, 0.1F, random);
     collider = Colliderf(ground.view());
@@ -79,7 +82,7 @@ class GpuSlotsTest : public testing::Test {
     EXPECT_EQ(hits, expected_of_others);
   }
 
-  GpuDevice device = with_small_dispatches(any_gpu());
+  static inline GpuDevice device;
   Random random{1};
   GeneratedMesh<float> ground;
   Colliderf collider;
