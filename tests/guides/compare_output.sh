@@ -2,5 +2,5 @@
 # Runs a program and compares what it prints with a file.
 set -euo pipefail
 
-[[ $# -eq 2 ]] || { echo "usage: $0 EXPECTED PROGRAM" >&2 && exit 2; }
-diff --unified "$1" <("$2")
+[[ $# -ge 2 ]] || { echo "usage: $0 EXPECTED PROGRAM [ARGUMENT...]" >&2 && exit 2; }
+diff --unified "$1" <("${@:2}")
