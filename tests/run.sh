@@ -77,7 +77,7 @@ step() {
 build() {
   local preset=$1
   shift
-  step cmake --preset "$preset" -D SUREHIT_JOIN_TESTS=ON -D CMAKE_UNITY_BUILD=ON "$@" &&
+  step cmake --preset "$preset" -D SUREHIT_JOIN_TESTS=ON -D CMAKE_UNITY_BUILD=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=20 "$@" &&
     step cmake --build --preset "$preset"
 }
 
