@@ -24,7 +24,7 @@ quick=false
 full=false
 percent=20  # The tests kill nearly all mutants with a fifth.
 sets_left_out="HWY_SSSE3|HWY_AVX3_DL"
-program_optimization=-O1
+program_optimization=-Og
 case "${1:-}" in
   "") ;;
   --quick) quick=true ;;
