@@ -121,8 +121,8 @@ class SUREHIT_API Scene : public SceneQueries<Scalar> {
 #endif
 
   /// Lets all changes since the last commit take effect. No query may run at the same time, and no collider of the
-  /// scene may change. The executor spreads the work over threads, and the result is the same. May throw
-  /// std::bad_alloc. Then the committed state is as before.
+  /// scene may change. The executor's threads compute what the poses that have changed need. The tree is made on the
+  /// calling thread. The result is the same. May throw std::bad_alloc. Then the committed state is as before.
   ///
   /// Takes time linear in the changes, and hardly any for the other instances. It looks at all of them if dozens come
   /// or go, or if the box of the scene grows. It sorts them anew after half of them have come, gone or appeared
