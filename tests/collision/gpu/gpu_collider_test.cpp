@@ -21,6 +21,7 @@
 #include "gpu_answers.hpp"
 #include "level/level.hpp"
 #include "mesh_io/read_mesh.hpp"
+#include "small_dispatches.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/pair_families.hpp"
@@ -451,14 +452,14 @@ TEST_F(GpuRoomTest, unmasked_exceptions_do_not_trap) {
 
 /// Several dispatches, of which two are under way at a time, from several threads.
 TEST_F(GpuRoomTest, large_batches_of_several_threads) {
-  const GpuCollider on_gpu(device, collider);
+  const GpuCollider on_gpu(with_small_dispatches(device), collider);
   std::vector<Segmentf> many;
   Random random(8);
   for (std::size_t i = 0; i < 150'000; ++i) {
     const auto x = 3 * random.unit<float>();
     many.push_back({{x, 1, 4 * random.unit<float>() - 2}, {x, 1, 4 * random.unit<float>() - 2}});
   }
-  expect_same_from_two_threads(on_gpu, collider, many, 3);
+  expect_same_from_two_threads(on_gpu, collider, many, 19);
 }
 
 /// Faces of boxes lie on each other. Hits with the same t are no reason to ask the host: the lowest id counts.

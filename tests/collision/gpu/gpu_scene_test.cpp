@@ -15,6 +15,7 @@
 #include "from_two_threads.hpp"
 #include "gpu_answers.hpp"
 #include "shared_gpu.hpp"
+#include "small_dispatches.hpp"
 #include "support/case_count.hpp"
 #include "support/grid_breaking_meshes.hpp"
 
@@ -218,13 +219,13 @@ TEST_F(GpuFieldTest, what_the_host_must_answer) {
 
 /// Several dispatches, of which two are under way at a time, from several threads.
 TEST_F(GpuFieldTest, large_batches_of_several_threads) {
-  const GpuScene on_gpu(device, scene.snapshot());
+  const GpuScene on_gpu(with_small_dispatches(device), scene.snapshot());
   std::vector<Segmentf> many;
   for (std::size_t i = 0; i < 75'000; ++i) {
     const Vector3f start = drawn_point();
     many.push_back({start, start + 0.1F * drawn_point()});
   }
-  expect_same_from_two_threads(on_gpu, scene, many, 2);
+  expect_same_from_two_threads(on_gpu, scene, many, 10);
 }
 
 }  // namespace
