@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "collider_judge.hpp"
+#include "collider_state.hpp"
 #include "support/case_count.hpp"
 #include "support/exact_mesh_oracle.hpp"
+#include "support/grid_breaking_meshes.hpp"
 #include "support/pair_families.hpp"
+#include "support/path_drawer.hpp"
 #include "support/small_meshes.hpp"
 #include "surehit/collider.hpp"
 
@@ -64,6 +67,35 @@ void check(std::size_t kind) {
 
 TEST_P(ColliderCrosscheck, of_float_meshes) { check<float>(GetParam()); }
 TEST_P(ColliderCrosscheck, of_double_meshes) { check<double>(GetParam()); }
+
+/// Paths through a prop and the level around it, which has an inner grid for the prop.
+template <typename Scalar>
+void check_prop(Scalar ratio) {
+  Random random(6);
+  const GeneratedMesh<Scalar> level = rough_ground<Scalar>(4, Scalar{0.3F}, random);
+  const GeneratedMesh<Scalar> prop = placed<Scalar>(scattered_triangles<Scalar>(100, Scalar{0.4F}, random), 1 / ratio,
+                                                    {Scalar{0.31F}, Scalar{0.27F}, 0});
+  const GeneratedMesh<Scalar> mesh = joined(level, prop);
+  const ExactMeshOracle<Scalar> oracle(mesh.view(), {});
+  const Collider<Scalar> collider(mesh.view(), {.grid = {.crowded = 20}});
+  ASSERT_FALSE(detail::ColliderState<Scalar>::of(collider).grid.inner_frames().empty());
+  PathDrawer<Scalar> of_mesh(mesh.view(), 1);
+  PathDrawer<Scalar> of_prop(prop.view(), 2);
+  for (std::size_t i = case_count(600); i > 0; --i) {
+    const Path<Scalar> path = random.one_in(4)   ? of_mesh.draw()
+                              : random.one_in(4) ? of_prop.draw_axis_parallel()
+                                                 : of_prop.draw();
+    const QueryOptions<Scalar> options = draw_query(random, oracle, path);
+    ASSERT_EQ(collider_difference(collider, oracle, path, options), "") << "path " << i;
+  }
+}
+
+TEST(PropCrosscheck, of_floats) {
+  for (const float ratio : {1e3F, 1e6F}) check_prop<float>(ratio);
+}
+TEST(PropCrosscheck, of_doubles) {
+  for (const double ratio : {1e3, 1e12}) check_prop<double>(ratio);
+}
 
 INSTANTIATE_TEST_SUITE_P(Meshes, ColliderCrosscheck, testing::Range(std::size_t{0}, small_mesh_kind_count),
                          [](const auto& test) { return name_of_small_mesh(test.param); });

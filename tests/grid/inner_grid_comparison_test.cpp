@@ -180,6 +180,24 @@ TYPED_TEST(InnerGridComparison, of_paths_in_the_faces_of_an_inner_grid) {
   expect_batch<TypeParam, Ray<TypeParam>>(collider, rays);
 }
 
+/// A triangle of the ground lies in the prop. The cell lists it, so a path meets it before it enters the inner grid.
+TYPED_TEST(InnerGridComparison, of_a_prop_in_the_ground) {
+  const auto level = this->level(1);
+  const auto& [a, b, c] = level.triangles[level.triangles.size() / 2];
+  const auto& corners = level.vertices;
+  const auto prop = this->prop(1e3F, (corners[a] + corners[b] + corners[c]) / 3);
+  const auto mesh = joined(level, prop);
+  const Collider<TypeParam> collider(mesh.view(), BuildOptions{.grid = {.crowded = 30}});
+  ASSERT_FALSE(this->inner_frames(collider).empty());
+  PathDrawer<TypeParam> drawer(prop.view(), 1);
+  std::vector<Segment<TypeParam>> segments;
+  for (std::size_t i = 0; i < case_count(1'000); ++i) {
+    segments.push_back({drawer.point_around_mesh(), drawer.point_around_mesh()});
+    this->expect_as_all(collider, mesh, Path<TypeParam>(segments.back()));
+  }
+  expect_batch<TypeParam, Segment<TypeParam>>(collider, segments);
+}
+
 /// Paths within a hollow prop, whose cells there are empty, meet no triangle at all.
 TYPED_TEST(InnerGridComparison, of_paths_in_a_hollow_prop) {
   const Vector3<TypeParam> middle(TypeParam{0.31F}, TypeParam{0.27F}, TypeParam{0.8F});
