@@ -81,17 +81,22 @@ build() {
     step cmake --build --preset "$preset"
 }
 
+# build_with_gcc ON|OFF: with examples and tests, or the library alone, which needs no package but its own.
 build_with_gcc() {
-  LDFLAGS=-fuse-ld=lld CXX=g++ build release -D "SUREHIT_INSTRUCTION_SETS_LEFT_OUT=$sets_left_out" \
-    -D "SUREHIT_PROGRAM_OPTIMIZATION=$program_optimization" -D "SUREHIT_TEST_PLATFORMS=$full"
+  local all=$1 linker=
+  [[ $all == ON ]] && linker=-fuse-ld=lld
+  CXX=g++ build release -D "SUREHIT_BUILD_EXAMPLES=$all" -D "SUREHIT_BUILD_TESTS=$all" \
+    -D "CMAKE_EXE_LINKER_FLAGS=$linker" -D "CMAKE_MODULE_LINKER_FLAGS=$linker" -D "CMAKE_SHARED_LINKER_FLAGS=$linker" \
+    -D "SUREHIT_INSTRUCTION_SETS_LEFT_OUT=$sets_left_out" -D "SUREHIT_PROGRAM_OPTIMIZATION=$program_optimization" \
+    -D "SUREHIT_TEST_PLATFORMS=$full"
 }
 
 run_tests() {
   local preset=$1 output status counts failed_here total skipped_here
   shift
   output=$(mktemp)
-  # One more than there are cores, since some tests wait: for each other's answers, or for a device that has none.
-  ctest --preset "$preset" --parallel "$(($(nproc) + 1))" "$@" 2>&1 | tee "$output"
+  # Two more than there are cores, since some tests wait: for each other's answers, or for a device that has none.
+  ctest --preset "$preset" --parallel "$(($(nproc) + 2))" "$@" 2>&1 | tee "$output"
   status=${PIPESTATUS[0]}
   counts=$(sed -nE 's/^[0-9]+% tests passed, ([0-9]+) tests? failed out of ([0-9]+)$/\1 \2/p' "$output")
   skipped_here=$(grep -c '\*\*\*Skipped' "$output")
@@ -110,22 +115,36 @@ run_tests() {
 # install_part PART TEXT: the text says what is left out if the packages of this part cannot be had. CMake builds without it.
 install_part() { .ci/install_packages.sh "$1" || echo "$2" >>"$left_out"; }
 
+has_npm() { command -v npm >/dev/null; }
+has_browser() { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null
+
+# All at once takes half as long as part by part.
+install_all() {
+  local parts=(examples tests benchmarks mpi gpu languages python python_tests web)
+  has_npm || parts+=(npm)
+  has_browser || parts+=(browser)
+  .ci/install_packages.sh "${parts[@]}"
+}
+
+# These say what could not be had. What is there already takes no time.
+install_for_tests() {
+  step .ci/install_packages.sh library examples tests benchmarks || finish
+  install_part mpi "visibility_bake with MPI: its package cannot be installed"
+  install_part gpu "batches on a GPU: Vulkan's headers, glslang or lavapipe cannot be installed"
+}
+
 install_for_packages() {
   install_part languages "the guide's programs in Rust and C#: their compilers cannot be installed"
   install_part python "the package for Python: NumPy or pip cannot be installed"
   install_part python_tests "the pictures and types of the package for Python: Matplotlib or mypy cannot be installed"
   install_part web "WebAssembly: its packages cannot be installed"
-  command -v npm >/dev/null || install_part npm "the comparison with three.js: npm cannot be installed"
-  { command -v chromium || command -v chromium-browser || command -v google-chrome; } >/dev/null ||
-    install_part browser "the page web_picking: no Chromium can be installed"
+  has_npm || install_part npm "the comparison with three.js: npm cannot be installed"
+  has_browser || install_part browser "the page web_picking: no Chromium can be installed"
 }
 
-stage "Packages"
-step .ci/install_packages.sh library examples tests benchmarks || finish
-install_part mpi "visibility_bake with MPI: its package cannot be installed"
-install_part gpu "batches on a GPU: Vulkan's headers, glslang or lavapipe cannot be installed"
-
 if $quick; then
+  stage "Packages"
+  install_for_tests
   stage "Clang, Release: building"
   build quick || finish
   stage "Clang, Release: testing"
@@ -133,15 +152,20 @@ if $quick; then
   finish
 fi
 
-stage "GCC, Release: building, while more packages are installed"
+stage "Packages of the library"
+step .ci/install_packages.sh library || finish
+stage "GCC, Release: building the library, while other packages are installed"
 output_of_install=$(mktemp)
-install_for_packages >"$output_of_install" 2>&1 &
-build_with_gcc || finish
+install_all >"$output_of_install" 2>&1 &
+build_with_gcc OFF || finish
+stage "Packages of tests"
 wait
 cat "$output_of_install"
 rm -f "$output_of_install"
-stage "GCC, Release: building what these packages are for"
-build_with_gcc || finish
+install_for_tests
+install_for_packages
+stage "GCC, Release: building"
+build_with_gcc ON || finish
 stage "GCC, Release: testing"
 SUREHIT_TEST_PERCENT=${SUREHIT_TEST_PERCENT:-$percent} run_tests release
 
