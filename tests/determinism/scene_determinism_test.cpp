@@ -1,12 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "hard_scene.hpp"
@@ -104,6 +108,47 @@ TYPED_TEST(SceneDeterminism, answers_are_the_same_after_any_order_of_changes) {
     }
     scene.commit();
     EXPECT_EQ(this->hash_of(scene), expected);
+  }
+}
+
+/// Hits at equal t are in the order of their instances' ids, so they are sorted by the instances of the hard scene
+/// here.
+TYPED_TEST(SceneDeterminism, contacts_are_the_same_of_any_order_of_adding) {
+  const auto& instances = this->hard.instances;
+  std::vector<std::size_t> order(instances.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto hash_of_contacts = [&] {
+    Scene<TypeParam> scene;
+    for (const std::size_t at : order) {
+      const InstanceId id =
+          scene.add(this->hard.collider(instances[at]), instances[at].pose, {.mask = instances[at].mask});
+      scene.set_motion(id, instances[at].motion);
+    }
+    scene.commit();
+    AnswerHash hash;
+    std::vector<SceneHit<TypeParam>> contacts;
+    for (const Path<TypeParam>& path : this->some_paths()) {
+      scene.all_hits(path, contacts);
+      const auto first = scene.first_hit(path);
+      EXPECT_EQ(first, contacts.empty() ? std::nullopt : std::optional(contacts.front()));
+      for (auto& contact : contacts) contact.instance.index = static_cast<std::uint32_t>(order[contact.instance.index]);
+      std::sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.t, a.instance.index, a.triangle) < std::tie(b.t, b.instance.index, b.triangle);
+      });
+      for (const auto& contact : contacts) {
+        hash.take(static_cast<const Hit<TypeParam>&>(contact));
+        hash.take(contact.instance.index);
+      }
+    }
+    return hash.value();
+  };
+  const std::uint64_t expected = hash_of_contacts();
+  std::reverse(order.begin(), order.end());
+  EXPECT_EQ(hash_of_contacts(), expected);
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Random random(seed);
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+    EXPECT_EQ(hash_of_contacts(), expected);
   }
 }
 

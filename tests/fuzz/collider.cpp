@@ -1,5 +1,6 @@
-// A mesh of up to 64 triangles, built at any settings or rebuilt, and a few paths: all that the collider answers,
-// against brute force in rationals. Moving shapes on the same ways: against each pair of a shape and a triangle.
+// A mesh of up to 80 triangles, built at any settings or rebuilt, and a few paths: all that the collider answers,
+// against brute force in rationals. Some have a prop with an inner grid. Moving shapes on the same ways: against each
+// pair of a shape and a triangle.
 
 #include "surehit/collider.hpp"
 
@@ -10,6 +11,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "byte_source.hpp"
@@ -20,7 +22,9 @@
 #include "support/instruction_sets.hpp"
 #include "support/pair_families.hpp"
 #include "support/pair_text.hpp"
+#include "support/path_drawer.hpp"
 #include "support/same_bits.hpp"
+#include "support/scene_drawer.hpp"
 #include "support/shape_text.hpp"
 #include "support/small_meshes.hpp"
 #include "surehit/intersect.hpp"
@@ -45,12 +49,13 @@ class ColliderCase {
  public:
   explicit ColliderCase(ByteSource bytes) {
     instruction_set_ = instruction_sets()[bytes.below(instruction_sets().size())];
-    const std::size_t kind = bytes.below(small_mesh_kind_count);
+    const auto kind = bytes.take<std::uint8_t>();
     Random drawn(bytes.take<std::uint16_t>());
-    mesh_ = draw_small_mesh<Scalar>(kind, drawn);
-    mesh_.triangles.resize(std::min(mesh_.triangles.size(), 1 + bytes.below(64)));
+    const bool has_prop = kind >= 240;
+    mesh_ = has_prop ? draw_prop(drawn) : draw_small_mesh<Scalar>(kind % small_mesh_kind_count, drawn);
+    mesh_.triangles.resize(std::min(mesh_.triangles.size(), (has_prop ? 17 : 1) + bytes.below(64)));
     mesh_.paths.erase(mesh_.paths.begin() + std::min<std::ptrdiff_t>(std::ssize(mesh_.paths), 3), mesh_.paths.end());
-    grid_options_ = read_grid_options(bytes);
+    if (!has_prop || bytes.one_in(4)) grid_options_ = read_grid_options(bytes);
     is_rebuilt_ = bytes.one_in(3);
     if (bytes.one_in(2)) {
       for (std::size_t i = mesh_.triangles.size(); i > 0; --i)
@@ -83,6 +88,20 @@ class ColliderCase {
  private:
   /// More than the lanes of any instruction set, and not a multiple of them.
   static constexpr std::size_t batch_size = 37;
+
+  /// Draws a prop on the ground, and paths. Sets options of the grid that give the prop a grid of its own.
+  SmallMesh<Scalar> draw_prop(Random& random) {
+    const DrawnMesh drawn = ground_with_prop(std::is_same_v<Scalar, float>, random);
+    grid_options_ = drawn.grid;
+    SmallMesh<Scalar> mesh;
+    mesh.triangles = drawn.triangles;
+    for (const Vector3<double>& vertex : drawn.vertices) mesh.vertices.push_back(vertex.cast<Scalar>());
+    const std::vector<std::array<std::uint32_t, 3>> of_prop(drawn.triangles.begin() + 8, drawn.triangles.end());
+    PathDrawer<Scalar> about_mesh(mesh.view(), random.bits());
+    PathDrawer<Scalar> about_prop({mesh.vertices, of_prop}, random.bits());
+    for (int i = 0; i < 3; ++i) mesh.paths.push_back(random.one_in(3) ? about_mesh.draw() : about_prop.draw());
+    return mesh;
+  }
 
   void edit(ByteSource& bytes) {
     std::vector<Vector3<Scalar>*> points;

@@ -24,22 +24,40 @@ class SceneSeams : public testing::Test {
 
   /// The matrix and the offset have so few digits that all translations are exact. So the images of all rims are the
   /// same points, though most of these are no numbers.
-  void place_pieces(const typename Pose<Scalar>::Matrix3& linear, const Point& offset, const Point& motion) {
+  void place_pieces(const typename Pose<Scalar>::Matrix3& linear, const Point& offset, const Point& motion,
+                    std::size_t kinds = 1) {
     scene_ = {};
     linear_ = linear;
     offset_ = offset;
     motion_ = motion;
     const DrawnMesh piece = ground_piece(side, std::is_same_v<Scalar, float>, random_);
     rim_ = piece.vertices;
-    const auto collider = collider_of<Scalar>(piece);
+    std::vector colliders = {collider_of<Scalar>(piece)};
+    while (colliders.size() < kinds) colliders.push_back(collider_of<Scalar>(redrawn_inside(piece)));
     for (int y = 0; y < pieces; ++y) {
       for (int x = 0; x < pieces; ++x) {
-        const auto id =
-            scene_.add(collider, {linear, image(side * Point(static_cast<Scalar>(x), static_cast<Scalar>(y), 0))});
+        const auto id = scene_.add(colliders[random_.below(kinds)],
+                                   {linear, image(side * Point(static_cast<Scalar>(x), static_cast<Scalar>(y), 0))});
         scene_.set_motion(id, motion);
       }
     }
     scene_.commit();
+  }
+
+  /// A piece with the same rim. Inside it, heights and diagonals are others.
+  DrawnMesh redrawn_inside(DrawnMesh piece) {
+    const auto is_inside = [](double x) { return x > 0 && x < side; };
+    for (Vector3<double>& vertex : piece.vertices) {
+      if (is_inside(vertex[0]) && is_inside(vertex[1])) vertex[2] = double{random_.template symmetric<Scalar>()};
+    }
+    for (std::size_t i = 0; i + 1 < piece.triangles.size(); i += 2) {
+      if (random_.one_in(2)) continue;
+      const auto [a, b, c] = piece.triangles[i];
+      const std::uint32_t d = piece.triangles[i + 1][1];
+      piece.triangles[i] = {a, b, d};
+      piece.triangles[i + 1] = {a, d, c};
+    }
+    return piece;
   }
 
   [[nodiscard]] Point image(const Point& point) const { return linear_ * point + offset_; }
@@ -93,6 +111,14 @@ TYPED_TEST_SUITE(SceneSeams, Scalars, ScalarNames);
 TYPED_TEST(SceneSeams, pieces_side_by_side_do_not_leak) {
   this->place_pieces(Pose<TypeParam>::Matrix3::Identity(), {0, 0, 0}, {0, 0, 0});
   this->expect_no_leak(100'000);
+}
+
+TYPED_TEST(SceneSeams, pieces_of_a_kit_do_not_leak) {
+  for (int i = 0; i < 10; ++i) {
+    this->place_pieces(matrix_of_eighths<TypeParam>(this->random_), {static_cast<TypeParam>(i * 64), 0, 64}, {0, 0, 0},
+                       5);
+    this->expect_no_leak(10'000);
+  }
 }
 
 TYPED_TEST(SceneSeams, pieces_far_from_the_origin_do_not_leak) {
