@@ -28,7 +28,9 @@ class HardDeterminism : public testing::Test {
 TYPED_TEST_SUITE(HardDeterminism, Scalars, ScalarNames);
 
 TYPED_TEST(HardDeterminism, answers_are_the_published_ones) {
-  EXPECT_EQ(Answers<TypeParam>(this->hard.collider(), this->hard.questions).hash(), published_hash<TypeParam>);
+  if (!runs_few_cases()) {
+    EXPECT_EQ(Answers<TypeParam>(this->hard.collider(), this->hard.questions).hash(), published_hash<TypeParam>);
+  }
   keep_few(this->hard.questions.all);
   EXPECT_EQ(Answers<TypeParam>(this->hard.collider(), this->hard.questions).hash(), published_hash_of_few<TypeParam>);
 }

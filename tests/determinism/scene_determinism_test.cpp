@@ -39,11 +39,13 @@ class SceneDeterminism : public testing::Test {
 TYPED_TEST_SUITE(SceneDeterminism, Scalars, ScalarNames);
 
 TYPED_TEST(SceneDeterminism, answers_are_the_published_ones) {
-  const SceneAnswers<TypeParam> answers(this->hard.scene(), this->hard.paths);
-  std::printf("%zu answers, %zu of them hits: %016" PRIx64 "\n", this->hard.paths.size(), answers.hit_count(),
-              answers.hash());
-  EXPECT_GT(answers.hit_count(), this->hard.paths.size() / 3);
-  EXPECT_EQ(answers.hash(), published_scene_hash<TypeParam>);
+  if (!runs_few_cases()) {
+    const SceneAnswers<TypeParam> answers(this->hard.scene(), this->hard.paths);
+    std::printf("%zu answers, %zu of them hits: %016" PRIx64 "\n", this->hard.paths.size(), answers.hit_count(),
+                answers.hash());
+    EXPECT_GT(answers.hit_count(), this->hard.paths.size() / 3);
+    EXPECT_EQ(answers.hash(), published_scene_hash<TypeParam>);
+  }
   keep_few(this->hard.paths);
   EXPECT_EQ(SceneAnswers<TypeParam>(this->hard.scene(), this->hard.paths).hash(),
             published_scene_hash_of_few<TypeParam>);

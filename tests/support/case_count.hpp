@@ -17,4 +17,10 @@ inline std::size_t case_count(std::size_t full) {
 /// Whether nothing is left out: only then does a search come as close to a bound as it is said to.
 inline bool runs_all_cases() { return case_count(100) >= 100; }
 
+/// Whether so few are asked for, as with sanitizers, that fixed cases are too many.
+inline bool runs_few_cases() { return case_count(100) < 10; }
+
+/// The step from one fixed case to the next, such as the bytes of a file: 1, or 5 where few are asked for.
+inline std::size_t case_step() { return runs_few_cases() ? 5 : 1; }
+
 }  // namespace surehit::test

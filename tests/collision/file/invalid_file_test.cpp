@@ -112,7 +112,7 @@ TYPED_TEST(InvalidFileOf, other_scalar) {
 TYPED_TEST(InvalidFileOf, bytes_that_are_missing) {
   for (const char* const name : {"nothing", "one triangle", "prop in bricks"}) {
     const Bytes bytes = this->saved_mesh(name);
-    for (std::size_t size = 0; size < bytes.size(); ++size) {
+    for (std::size_t size = 0; size < bytes.size(); size += case_step()) {
       Bytes shorter(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
       Collider<TypeParam> collider;
       ASSERT_FALSE(collider.try_load(shorter)) << size;
@@ -132,7 +132,7 @@ TYPED_TEST(InvalidFileOf, bytes_that_are_damaged) {
   Random random(89);
   for (const char* const name : {"one triangle", "bricks", "prop in bricks"}) {
     Bytes bytes = this->saved_mesh(name);
-    for (std::size_t at = 0; at < bytes.size(); ++at) {
+    for (std::size_t at = 0; at < bytes.size(); at += case_step()) {
       const std::byte kept = bytes[at];
       bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
       ASSERT_FALSE(Collider<TypeParam>().try_load(bytes)) << at;
@@ -323,6 +323,7 @@ TYPED_TEST(InvalidFileOf, lists_that_are_not_those_of_a_build) {
       const std::size_t first = parts.entries + 2 * first_entry;
       const std::size_t last = first + 2 * count;
       first_entry += count;
+      if (list % case_step() != 0) continue;
       const auto expect_found = [&](Bytes forged, std::uint32_t new_count, std::size_t offset) {
         set_number(forged, record, new_count);
         set_number(forged, 88, std::uint64_t{parts.entry_count + new_count - count});
@@ -351,7 +352,7 @@ TYPED_TEST(InvalidFileOf, lists_that_are_not_those_of_a_build) {
         ++behind;
       }
     }
-    EXPECT_GT(behind, 3U);
+    EXPECT_GT(behind, runs_few_cases() ? 0U : 3U);
   }
 }
 

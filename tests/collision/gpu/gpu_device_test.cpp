@@ -17,6 +17,7 @@
 #include "gpu/gpu_device_state.hpp"
 #include "gpu_answers.hpp"
 #include "lost_device.hpp"
+#include "reused_device.hpp"
 #include "small_dispatches.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
@@ -30,7 +31,9 @@ using Reason = GpuError::Reason;
 
 class GpuDeviceTest : public testing::Test {
  protected:
+  static void TearDownTestSuite() { device = GpuDevice(); }
   void SetUp() override {
+    renew(device, [] { return any_gpu(); });
     SUREHIT_SKIP_WITHOUT(device);
     Random random(1);
     collider = Colliderf(rough_ground<float>(20, 0.1F, random).view());
@@ -44,7 +47,7 @@ class GpuDeviceTest : public testing::Test {
   }
   [[nodiscard]] GpuDeviceState& state() const { return *GpuDeviceState::of(device); }
 
-  GpuDevice device = with_small_dispatches(any_gpu());
+  static inline GpuDevice device;
   Colliderf collider;
   std::vector<Segmentf> paths;
   std::vector<Hitf> expected;

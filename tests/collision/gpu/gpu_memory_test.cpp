@@ -17,6 +17,7 @@
 #include "faulty_vulkan.hpp"
 #include "gpu/in_dispatches.hpp"
 #include "gpu_answers.hpp"
+#include "reused_device.hpp"
 #include "small_dispatches.hpp"
 #include "support/grid_breaking_meshes.hpp"
 #include "support/random.hpp"
@@ -36,7 +37,9 @@ class GpuMemoryTest : public testing::Test {
   using Options = typename BatchesOf<Host>::Options;
   using HitInBuffer = std::conditional_t<is_scene, detail::DeviceSceneHit, detail::DeviceHit>;
 
+  static void TearDownTestSuite() { device = GpuDevice(); }
   void SetUp() override {
+    renew(device, [] { return any_gpu(); });
     SUREHIT_SKIP_WITHOUT(device);
     Random random(1);
     const GeneratedMesh<float> ground = rough_ground<float>(20, 0.1F, random);
@@ -137,7 +140,7 @@ class GpuMemoryTest : public testing::Test {
     }
   }
 
-  GpuDevice device = with_small_dispatches(any_gpu());
+  static inline GpuDevice device;
   Host host;
   OnGpu on_gpu;
   std::vector<Segmentf> paths;
