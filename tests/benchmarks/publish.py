@@ -4,6 +4,9 @@
 Each processor has a page in figures/, made from template.md, and a chart. The page ends with all tables of
 surehit_benchmark.
 
+It takes some two hours, on a machine that does nothing else. With --keep, whatever ends it loses one run of the program
+at most: the same command goes on from there.
+
 What it does not know is passed on to surehit_benchmark. So is --quick, which shows in five minutes that all of this
 works, and leaves figures without meaning: put the files back afterwards.
 """
@@ -11,7 +14,9 @@ works, and leaves figures without meaning: put the files back afterwards.
 import argparse
 import csv
 import datetime
+import hashlib
 import math
+import platform
 import re
 import shlex
 import shutil
@@ -65,14 +70,47 @@ def fail(reason):
     sys.exit(f"publish.py: {reason}")
 
 
+class KeptRuns:
+    """A folder with what each run of the program has measured and printed. A run that is there is not made again."""
+
+    def __init__(self, folder, program):
+        self.folder = folder
+        self.program = program
+        self.count = 0
+        folder.mkdir(parents=True, exist_ok=True)
+        of_program = folder / "program"
+        digest = hashlib.sha256(program.read_bytes()).hexdigest() + f" on {platform.node()}\n"
+        if not of_program.exists():
+            of_program.write_text(digest, encoding="utf-8")
+        elif of_program.read_text(encoding="utf-8") != digest:
+            fail(f"{folder} has figures of another program or machine")
+
+    def make(self, options, files):
+        """Returns the paths of the CSV file and of what was printed. `files` are options that name files to write."""
+        stem = self.folder / f"{self.count:02}"
+        self.count += 1
+        command, printed, table = (stem.with_suffix(ending) for ending in (".command", ".txt", ".csv"))
+        shown = shlex.join(map(str, [*options, *files])) + "\n"
+        if command.exists():
+            if command.read_text(encoding="utf-8") != shown:
+                fail(f"{command} is of another command; empty {self.folder}, or ask as before")
+            return table, printed
+        with printed.open("w", encoding="utf-8") as output:
+            subprocess.run([self.program, *options, *files, "--csv", table], check=True, stdout=output)
+        command.write_text(shown, encoding="utf-8")
+        return table, printed
+
+
 class Figures:
     """All rows of the program's CSV files, in the order in which they were measured."""
 
     def __init__(self, rounds):
         self.rows = []
         self.rounds = rounds
+        self.days = []
 
     def add(self, path, run):
+        self.days.append(datetime.date.fromtimestamp(path.stat().st_mtime))
         with open(path, newline="", encoding="utf-8") as file:
             self.rows += [{"run": run, **row} for row in csv.DictReader(file)]
 
@@ -149,7 +187,9 @@ def run_of(figures):
     """When the figures were measured, of which sources, and how often."""
     commit = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--dirty"], check=True, stdout=subprocess.PIPE,
                             encoding="utf-8").stdout.strip()  # fmt: skip
-    return f"{datetime.date.today()}, commit {commit}, medians of {figures.rounds} rounds"
+    first, last = min(figures.days), max(figures.days)
+    day = str(first) if first == last else f"{first} to {last}"
+    return f"{day}, commit {commit}, medians of {figures.rounds} rounds"
 
 
 def queries(figures):
@@ -617,6 +657,8 @@ def main():
                         help="a mesh of the folder whose upward axis is z")  # fmt: skip
     parser.add_argument("--rounds", default=9, type=int, metavar="COUNT",
                         help="how often each contender is measured (default: 9)")  # fmt: skip
+    parser.add_argument("--keep", type=Path, metavar="FOLDER",
+                        help="keeps what was measured in a folder, and does not measure what is there")  # fmt: skip
     arguments, passed_on = parser.parse_known_args()
     if not (arguments.build / "CMakeCache.txt").exists():
         fail(f"{arguments.build} is not configured; cmake --preset release does it for build/release")
@@ -633,22 +675,22 @@ def main():
     figures = Figures(arguments.rounds)
     sections = []
     with tempfile.TemporaryDirectory() as folder:
-        csv_path, chart_path = Path(folder, "figures.csv"), Path(folder, "chart.svg")
+        runs = KeptRuns(arguments.keep or Path(folder), program)
+        chart_path = runs.folder / "chart.svg"
 
         def run(kind, *options, rounds=arguments.rounds, files=()):
             options = [*z_up, *options, *passed_on, "--rounds", str(rounds)]
             shown = shlex.join(["surehit_benchmark", "--meshes", "FOLDER", *options])
             print(shown, file=sys.stderr)
-            command = [program, "--meshes", arguments.meshes, *options, "--csv", csv_path, *files]
-            output = subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
-            figures.add(csv_path, kind)
-            sections.append(f"    {shown}\n\n{output.rstrip()}")
+            table, printed = runs.make(["--meshes", arguments.meshes, *options], files)
+            figures.add(table, kind)
+            sections.append(f"    {shown}\n\n{printed.read_text(encoding='utf-8').rstrip()}")
 
         z_up = [option for mesh in arguments.z_up for option in ("--z-up", mesh)]
         meshes = [option for mesh in EVEN_MESHES for option in ("--mesh", mesh)]
         sets = [option for paths in PATH_SETS for option in ("--set", paths)]
-        tables = [option for table in TABLES_OF_PATHS for option in ("--table", table)]
-        run(TABLES, *meshes, *sets, *tables)
+        for table in TABLES_OF_PATHS:
+            run(TABLES, *meshes, *sets, "--table", table)
         others = [name for name in OTHER_INSTRUCTION_SETS if name != figures.instruction_sets[0]]
         for name in others:
             run(TABLES, *meshes, *sets, "--instruction-set", name, "--table", "queries", "--contender", MEDIUM)
