@@ -16,7 +16,6 @@ import csv
 import datetime
 import hashlib
 import math
-import platform
 import re
 import shlex
 import shutil
@@ -70,6 +69,19 @@ def fail(reason):
     sys.exit(f"publish.py: {reason}")
 
 
+def processor():
+    cpuinfo = Path("/proc/cpuinfo").read_text(encoding="utf-8")
+
+    def told(field):
+        values = re.findall(rf"^{field}\s*:\s*(.*)$", cpuinfo, re.MULTILINE)
+        return values[:1]  # not all processors tell all fields
+
+    names = [" ".join(re.sub(r"\((R|TM)\)|@.*$", "", name).split()) for name in told("model name")]
+    # Virtual machines often tell a processor's brand alone, which generations share.
+    generation = [f"family {family}" for family in told("cpu family")] + [f"model {model}" for model in told("model")]
+    return ", ".join((names or ["unknown processor"]) + generation)
+
+
 class KeptRuns:
     """A folder with what each run of the program has measured and printed. A run that is there is not made again."""
 
@@ -79,11 +91,11 @@ class KeptRuns:
         self.count = 0
         folder.mkdir(parents=True, exist_ok=True)
         of_program = folder / "program"
-        digest = hashlib.sha256(program.read_bytes()).hexdigest() + f" on {platform.node()}\n"
+        digest = hashlib.sha256(program.read_bytes()).hexdigest() + f" on {processor()}\n"
         if not of_program.exists():
             of_program.write_text(digest, encoding="utf-8")
         elif of_program.read_text(encoding="utf-8") != digest:
-            fail(f"{folder} has figures of another program or machine")
+            fail(f"{folder} has figures of another program or processor")
 
     def make(self, options, files):
         """Returns the paths of the CSV file and of what was printed. `files` are options that name files to write."""
@@ -161,17 +173,7 @@ def name_of_instruction_set(name):
 
 
 def machine(figures):
-    cpuinfo = Path("/proc/cpuinfo").read_text(encoding="utf-8")
-
-    def told(field):
-        values = re.findall(rf"^{field}\s*:\s*(.*)$", cpuinfo, re.MULTILINE)
-        return values[:1]  # not all processors tell all fields
-
-    names = [" ".join(re.sub(r"\((R|TM)\)|@.*$", "", name).split()) for name in told("model name")]
-    # Virtual machines often tell a processor's brand alone, which generations share.
-    generation = [f"family {family}" for family in told("cpu family")] + [f"model {model}" for model in told("model")]
-    instruction_set = name_of_instruction_set(figures.instruction_sets[0])
-    return ", ".join((names or ["unknown processor"]) + generation + [instruction_set])
+    return f"{processor()}, {name_of_instruction_set(figures.instruction_sets[0])}"
 
 
 def page_name(figures):
