@@ -23,6 +23,7 @@ namespace {
 using Vec = std::array<mpq_class, 3>;
 
 Vec operator-(const Vec& x, const Vec& y) { return {x[0] - y[0], x[1] - y[1], x[2] - y[2]}; }
+Vec operator*(const Vec& x, const mpq_class& factor) { return {x[0] * factor, x[1] * factor, x[2] * factor}; }
 Vec along(const Vec& x, const mpq_class& t, const Vec& d) {
   return {x[0] + t * d[0], x[1] + t * d[1], x[2] + t * d[2]};
 }
@@ -191,9 +192,15 @@ std::vector<Weighted> corners_of(const Pair& pair) {
           *std::max_element(polygon.begin(), polygon.end(), by_place)};
 }
 
-/// The point of the triangle in the box that is nearest to the box's centre.
-std::optional<Weighted> touched_point(const Pair& pair, const mpq_class& t) {
-  const Vec centre = along(pair.start, t, pair.step);
+/// The weights of the point of the triangle in the box that is nearest to the box's centre at t.
+std::optional<Vec> touched_weights(const Pair& moving, const mpq_class& t) {
+  // In units in which the centre is whole, too: common divisors of other numbers take long to find.
+  const mpq_class unit(t.get_den());
+  const Pair pair = {moving.start * unit,
+                     moving.step * unit,
+                     moving.extents * unit,
+                     {moving.corners[0] * unit, moving.corners[1] * unit, moving.corners[2] * unit}};
+  const Vec centre = along(pair.start, mpq_class(t.get_num()), moving.step);
   std::vector<Weighted> polygon = corners_of(pair);
   if (has_area(pair)) {
     const Vec ab = pair.corners[1] - pair.corners[0];
@@ -201,12 +208,12 @@ std::optional<Weighted> touched_point(const Pair& pair, const mpq_class& t) {
     const Vec n = cross(ab, ac);
     const Vec w = centre - pair.corners[0];
     const mpq_class nn = dot(n, n);
-    const mpq_class u = dot(n, cross(w, ac)) / nn;
-    const mpq_class v = dot(n, cross(ab, w)) / nn;
-    const Vec point = along(along(pair.corners[0], u, ab), v, ac);
-    bool is_there = u >= 0 && v >= 0 && u + v <= 1;
-    for (std::size_t i = 0; i < 3; ++i) is_there &= abs(mpq_class(point[i] - centre[i])) <= pair.extents[i];
-    if (is_there) return Weighted{point, {1 - u - v, u, v}};
+    const mpq_class u = dot(n, cross(w, ac));
+    const mpq_class v = dot(n, cross(ab, w));
+    const Vec gap = along(ab * u, v, ac) - w * nn;
+    bool is_there = u >= 0 && v >= 0 && u + v <= nn;
+    for (std::size_t i = 0; i < 3; ++i) is_there &= abs(gap[i]) <= pair.extents[i] * nn;
+    if (is_there) return Vec{(nn - u - v) / nn, u / nn, v / nn};
   }
   for (std::size_t i = 0; i < 3; ++i) {
     polygon = cut(polygon, [&](const Vec& x) { return mpq_class(centre[i] + pair.extents[i] - x[i]); });
@@ -228,7 +235,7 @@ std::optional<Weighted> touched_point(const Pair& pair, const mpq_class& t) {
     best = nearest;
     best_distance = distance;
   }
-  return best;
+  return best ? std::optional(best->weights) : std::nullopt;
 }
 
 /// Whether a number in [0, 1] rounds to x, ties to even.
@@ -256,17 +263,12 @@ Feature feature_of(const Vec& weights) {
 SweptTruth truth_of(const Pair& pair) {
   const std::optional<mpq_class> t = first_time(pair);
   if (!t) return {};
-  const Weighted touched = touched_point(pair, *t).value();
+  const Vec weights = touched_weights(pair, *t).value();
   const auto number = [](const mpq_class& x) { return OneRootNumber{x.get_num(), 0, 0, x.get_den()}; };
   // (P - Q t)² = 0 at t = P/Q.
   const mpz_class& p = t->get_num();
   const mpz_class& q = t->get_den();
-  return {true,
-          *t == 0,
-          {q * q, -p * q, p * p},
-          number(touched.weights[1]),
-          number(touched.weights[2]),
-          feature_of(touched.weights)};
+  return {true, *t == 0, {q * q, -p * q, p * p}, number(weights[1]), number(weights[2]), feature_of(weights)};
 }
 
 }  // namespace
@@ -280,11 +282,11 @@ std::optional<std::string> find_error(const SweptBox<Scalar>& box, const Triangl
   if (!answer) return "a miss, but they touch";
   if (answer->started_touching != (*t == 0)) return "started_touching is wrong";
   if (!rounds_to(*t, answer->t)) return "t is wrong";
-  const std::optional<Weighted> touched = touched_point(pair, *t);
-  if (!touched) return "the judge finds no point";
-  if (!rounds_to(touched->weights[1], answer->u)) return "u is wrong";
-  if (!rounds_to(touched->weights[2], answer->v)) return "v is wrong";
-  if (answer->feature != feature_of(touched->weights)) return "the feature is wrong";
+  const std::optional<Vec> weights = touched_weights(pair, *t);
+  if (!weights) return "the judge finds no point";
+  if (!rounds_to((*weights)[1], answer->u)) return "u is wrong";
+  if (!rounds_to((*weights)[2], answer->v)) return "v is wrong";
+  if (answer->feature != feature_of(*weights)) return "the feature is wrong";
   return std::nullopt;
 }
 
