@@ -128,7 +128,7 @@ TYPED_TEST(SceneOfSizes, has_the_hits_of_its_instances) {
 
 TYPED_TEST(SceneOfSizes, meets_few_instances_in_vain) {
   const Scene<TypeParam>& scene = this->judged.scene;
-  const auto paths = draw_paths_of_sizes(this->drawn, 1000, this->random);
+  const auto paths = draw_paths_of_sizes(this->drawn, 1000 / case_step(), this->random);
   std::vector<SceneHit<TypeParam>> hits(paths.size());
   std::vector<std::uint8_t> blocked(paths.size());
   QueryStatistics first_in_batch;
