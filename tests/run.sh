@@ -41,6 +41,7 @@ if ! $full; then
 fi
 
 cd "$(dirname "$(readlink -f "$0")")/.." || exit 1
+export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER:-$PWD/tests/compiler_launcher.sh}
 
 passed=0
 failed=0
