@@ -4,7 +4,7 @@
 Each processor has a page in figures/, made from template.md, and a chart. The page ends with all tables of
 surehit_benchmark.
 
-It takes some two hours, on a machine that does nothing else. With --keep, whatever ends it loses one run of the program
+It takes more than two hours, on a machine that does nothing else. With --keep, whatever ends it loses one run of the program
 at most: the same command goes on from there.
 
 What it does not know is passed on to surehit_benchmark. So is --quick, which shows in five minutes that all of this
